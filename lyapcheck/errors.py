@@ -1,0 +1,40 @@
+"""The one way lyapcheck tells a user that an input cannot be used."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, order=True)
+class Problem:
+    """One thing that is wrong with an input: where, what, which rule, and the repair."""
+
+    file: str
+    line: int | None
+    key: str
+    value: str
+    rule: str
+    repair: str
+
+    def __str__(self) -> str:
+        place = self.file if self.line is None else f"{self.file}:{self.line}"
+        subject = f"{self.key} = {self.value}" if self.value else self.key
+        return f"{place}: {subject}: {self.rule}; {self.repair}"
+
+
+class InputError(Exception):
+    """An input file or argument cannot be used; carries every problem found, not just the first.
+
+    The command line prints the problems one a line and leaves with exit code 2.
+    """
+
+    def __init__(self, problems: Problem | list[Problem]) -> None:
+        self.problems = [problems] if isinstance(problems, Problem) else sorted(
+            problems, key=lambda p: (p.file, p.line or 0, p.key, p.rule)
+        )
+        super().__init__("\n".join(map(str, self.problems)))
+
+
+def argument_error(name: str, value: object, rule: str, repair: str) -> InputError:
+    """The error for a single bad argument of a command or a function."""
+    return InputError(Problem("argument", None, name, str(value), rule, repair))

@@ -1,0 +1,56 @@
+"""Verdicts, the grade of the evidence behind them, and the exit codes they lead to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import Enum, IntEnum
+
+
+class Verdict(str, Enum):
+    """What was found out about one claim."""
+
+    PROVED = "proved"
+    REFUTED = "refuted"
+    UNDECIDED = "undecided"
+    ERROR = "error"
+
+
+class Grade(IntEnum):
+    """How good the evidence is; a chain is as good as its smallest grade."""
+
+    NUMERIC = 1
+    """Sampled or floating-point only; never enough for ``proved`` or ``refuted``."""
+    ENCLOSURE = 2
+    """Ball or outward-rounded interval arithmetic."""
+    EXACT = 3
+    """Rational arithmetic or a symbolic normal form."""
+
+    @property
+    def label(self) -> str:
+        """The grade as it is written in outputs."""
+        return self.name.lower()
+
+
+class Exit(IntEnum):
+    """The exit codes of every command."""
+
+    PROVED = 0
+    REFUTED = 1
+    USAGE = 2
+    UNDECIDED = 3
+    INTERNAL = 4
+
+
+def exit_code(verdicts: Iterable[Verdict]) -> Exit:
+    """The exit code for a set of verdicts: an error outranks a refutation, that an undecided claim.
+
+    No verdict at all is ``UNDECIDED``: nothing was proved.
+    """
+    found = set(verdicts)
+    if Verdict.ERROR in found:
+        return Exit.INTERNAL
+    if Verdict.REFUTED in found:
+        return Exit.REFUTED
+    if Verdict.UNDECIDED in found or not found:
+        return Exit.UNDECIDED
+    return Exit.PROVED
