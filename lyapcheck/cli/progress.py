@@ -1,0 +1,47 @@
+"""Progress on standard error: a bar on a terminal, a few plain lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+Advance = Callable[[float, str], None]
+"""Called with the fraction done (0 to 1) and a note of a few words."""
+
+
+@contextmanager
+def progress(label: str, quiet: bool = False) -> Iterator[Advance]:
+    """Show how far a piece of work has come; yields the function that the work calls to say so."""
+    if quiet:
+        yield lambda fraction, note: None
+    elif sys.stderr.isatty():
+        with _bar(label) as advance:
+            yield advance
+    else:
+        with _lines(label) as advance:
+            yield advance
+
+
+@contextmanager
+def _bar(label: str) -> Iterator[Advance]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TextColumn("{task.fields[note]}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(label, total=1.0, note="")
+        yield lambda fraction, note: bar.update(task, completed=fraction, note=note)
+
+
+@contextmanager
+def _lines(label: str) -> Iterator[Advance]:
+    last = ""
+
+    def advance(fraction: float, note: str) -> None:
+        nonlocal last
+        if note and note != last:
+            print(f"{label}: {round(100 * fraction):3d} % {note}", file=sys.stderr)
+        last = note
+
+    yield advance
