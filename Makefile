@@ -1,0 +1,50 @@
+# Two commands do everything: `make report` (the main job) and `make test`. Both first create .venv from the
+# locked versions in requirements.lock.
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: report test test-slow lint types bench lock clean help
+
+help:
+	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
+	@echo "make test       the fast tests"
+	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
+	@echo "make lint       style (ruff) and formatting"
+	@echo "make types      static types (mypy --strict)"
+	@echo "make bench      benchmarks; writes reports/benchmarks.md"
+	@echo "make lock       renew requirements.lock (needs uv)"
+
+report: .venv/.ready
+	$(BIN)/lyapcheck report
+
+test: .venv/.ready
+	$(BIN)/pytest -n 2 -m "not slow"
+
+test-slow: .venv/.ready
+	$(BIN)/pytest -n 2 -m slow
+
+lint: .venv/.ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: .venv/.ready
+	$(BIN)/mypy
+
+bench: .venv/.ready
+	$(BIN)/python -m tests.benchmarks
+
+# The stamp is written last: an interrupted set-up starts again.
+.venv/.ready: requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "lyapcheck needs Python 3.11 or newer; name one: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 2; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+lock:
+	uv pip compile pyproject.toml --group dev --universal --python-version 3.11 --generate-hashes \
+	  --no-emit-index-url --no-header --no-annotate --quiet -o requirements.lock
+
+clean:
+	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
