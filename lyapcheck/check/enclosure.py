@@ -1,0 +1,117 @@
+"""A real number known to lie between two exact rationals."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NoReturn
+
+from flint import arb, fmpq
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """The closed interval ``[lower, upper]`` with exact rational ends that holds one real number.
+
+    Soundness: whoever makes an enclosure vouches that the number lies inside; everything here only widens.
+    """
+
+    lower: Fraction
+    upper: Fraction
+
+    def __post_init__(self) -> None:
+        if self.lower > self.upper:
+            raise ValueError(f"enclosure ends out of order: {self.lower} > {self.upper}")
+
+    @classmethod
+    def exact(cls, value: Fraction | int) -> Enclosure:
+        """The enclosure of a number that is known exactly."""
+        return cls(Fraction(value), Fraction(value))
+
+    @classmethod
+    def from_arb(cls, ball: arb) -> Enclosure:
+        """The ends of a finite ball, exactly; raises ``ValueError`` on an infinite or undefined one."""
+        if not ball.is_finite():
+            raise ValueError(f"a ball without finite ends encloses nothing useful: {ball}")
+        return cls(dyadic(ball.lower()), dyadic(ball.upper()))
+
+    def to_arb(self) -> arb:
+        """A ball that contains the whole interval."""
+        return ball_of(self.lower).union(ball_of(self.upper))
+
+    @property
+    def width(self) -> Fraction:
+        """``upper - lower``."""
+        return self.upper - self.lower
+
+    @property
+    def mid(self) -> Fraction:
+        """The middle of the interval."""
+        return (self.lower + self.upper) / 2
+
+    @property
+    def float_lower(self) -> float:
+        """The largest double that is not above ``lower``."""
+        value = _nearest_double(self.lower)
+        return value if _not_above(value, self.lower) else math.nextafter(value, -math.inf)
+
+    @property
+    def float_upper(self) -> float:
+        """The smallest double that is not below ``upper``."""
+        return -Enclosure(-self.upper, -self.lower).float_lower
+
+    def less(self, other: Enclosure | Fraction | int) -> bool | None:
+        """Whether this number is below the other one; ``None`` where the intervals do not decide it."""
+        low, high = (other.lower, other.upper) if isinstance(other, Enclosure) else (other, other)
+        if self.upper < low:
+            return True
+        return False if self.lower >= high else None
+
+    def decimals(self, digits: int) -> tuple[str, str]:
+        """Decimal strings of ``digits`` significant digits, rounded outward, that enclose the number."""
+        places = digits - _integer_digits(max(abs(self.lower), abs(self.upper)))
+        scale = Fraction(10) ** places
+        low, high = math.floor(self.lower * scale), math.ceil(self.upper * scale)
+        return _decimal(low, places), _decimal(high, places)
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError("an enclosure has no truth value; ask less(...) and treat None as not decided")
+
+
+def dyadic(point: arb) -> Fraction:
+    """The exact rational value of a ball of radius zero."""
+    mantissa, exponent = (int(part) for part in point.man_exp())
+    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
+
+
+def ball_of(value: Fraction | int) -> arb:
+    """A ball of the current precision that contains a rational number."""
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def _nearest_double(value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.copysign(math.inf, value)
+
+
+def _not_above(value: float, bound: Fraction) -> bool:
+    return value == -math.inf or (value != math.inf and Fraction(value) <= bound)
+
+
+def _integer_digits(value: Fraction) -> int:
+    """The exponent e with 10^(e-1) <= value < 10^e (1 for zero)."""
+    if value == 0:
+        return 1
+    guess = len(str(value.numerator)) - len(str(value.denominator))
+    return guess + 1 if Fraction(10) ** guess <= value else guess
+
+
+def _decimal(scaled: int, places: int) -> str:
+    """The integer ``scaled`` times 10^-places, written out in full."""
+    if places <= 0:
+        return str(scaled * 10**-places)
+    sign, digits = "-" if scaled < 0 else "", str(abs(scaled)).rjust(places + 1, "0")
+    return f"{sign}{digits[:-places]}.{digits[-places:]}"
