@@ -77,8 +77,8 @@ def peak_of_secant(m: int) -> arb:
 
     The derivative of h/x has the sign of F(x) = x h' - h, and F' = x h''. By the roots of P, h is convex up
     to x_ρ and concave from there to x_γ: so F rises from F(0) = 0 and then falls to F(x_γ) = -h(x_γ) < 0,
-    with exactly one zero in (0, x_γ), and there h/x is largest up to x_γ. Beyond x_γ, where h falls, h/x falls
-    too. In u, p and s = sinh x, c = cosh x, F has the sign of x (2m - 1 + 2m u - p) - (1 + p) s c.
+    with exactly one zero in (0, x_γ). Beyond x_γ, where h falls, h/x falls too: that zero is the peak of h/x.
+    In u, p and s = sinh x, c = cosh x, F has the sign of x (2m - 1 + 2m u - p) - (1 + p) s c.
     """
 
     def excess(x: arb) -> tuple[arb, arb]:
@@ -134,7 +134,7 @@ def _opposite(left: arb, right: arb) -> bool:
 
 
 def power(base: arb, exponent: int) -> arb:
-    """``base ** exponent`` by repeated multiplication: finite for balls around zero, where flint's own is not."""
+    """``base ** exponent`` by repeated multiplication: finite for balls around zero, as flint's is not."""
     result = arb(1)
     while exponent:
         if exponent & 1:

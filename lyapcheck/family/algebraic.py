@@ -1,0 +1,68 @@
+"""The algebraic saturation x/√(1 + x²)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb
+
+from lyapcheck.check.balls import even_range, odd_range
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import FamilyConstants, SymbolicForms
+from lyapcheck.family.elementary import ElementaryFamily, NumericForms
+from lyapcheck.family.registry import require_none
+
+
+@dataclass(frozen=True)
+class Algebraic(ElementaryFamily):
+    """h = x/√(1 + x²), h' = (1 + x²)^(-3/2), U = √(1 + x²) - 1; γ = 1 in the limit, ρ = L = 1 at 0."""
+
+    def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
+        """Beyond |x| = 2^27 adding 1 to x² changes nothing, so x² is never needed where it would overflow."""
+        a = of.fabs(x)
+        b = of.smaller(a, 2.0**27)
+        root = of.sqrt(1 + b * b)
+        far = a > 2.0**27
+        inverse = 1 / of.larger(a, 1.0)
+        return NumericForms(
+            h=of.where(far, of.where(x > 0, 1.0, -1.0), x / root),
+            dh=of.where(far, inverse / of.larger(a, 1.0) * inverse, 1 / (root * (1 + b * b))),
+            potential=of.where(far, a - 1, b * b / (root + 1)),
+            secant=of.where(far, inverse, 1 / root),
+        )
+
+    def sympy(self, x: Any) -> SymbolicForms:
+        """h, h', U as SymPy expressions."""
+        import sympy as sp
+
+        root = sp.sqrt(1 + x**2)
+        return SymbolicForms(x / root, root**-3, root - 1)
+
+    def ball_h(self, x: arb) -> arb:
+        """x/√(1 + x²), rising."""
+        return odd_range(lambda a: a / (1 + a * a).sqrt(), (), x)
+
+    def ball_dh(self, x: arb) -> arb:
+        """(1 + x²)^(-3/2), falling away from 0."""
+        return even_range(lambda a: (1 + a * a).rsqrt() ** 3, (), x)
+
+    def ball_potential(self, x: arb) -> arb:
+        """√(1 + x²) - 1, without cancellation."""
+        return even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
+
+    def ball_secant(self, x: arb) -> arb:
+        """1/√(1 + x²), falling away from 0."""
+        return even_range(lambda a: (1 + a * a).rsqrt(), (), x)
+
+    def constants(self, digits: int = 30) -> FamilyConstants:
+        """γ = ρ = L = 1; h reaches γ only in the limit."""
+        one, zero = Enclosure.exact(1), Enclosure.exact(0)
+        return FamilyConstants(one, one, one, None, zero, zero)
+
+
+def create(m: int | None) -> Algebraic:
+    """The one member."""
+    require_none("algebraic", m)
+    return Algebraic("algebraic")

@@ -1,0 +1,92 @@
+"""The inverse tangent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb, ctx
+
+from lyapcheck.check.balls import even_range, odd_range, precision
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import FamilyConstants, SymbolicForms
+from lyapcheck.family.elementary import ElementaryFamily, NumericForms
+from lyapcheck.family.registry import require_none
+
+_SERIES_TERMS = 13
+
+
+@dataclass(frozen=True)
+class Arctan(ElementaryFamily):
+    """h = arctan x, h' = 1/(1 + x²), U = x arctan x - ln(1 + x²)/2; γ = π/2 in the limit, ρ = L = 1 at 0."""
+
+    def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
+        """From 1/x beyond |x| = 1, where x² may overflow; U near 0 by its series, where its parts cancel."""
+        a = of.fabs(x)
+        near, y = of.smaller(a, 1.0), 1 / of.larger(a, 1.0)
+        inside = a <= 1
+        z = of.where(inside, near * near, y * y)
+        angle = of.arctan(x)
+        log = of.log(of.larger(a, 1.0)) + 0.5 * _log1p(of, z)
+        return NumericForms(
+            h=angle,
+            dh=of.where(inside, 1.0, z) / (1 + z),
+            potential=of.where(a <= 0.25, near * near * _series(z), a * of.fabs(angle) - log),
+            secant=of.where(a > 0, of.fabs(angle) / of.where(a > 0, a, 1.0), 1.0),
+        )
+
+    def sympy(self, x: Any) -> SymbolicForms:
+        """h, h', U as SymPy expressions."""
+        import sympy as sp
+
+        return SymbolicForms(sp.atan(x), 1 / (1 + x**2), x * sp.atan(x) - sp.log(1 + x**2) / 2)
+
+    def ball_h(self, x: arb) -> arb:
+        """Arctan, rising."""
+        return odd_range(arb.atan, (), x)
+
+    def ball_dh(self, x: arb) -> arb:
+        """1/(1 + x²), falling away from 0."""
+        return even_range(lambda a: 1 / (1 + a * a), (), x)
+
+    def ball_potential(self, x: arb) -> arb:
+        """U, rising away from 0; worked out with twice the bits, because its parts cancel near 0."""
+        return even_range(_ball_potential, (), x)
+
+    def ball_secant(self, x: arb) -> arb:
+        """arctan(x)/x, falling away from 0."""
+        return even_range(lambda a: arb(1) if a == 0 else a.atan() / a, (), x)
+
+    def constants(self, digits: int = 30) -> FamilyConstants:
+        """γ = π/2 in the limit, ρ = L = 1 at 0."""
+        one, zero = Enclosure.exact(1), Enclosure.exact(0)
+        with precision(4 * digits + 16):
+            gamma = Enclosure.from_arb(arb.pi() / 2)
+        return FamilyConstants(gamma, one, one, None, zero, zero)
+
+
+def create(m: int | None) -> Arctan:
+    """The one member."""
+    require_none("arctan", m)
+    return Arctan("arctan")
+
+
+def _log1p(of: Arithmetic, z: Any) -> Any:
+    """ln(1 + z) for 0 <= z <= 1 by the logarithm alone: the rounding of 1 + z is put back to first order."""
+    w = 1 + z
+    return of.log(w) + (z - (w - 1)) / w
+
+
+def _series(z: Any) -> Any:
+    """Σ (-z)^k / ((2k+1)(2k+2)), which is U/x² for |x| <= 1/4."""
+    total = 0.0
+    for k in reversed(range(_SERIES_TERMS)):
+        total = 1 / ((2 * k + 1) * (2 * k + 2)) - z * total
+    return total
+
+
+def _ball_potential(a: arb) -> arb:
+    with ctx.workprec(2 * ctx.prec):
+        exact = a * a.atan() - (a * a).log1p() / 2
+    return +exact

@@ -1,0 +1,76 @@
+"""The few operations beyond + - * / that the numeric forms need, for floats, NumPy arrays and CasADi graphs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """One kind of number: how to branch on it and how to take its elementary functions."""
+
+    where: Callable[[Any, Any, Any], Any]
+    fabs: Callable[[Any], Any]
+    smaller: Callable[[Any, Any], Any]
+    larger: Callable[[Any, Any], Any]
+    sqrt: Callable[[Any], Any]
+    log: Callable[[Any], Any]
+    arctan: Callable[[Any], Any]
+    nearest: Callable[[Any], Any]
+    """The nearest whole number (any of two at a tie)."""
+    two_to: Callable[[Any], Any]
+    """2 to the power of a whole number, exactly."""
+
+
+FLOATS = Arithmetic(
+    where=lambda condition, yes, no: yes if condition else no,
+    fabs=abs,
+    smaller=lambda a, b: a if a < b else b,
+    larger=lambda a, b: a if a > b else b,
+    sqrt=math.sqrt,
+    log=math.log,
+    arctan=math.atan,
+    nearest=lambda a: float(round(a)),
+    two_to=lambda k: math.ldexp(1.0, int(k)),
+)
+"""Python floats: for a handful of numbers faster than arrays."""
+
+
+@cache
+def arrays() -> Arithmetic:
+    """NumPy arrays of doubles."""
+    import numpy as np
+
+    return Arithmetic(
+        where=np.where,
+        fabs=np.abs,
+        smaller=np.minimum,
+        larger=np.maximum,
+        sqrt=np.sqrt,
+        log=np.log,
+        arctan=np.arctan,
+        nearest=np.rint,
+        two_to=lambda k: np.ldexp(1.0, k.astype(np.int32)),
+    )
+
+
+@cache
+def graphs() -> Arithmetic:
+    """CasADi SX expressions."""
+    import casadi as ca
+
+    return Arithmetic(
+        where=ca.if_else,
+        fabs=ca.fabs,
+        smaller=ca.fmin,
+        larger=ca.fmax,
+        sqrt=ca.sqrt,
+        log=ca.log,
+        arctan=ca.atan,
+        nearest=lambda a: ca.floor(a + 0.5),
+        two_to=lambda k: ca.constpow(2.0, k),
+    )

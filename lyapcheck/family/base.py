@@ -1,0 +1,111 @@
+"""What every bounded function, and the linear one, offers: its values in four arithmetics, and its constants."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from lyapcheck.check.enclosure import Enclosure
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Doubles = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class SymbolicForms:
+    """h, h' and U as SymPy expressions."""
+
+    h: Any
+    dh: Any
+    potential: Any
+
+
+@dataclass(frozen=True)
+class CasadiForms:
+    """h, h', U and h(x)/x as CasADi SX expressions."""
+
+    h: Any
+    dh: Any
+    potential: Any
+    secant: Any
+
+
+@dataclass(frozen=True)
+class FamilyConstants:
+    """γ = sup h, ρ = sup |h'|, L = sup h(x)/x and where they are reached.
+
+    ``gamma`` is ``None`` for an unbounded function, a place is ``None`` where it is reached only in the limit.
+    """
+
+    gamma: Enclosure | None
+    rho: Enclosure
+    L: Enclosure
+    gamma_at: Enclosure | None
+    rho_at: Enclosure | None
+    L_at: Enclosure | None
+
+
+@dataclass(frozen=True)
+class Family(ABC):
+    """An odd function h of one angle or rate, zero only at 0, with h' and the potential U (U' = h, U(0) = 0).
+
+    NumPy forms take any array of doubles and work elementwise; ±inf gives the limit and NaN stays NaN. The
+    argument is in rad for joint errors, in rad/s for rates; h is dimensionless, a gain gives it a unit.
+    """
+
+    name: str
+    m: int | None = None
+    bounded: bool = True
+
+    @abstractmethod
+    def h(self, x: ArrayLike) -> Doubles:
+        """h(x)."""
+
+    @abstractmethod
+    def dh(self, x: ArrayLike) -> Doubles:
+        """h'(x)."""
+
+    @abstractmethod
+    def potential(self, x: ArrayLike) -> Doubles:
+        """U(x), the integral of h from 0 to x."""
+
+    @abstractmethod
+    def secant(self, x: ArrayLike) -> Doubles:
+        """h(x)/x, continued by h'(0) at x = 0."""
+
+    @abstractmethod
+    def sympy(self, x: Any) -> SymbolicForms:
+        """h, h' and U at a SymPy expression."""
+
+    @abstractmethod
+    def casadi(self, x: Any) -> CasadiForms:
+        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms."""
+
+    def casadi_smooth(self, x: Any) -> CasadiForms:
+        """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""
+        return self.casadi(x)
+
+    @abstractmethod
+    def ball_h(self, x: arb) -> arb:
+        """A ball that contains h over the ball x."""
+
+    @abstractmethod
+    def ball_dh(self, x: arb) -> arb:
+        """A ball that contains h' over the ball x."""
+
+    @abstractmethod
+    def ball_potential(self, x: arb) -> arb:
+        """A ball that contains U over the ball x."""
+
+    @abstractmethod
+    def ball_secant(self, x: arb) -> arb:
+        """A ball that contains h(x)/x over the ball x."""
+
+    @abstractmethod
+    def constants(self, digits: int = 30) -> FamilyConstants:
+        """γ, ρ and L to at least ``digits`` significant digits."""

@@ -1,0 +1,95 @@
+"""The linear function of the PD baseline."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
+from lyapcheck.family.registry import require_none
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from lyapcheck.family.base import Doubles
+
+
+@dataclass(frozen=True)
+class Linear(Family):
+    """h = x, h' = 1, U = x²/2: unbounded, so γ does not exist; ρ = L = 1 everywhere."""
+
+    def h(self, x: ArrayLike) -> Doubles:
+        """X itself."""
+        return _array(x).copy()
+
+    def dh(self, x: ArrayLike) -> Doubles:
+        """1."""
+        return _one(x)
+
+    def potential(self, x: ArrayLike) -> Doubles:
+        """x²/2, infinite where that is beyond the largest double."""
+        import numpy as np
+
+        x = _array(x)
+        with np.errstate(over="ignore", under="ignore"):
+            return 0.5 * x * x
+
+    def secant(self, x: ArrayLike) -> Doubles:
+        """1."""
+        return _one(x)
+
+    def sympy(self, x: Any) -> SymbolicForms:
+        """X, 1, x²/2."""
+        import sympy as sp
+
+        return SymbolicForms(x, sp.Integer(1), x**2 / 2)
+
+    def casadi(self, x: Any) -> CasadiForms:
+        """X, 1, x²/2, 1."""
+        import casadi as ca
+
+        one = ca.SX.ones(*x.shape)
+        return CasadiForms(x, one, 0.5 * x * x, one)
+
+    def ball_h(self, x: arb) -> arb:
+        """X itself."""
+        return x
+
+    def ball_dh(self, x: arb) -> arb:
+        """1."""
+        return arb(1)
+
+    def ball_potential(self, x: arb) -> arb:
+        """x²/2."""
+        return x * x / 2
+
+    def ball_secant(self, x: arb) -> arb:
+        """1."""
+        return arb(1)
+
+    def constants(self, digits: int = 30) -> FamilyConstants:
+        """No γ; ρ = L = 1, reached everywhere and named at 0."""
+        one, zero = Enclosure.exact(1), Enclosure.exact(0)
+        return FamilyConstants(None, one, one, None, zero, zero)
+
+
+def create(m: int | None) -> Linear:
+    """The one member."""
+    require_none("linear", m)
+    return Linear("linear", bounded=False)
+
+
+def _array(x: ArrayLike) -> Doubles:
+    import numpy as np
+
+    return np.asarray(x, dtype=float)
+
+
+def _one(x: ArrayLike) -> Doubles:
+    import numpy as np
+
+    x = _array(x)
+    return np.where(np.isnan(x), x, 1.0)

@@ -1,0 +1,69 @@
+"""The families by name. A new one is a new file with a ``FAMILY`` constructor and a line in ``_FILES``."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib import import_module
+
+from lyapcheck.errors import argument_error
+from lyapcheck.family.base import Family
+
+_FILES = ("algebraic", "arctan", "hyperbolic", "linear", "tanh")
+LARGEST_M = 100_000
+
+
+def names() -> tuple[str, ...]:
+    """The names of all families, sorted."""
+    return _FILES
+
+
+@lru_cache(maxsize=1024)
+def named(name: str, m: int | None = None) -> Family:
+    """The family of a name; ``m`` chooses the member of a family that has members.
+
+    Raises:
+        InputError: an unknown name, a missing m, or an m that the family does not have.
+    """
+    if name not in _FILES:
+        raise argument_error("family", name, f"is not one of {', '.join(_FILES)}", "name one of these")
+    family: Family = import_module(f"lyapcheck.family.{name}").create(m)
+    return family
+
+
+def require_member(m: object) -> int:
+    """The m of a hyperbolic family, or the error that says what is wrong with it."""
+    if isinstance(m, bool) or not isinstance(m, int) or not 1 <= m <= LARGEST_M:
+        rule = f"must be a whole number from 1 to {LARGEST_M}"
+        raise argument_error("m", m, rule, "give the member of the family, for instance m = 3")
+    return m
+
+
+def require_none(name: str, m: object) -> None:
+    """Refuse an m for a family that has a single member."""
+    if m is not None:
+        raise argument_error("m", m, f"has no meaning for the family {name}", "leave m out")
+
+
+def hyperbolic(m: int) -> Family:
+    """The paper's family, member m: h = sinh^(2m-1) cosh / (1 + sinh^(2m))."""
+    return named("hyperbolic", m)
+
+
+def tanh() -> Family:
+    """h = tanh x, which is the hyperbolic family at m = 1."""
+    return named("tanh")
+
+
+def arctan() -> Family:
+    """h = arctan x."""
+    return named("arctan")
+
+
+def algebraic() -> Family:
+    """h = x/√(1 + x²)."""
+    return named("algebraic")
+
+
+def linear() -> Family:
+    """h = x: the linear PD, unbounded."""
+    return named("linear")

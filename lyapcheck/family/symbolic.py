@@ -1,0 +1,21 @@
+"""The hyperbolic family in SymPy, for a whole number or a symbol m, derived from its potential.
+
+References: ``reyes2019family`` (6), (8), (12).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lyapcheck.family.base import SymbolicForms
+
+
+def hyperbolic_symbolic(x: Any, m: Any) -> SymbolicForms:
+    """h = dU/dx and h' = d²U/dx² by differentiation of U = ln(1 + sinh^(2m)x) / (2m)."""
+    import sympy as sp
+
+    symbol = sp.Dummy("x", real=True)
+    potential = sp.log(1 + sp.sinh(symbol) ** (2 * m)) / (2 * m)
+    h = sp.diff(potential, symbol)
+    dh = sp.diff(h, symbol)
+    return SymbolicForms(*(form.subs(symbol, x) for form in (h, dh, potential)))

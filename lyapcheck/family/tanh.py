@@ -1,0 +1,23 @@
+"""The hyperbolic tangent: the hyperbolic family at m = 1, under its own name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lyapcheck.family.hyperbolic import Hyperbolic
+from lyapcheck.family.registry import require_none
+
+
+@dataclass(frozen=True)
+class Tanh(Hyperbolic):
+    """h = tanh x, h' = sech²x, U = ln cosh x."""
+
+    @property
+    def _member(self) -> int:
+        return 1
+
+
+def create(m: int | None) -> Tanh:
+    """The one member."""
+    require_none("tanh", m)
+    return Tanh("tanh")
