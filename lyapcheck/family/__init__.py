@@ -1,4 +1,4 @@
-"""The bounded functions that shape errors and rates into torques: one file a family, all behind one protocol."""
+"""The bounded functions that shape errors and rates into torques: a file each, behind one protocol."""
 
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
 from lyapcheck.family.registry import algebraic, arctan, hyperbolic, linear, named, names, tanh

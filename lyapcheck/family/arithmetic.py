@@ -1,4 +1,4 @@
-"""The few operations beyond + - * / that the numeric forms need, for floats, NumPy arrays and CasADi graphs."""
+"""The operations beyond + - * / that numeric forms need, for floats, NumPy arrays and CasADi graphs."""
 
 from __future__ import annotations
 

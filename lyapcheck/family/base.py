@@ -1,4 +1,4 @@
-"""What every bounded function, and the linear one, offers: its values in four arithmetics, and its constants."""
+"""What every family offers: its values in four arithmetics, and its constants."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class CasadiForms:
 class FamilyConstants:
     """γ = sup h, ρ = sup |h'|, L = sup h(x)/x and where they are reached.
 
-    ``gamma`` is ``None`` for an unbounded function, a place is ``None`` where it is reached only in the limit.
+    ``gamma`` is ``None`` for an unbounded function; a place is ``None`` where only the limit reaches it.
     """
 
     gamma: Enclosure | None

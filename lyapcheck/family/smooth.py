@@ -1,8 +1,8 @@
 """The hyperbolic family in plain doubles as short CasADi expressions, for optimisers.
 
-Both branches are evaluated on clamped arguments, so that neither overflows and automatic differentiation never
-meets 0 · ∞. Rounding errors grow with 2m, and near the zero of h' its relative error is unbounded: a search may
-use these, a verdict may not.
+Both branches are evaluated on clamped arguments, so that neither overflows and automatic differentiation
+never meets 0 · ∞. Rounding errors grow with 2m, and near the zero of h' its relative error is unbounded: a
+search may use these, a verdict may not.
 """
 
 from __future__ import annotations
