@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TypeVar
+from itertools import product
+from typing import Any, TypeVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -100,7 +101,8 @@ class RobotModel:
     ) -> list[list[T]]:
         """M(q), kg·m², in any arithmetic: sin and cos are (n,), lift turns a Fraction into a T."""
         values = self.point(sin, cos, lift, parameters)
-        return [[trig.evaluate(entry, values, lift) for entry in row] for row in self.mass]
+        entries = trig.evaluate_all([entry for row in self.mass for entry in row], values, lift)
+        return [entries[i * self.n : (i + 1) * self.n] for i in range(self.n)]
 
     def coriolis_at(
         self,
@@ -111,20 +113,20 @@ class RobotModel:
         parameters: Mapping[str, T] | None = None,
     ) -> list[list[T]]:
         """C(q, x) of the Christoffel symbols, kg·m²/s, in any arithmetic; x is (n,), rad/s."""
+        symbols = [(i, j, k) for i, j, k in product(range(self.n), repeat=3) if self.christoffel[i][j][k] != 0]
         values = self.point(sin, cos, lift, parameters)
-
-        def entry(symbols: tuple[fmpq_mpoly, ...]) -> T:
-            nonzero = [(symbol, x[k]) for k, symbol in enumerate(symbols) if not symbol.is_zero()]
-            return trig.total([trig.evaluate(symbol, values, lift) * rate for symbol, rate in nonzero], lift)
-
-        return [[entry(symbols) for symbols in row] for row in self.christoffel]
+        rates = trig.evaluate_all([self.christoffel[i][j][k] for i, j, k in symbols], values, lift)
+        terms: dict[tuple[int, int], list[T]] = {}
+        for (i, j, k), rate in zip(symbols, rates, strict=True):
+            moving: Any = rate
+            terms.setdefault((i, j), []).append(moving * x[k])
+        return [[trig.total(terms.get((i, j), []), lift) for j in range(self.n)] for i in range(self.n)]
 
     def gravity_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[T]:
         """g(q), N·m, in any arithmetic."""
-        values = self.point(sin, cos, lift, parameters)
-        return [trig.evaluate(entry, values, lift) for entry in self.gravity]
+        return trig.evaluate_all(self.gravity, self.point(sin, cos, lift, parameters), lift)
 
     def potential_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None

@@ -83,20 +83,39 @@ def evaluate(poly: fmpq_mpoly, values: Sequence[T], lift: Callable[[Fraction], T
     Soundness: as good as the arithmetic: with containing ``+``, ``*`` and ``lift`` the result contains
     the value at every point of ``values``.
     """
-    return total([_term(powers, fraction(number), values, lift) for powers, number in poly.terms()], lift)
+    return evaluate_all([poly], values, lift)[0]
+
+
+def evaluate_all(
+    polys: Sequence[fmpq_mpoly], values: Sequence[T], lift: Callable[[Fraction], T]
+) -> list[T]:
+    """The values of several polynomials of one ring, each monomial computed once; see `evaluate`."""
+    known: dict[tuple[int, ...], T] = {}
+    return [total([_term(term, known, values, lift) for term in poly.terms()], lift) for poly in polys]
 
 
 def _term(
-    powers: Sequence[int], coefficient: Fraction, values: Sequence[Any], lift: Callable[[Fraction], T]
+    term: tuple[Sequence[int], fmpq],
+    known: dict[tuple[int, ...], T],
+    values: Sequence[Any],
+    lift: Callable[[Fraction], T],
 ) -> T:
-    factors = [values[i] for i, power in enumerate(powers) for _ in range(int(power))]
-    if coefficient != 1 or not factors:
-        factors.insert(0, lift(coefficient))
-    product: Any = factors[0]
-    for factor in factors[1:]:
-        product = product * factor
-    result: T = product
+    powers, coefficient = tuple(int(power) for power in term[0]), fraction(term[1])
+    if not any(powers):
+        return lift(coefficient)
+    value: Any = _monomial(powers, known, values)
+    result: T = value if coefficient == 1 else lift(coefficient) * value
     return result
+
+
+def _monomial(powers: tuple[int, ...], known: dict[tuple[int, ...], T], values: Sequence[Any]) -> T:
+    """The product of the generators, from that of the monomial with one generator fewer."""
+    if powers not in known:
+        last = max(i for i, power in enumerate(powers) if power)
+        rest = (*powers[:last], powers[last] - 1, *powers[last + 1 :])
+        value = values[last]
+        known[powers] = _monomial(rest, known, values) * value if any(rest) else value
+    return known[powers]
 
 
 def total(terms: Sequence[T], lift: Callable[[Fraction], T]) -> T:
