@@ -1,32 +1,34 @@
-"""The families by name. A new one is a new file with a ``FAMILY`` constructor and a line in ``_FILES``."""
+"""The families by name: each file in ``members`` is one, and nothing else need know of a new one."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 from importlib import import_module
+from pkgutil import iter_modules
 
 from lyapcheck.errors import argument_error
+from lyapcheck.family import members
 from lyapcheck.family.base import Family
 
-_FILES = ("algebraic", "arctan", "hyperbolic", "linear", "tanh")
 LARGEST_M = 100_000
 
 
+@cache
 def names() -> tuple[str, ...]:
     """The names of all families, sorted."""
-    return _FILES
+    return tuple(sorted(module.name for module in iter_modules(members.__path__)))
 
 
-@lru_cache(maxsize=1024)
+@cache
 def named(name: str, m: int | None = None) -> Family:
     """The family of a name; ``m`` chooses the member of a family that has members.
 
     Raises:
         InputError: an unknown name, a missing m, or an m that the family does not have.
     """
-    if name not in _FILES:
-        raise argument_error("family", name, f"is not one of {', '.join(_FILES)}", "name one of these")
-    family: Family = import_module(f"lyapcheck.family.{name}").create(m)
+    if name not in names():
+        raise argument_error("family", name, f"is not one of {', '.join(names())}", "name one of these")
+    family: Family = import_module(f"lyapcheck.family.members.{name}").create(m)
     return family
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.family.hyperbolic import Hyperbolic
+from lyapcheck.family.members.hyperbolic import Hyperbolic
 from lyapcheck.family.registry import require_none
 
 

@@ -13,6 +13,7 @@ from flint import arb
 from lyapcheck.check import balls
 from lyapcheck.check.constants import hyperbolic_constants
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
+from lyapcheck.family.hyperbolic_drivers import as_graph, on_array
 from lyapcheck.family.registry import require_member
 
 if TYPE_CHECKING:
@@ -32,19 +33,19 @@ class Hyperbolic(Family):
 
     def h(self, x: ArrayLike) -> Doubles:
         """h_m(x)."""
-        return _plain(self._member, x, 0)
+        return on_array(self._member, x, lambda of: of.h(), odd=True)
 
     def dh(self, x: ArrayLike) -> Doubles:
         """h_m'(x)."""
-        return _plain(self._member, x, 1)
+        return on_array(self._member, x, lambda of: of.dh(), odd=False)
 
     def potential(self, x: ArrayLike) -> Doubles:
         """U_m(x)."""
-        return _plain(self._member, x, 2)
+        return on_array(self._member, x, lambda of: of.potential(), odd=False)
 
     def secant(self, x: ArrayLike) -> Doubles:
         """h_m(x)/x."""
-        return _plain(self._member, x, 3)
+        return on_array(self._member, x, lambda of: of.secant(), odd=False)
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
@@ -53,8 +54,8 @@ class Hyperbolic(Family):
         return hyperbolic_symbolic(x, self._member)
 
     def casadi(self, x: Any) -> CasadiForms:
-        """The forms as CasADi SX."""
-        return self.casadi_smooth(x)
+        """The forms as CasADi SX, as accurate as the NumPy ones; large graphs, see ``casadi_smooth``."""
+        return as_graph(self._member, x)
 
     def casadi_smooth(self, x: Any) -> CasadiForms:
         """Short plain-double expressions for optimisers."""
@@ -87,34 +88,3 @@ class Hyperbolic(Family):
 def create(m: int | None) -> Hyperbolic:
     """The member m of the family."""
     return Hyperbolic("hyperbolic", require_member(m))
-
-
-def _plain(m: int, x: ArrayLike, which: int) -> Doubles:
-    import numpy as np
-
-    x = np.asarray(x, dtype=float)
-    n = np.clip(x, -1, 1)
-    s, c = np.sinh(n), np.cosh(n)
-    with np.errstate(all="ignore"):
-        rest = s ** (2 * m - 2)
-        p = rest * s * s
-        ratio = np.where(n == 0, 1, s / np.where(n == 0, 1, n))
-        near = (
-            rest * s * c / (1 + p),
-            rest * (2 * m - 1 + 2 * m * s * s - p) / (1 + p) ** 2,
-            np.log1p(p) / (2 * m),
-            rest * ratio * c / (1 + p),
-        )
-        a = np.maximum(np.abs(x), 1)
-        t = np.exp(-a)
-        r2 = (2 * t / (1 - t * t)) ** 2
-        rest = r2 ** (m - 1)
-        q = rest * r2
-        h = (1 + t * t) / (1 - t * t) / (1 + q)
-        far = (
-            np.sign(x) * h,
-            r2 * ((2 * m - 1) * q + 2 * m * rest - 1) / (1 + q) ** 2,
-            a - 0.6931471805599453 + np.log1p(-t * t) + np.log1p(q) / (2 * m),
-            h / a,
-        )
-    return np.where(np.abs(x) <= 1, near[which], far[which])
