@@ -1,0 +1,41 @@
+"""The closed loop in motion: the reference simulation of (11), the bench experiment, performance indices."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.csv import run_csv
+    from lyapcheck.simulate.run import Indices, Promises, Run, SimulationFailed
+    from lyapcheck.simulate.task import PAPER_TASK, Task
+
+_HOME = {
+    "PAPER_TASK": "task",
+    "Indices": "run",
+    "Promises": "run",
+    "Run": "run",
+    "SimulationFailed": "run",
+    "Task": "task",
+    "run_csv": "csv",
+    "simulate": "closed_loop",
+}
+
+__all__ = [
+    "PAPER_TASK",
+    "Indices",
+    "Promises",
+    "Run",
+    "SimulationFailed",
+    "Task",
+    "run_csv",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for: NumPy and SciPy are not needed to print a help page."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

@@ -1,0 +1,101 @@
+"""The closed loop (11) as one differentiable graph, and as compiled functions of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import casadi as ca
+
+from lyapcheck.simulate.compiled import Compiled
+from lyapcheck.simulate.gains import Gains
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
+
+
+@dataclass(frozen=True)
+class ClosedLoop:
+    """The state y = (q, w, D, S) of a run and its rate, with q_d as a parameter.
+
+    D is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w), and S' = ‖e‖²: both ride along so that
+    the energy balance and the L2 index are as accurate as the motion itself.
+    """
+
+    n: int
+    state: Any
+    """(2n + 2,) SX."""
+    goal: Any
+    """(n,) SX, q_d."""
+    rate: Any
+    """(2n + 2,) SX, ẏ along (11)."""
+    torque: Any
+    """(n,) SX, τ of (6)."""
+    energy: Any
+    """SX, E = ½wᵀMw + Σ k_pi U(e_i), so that E' = −D'."""
+
+    def compiled_rate(self) -> Compiled:
+        """(y, q_d) ↦ ẏ."""
+        return Compiled(ca.Function("rate", [self.state, self.goal], [ca.densify(self.rate)]))
+
+    def compiled_jacobian(self) -> Compiled:
+        """(y, q_d) ↦ ∂ẏ/∂y."""
+        jacobian = ca.densify(ca.jacobian(self.rate, self.state))
+        return Compiled(ca.Function("jacobian", [self.state, self.goal], [jacobian]))
+
+    def signals(self) -> Any:
+        """The CasADi function (y, q_d) ↦ (τ, E)."""
+        return ca.Function("signals", [self.state, self.goal], [self.torque, self.energy])
+
+
+def closed_loop(gains: Gains, model: RobotModel) -> ClosedLoop:
+    """The graph of (11) for one controller on one arm, uncertain parameters at their nominal values.
+
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w, with e = q_d − q.
+
+    References: (6), (11) of ``reyes2019family``.
+    """
+    from lyapcheck.robots import graph
+
+    n = model.n
+    state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("q_d", n)
+    q, w = state[:n], state[n : 2 * n]
+    e = goal - q
+    at_e = gains.family.casadi(e)
+    spring = ca.DM(gains.kp) * at_e.h
+    damper = ca.DM(gains.kv) * gains.family.casadi(w).h
+    friction = graph.viscous(model) @ w
+    mass = graph.mass(model, q)
+    acceleration = solve_definite(mass, spring - damper - friction - graph.coriolis(model, q, w) @ w)
+    rate = ca.vertcat(w, acceleration, ca.dot(w, friction + damper), ca.dot(e, e))
+    energy = ca.dot(w, mass @ w) / 2 + ca.dot(ca.DM(gains.kp), at_e.potential)
+    return ClosedLoop(n, state, goal, rate, spring - damper + graph.gravity(model, q), energy)
+
+
+def solve_definite(matrix: Any, right: Any) -> Any:
+    """x with matrix · x = right for a symmetric positive definite SX matrix, by LDLᵀ without square roots.
+
+    Soundness: with M not definite the pivots vanish or change sign; property 2.1 is decided elsewhere.
+    """
+    lower, pivots = _ldl(matrix)
+    return ca.mtimes(_inverse_unit_lower(lower).T, ca.mtimes(_inverse_unit_lower(lower), right) / pivots)
+
+
+def _ldl(matrix: Any) -> tuple[Any, Any]:
+    n = matrix.shape[0]
+    lower, pivots = ca.SX.eye(n), ca.SX.zeros(n)
+    for j in range(n):
+        pivots[j] = matrix[j, j] - sum(lower[j, k] ** 2 * pivots[k] for k in range(j))
+        for i in range(j + 1, n):
+            known = sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j))
+            lower[i, j] = (matrix[i, j] - known) / pivots[j]
+    return lower, pivots
+
+
+def _inverse_unit_lower(lower: Any) -> Any:
+    n = lower.shape[0]
+    inverse = ca.SX.eye(n)
+    for j in range(n):
+        for i in range(j + 1, n):
+            inverse[i, j] = -sum(lower[i, k] * inverse[k, j] for k in range(j, i))
+    return inverse

@@ -1,0 +1,43 @@
+"""Gains as the simulation uses them: doubles, for angles in radians."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from lyapcheck.errors import argument_error
+from lyapcheck.family import Family, named
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+
+
+@dataclass(frozen=True)
+class Gains:
+    """One controller: τ = K_p h(e) − K_v h(w) + g(q) with e in rad, w in rad/s."""
+
+    name: str
+    family: Family
+    kp: tuple[float, ...]
+    """N·m (per rad where h is linear)."""
+    kv: tuple[float, ...]
+
+
+def gains_for(gain_set: GainSet, n: int) -> Gains:
+    """The gains of a set on an arm of ``n`` joints; gains per degree are turned into gains per radian.
+
+    Raises:
+        InputError: the set has another number of joints.
+    """
+    if len(gain_set.kp) != n or len(gain_set.kv) != n:
+        rule = f"has gains for {len(gain_set.kp)} joints, but the arm has {n}"
+        raise argument_error("gains", gain_set.name, rule, "choose the arm the gains were made for")
+    scale = math.degrees(1.0) if gain_set.angle_unit == "deg" else 1.0
+    family = gain_set.family if isinstance(gain_set.family, Family) else named(gain_set.family, gain_set.m)
+    return Gains(
+        gain_set.name,
+        family,
+        tuple(float(k) * scale for k in gain_set.kp),
+        tuple(float(k) * scale for k in gain_set.kv),
+    )

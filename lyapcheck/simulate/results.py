@@ -1,0 +1,86 @@
+"""From the samples of a motion to a Run: indices, V along the way, promises."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.simulate import indices
+from lyapcheck.simulate.along import lyapunov_along
+from lyapcheck.simulate.gains import Gains
+from lyapcheck.simulate.monitor import observe, torque_limits
+from lyapcheck.simulate.run import Indices, Run
+from lyapcheck.simulate.task import Task
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
+
+Array = NDArray[np.float64]
+
+V_NOISE = 1e-9
+"""How far V may rise between samples, relative to its largest value, before it counts as a rise."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The bare samples of a run."""
+
+    kind: str
+    t: Array
+    q: Array
+    w: Array
+    tau: Array
+
+
+def run_of(
+    motion: Motion,
+    gains: Gains,
+    model: RobotModel,
+    task: Task,
+    eps0: float,
+    *,
+    accuracy: float,
+    energy_balance: float,
+    L2: float,
+    complete: bool,
+    saturated: bool = False,
+    notes: tuple[str, ...] = (),
+) -> Run:
+    """The run of a motion: everything that can be computed from its samples."""
+    e = np.array(task.q_d) - motion.q
+    V, dV = lyapunov_along(gains, model, motion.q, e, motion.w, eps0)
+    return Run(
+        name=gains.name,
+        m=gains.family.m,
+        robot=model.name,
+        kind=motion.kind,
+        task=task,
+        eps0=eps0,
+        t=motion.t,
+        q=motion.q,
+        w=motion.w,
+        e=e,
+        tau=motion.tau,
+        V=V,
+        dV=dV,
+        indices=_indices(motion, e, L2),
+        promises=observe(motion.t, V, motion.tau, gains, model, V_NOISE, saturated),
+        accuracy=accuracy,
+        energy_balance=energy_balance,
+        torque_limit=torque_limits(model),
+        complete=complete,
+        notes=(*notes, *model.assumptions),
+    )
+
+
+def _indices(motion: Motion, e: Array, L2: float) -> Indices:
+    return Indices(
+        L2=L2,
+        settling=indices.settling_times(motion.t, e),
+        overshoot=indices.overshoots(e),
+        peak_torque=indices.peak_torques(motion.tau),
+        final_error=indices.final_errors(e),
+    )

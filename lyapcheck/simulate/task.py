@@ -1,0 +1,117 @@
+"""What a run is asked to do: from where, to where, for how long."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lyapcheck.errors import InputError, Problem
+
+LONGEST = 3600.0
+"""Seconds of motion that one run may cover."""
+
+FASTEST = 1e3
+"""rad/s: no arm turns faster, and a request beyond it is a slip of units."""
+
+FARTHEST = 1e3
+"""rad: about 160 turns of a joint."""
+
+MOST_POINTS = 2_000_000
+"""Samples of one run."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A set-point task: joints go from ``q0`` at rates ``w0`` to ``q_d`` and are watched for ``T`` seconds.
+
+    Args:
+        q_d: desired positions, one a joint, rad.
+        q0: initial positions, rad.
+        w0: initial rates, rad/s.
+        T: duration, s.
+    """
+
+    q_d: tuple[float, ...]
+    q0: tuple[float, ...]
+    w0: tuple[float, ...]
+    T: float
+
+    @property
+    def step(self) -> tuple[float, ...]:
+        """The initial position errors q_d − q0, rad."""
+        return tuple(d - s for d, s in zip(self.q_d, self.q0, strict=True))
+
+
+def task_for(
+    n: int,
+    q_d: Sequence[float],
+    q0: Sequence[float] | None,
+    w0: Sequence[float] | None,
+    T: float,
+    eps0: float | None = None,
+    points: int = 2,
+) -> Task:
+    """The task on an arm of ``n`` joints; missing initial values are zero (at rest at home).
+
+    ``eps0`` (the ε₀ of V) and ``points`` (samples of the run) are only looked at, so that all that is wrong with a
+    request is said at once.
+
+    Raises:
+        InputError: every value that is not finite, too large, or of the wrong length; all at once.
+    """
+    problems = [
+        *_vector_problems("q_d", q_d, n, FARTHEST, "rad"),
+        *_vector_problems("q0", q0, n, FARTHEST, "rad"),
+        *_vector_problems("w0", w0, n, FASTEST, "rad/s"),
+    ]
+    if not 0.0 < T <= LONGEST:
+        problems.append(
+            _problem("T", T, f"must be more than 0 and at most {LONGEST:g} s", "give seconds, for instance 5")
+        )
+    if eps0 is not None and not 0.0 <= eps0 < math.inf:
+        problems.append(
+            _problem("eps0", eps0, "must be finite and not negative", "give the ε₀ of V, for instance 0.01")
+        )
+    if not 2 <= points <= MOST_POINTS:
+        problems.append(
+            _problem("points", points, f"must be from 2 to {MOST_POINTS}", "give the number of samples")
+        )
+    if problems:
+        raise InputError(problems)
+    zeros = (0.0,) * n
+    return Task(
+        _floats(q_d), zeros if q0 is None else _floats(q0), zeros if w0 is None else _floats(w0), float(T)
+    )
+
+
+def _problem(key: str, value: object, rule: str, repair: str) -> Problem:
+    return Problem("argument", None, key, str(value), rule, repair)
+
+
+def _floats(values: Sequence[float]) -> tuple[float, ...]:
+    return tuple(float(x) for x in values)
+
+
+def _vector_problems(
+    name: str, values: Sequence[float] | None, n: int, most: float, unit: str
+) -> list[Problem]:
+    if values is None:
+        return []
+    text = ", ".join(f"{float(x):g}" for x in values)
+    if len(values) != n:
+        rule = f"has {len(values)} values, but the arm has {n} joints"
+        return [_problem(name, text, rule, f"give {n} values, one a joint")]
+    if all(math.isfinite(x) and abs(x) <= most for x in values):
+        return []
+    rule = f"every value must be finite and at most {most:g} {unit} in size"
+    return [_problem(name, text, rule, f"give values in {unit}")]
+
+
+_QUARTER = math.pi / 4
+
+PAPER_TASK = Task(q_d=(_QUARTER, _QUARTER, 2 * _QUARTER), q0=(0.0, 0.0, 0.0), w0=(0.0, 0.0, 0.0), T=5.0)
+"""The published experiment: (45, 45, 90)° from rest at home, 5 s.
+
+References: ``reyes2019family``, Section 4.
+"""
