@@ -1,7 +1,7 @@
 """Sums and products of doubles with about 100 correct bits, for floats, NumPy arrays and CasADi graphs alike.
 
 A pair (hi, lo) stands for the unevaluated sum hi + lo with |lo| at most half a unit in the last place of hi.
-The error terms are exact in IEEE arithmetic as long as nothing over- or underflows; on the way to an underflow
+The error terms are exact in IEEE arithmetic while nothing over- or underflows; on the way to an underflow
 they lose bits of lo only. A CasADi graph must be built with ``exact_graph`` around it, because CasADi would
 otherwise simplify the error terms to zero.
 

@@ -68,8 +68,8 @@ def _on_block(m: int, a: Doubles, form: Form) -> Doubles:
 def as_graph(m: int, x: Any) -> CasadiForms:
     """The four forms as CasADi SX expressions.
 
-    Each branch sees its argument clamped to just beyond where it is used, so that the derivative of a branch in
-    use is never that of a clamp.
+    Each branch sees its argument clamped to just beyond where it is used, so that the derivative of a branch
+    in use is never that of a clamp.
     """
     import casadi as ca
 

@@ -11,6 +11,9 @@ from typing import Any
 
 from lyapcheck.family.base import CasadiForms
 
+_SLACK = 1 + 1e-9
+"""Clamps act just beyond the border between the branches, so that none is differentiated there."""
+
 
 def smooth_forms(m: int, x: Any) -> CasadiForms:
     """h_m, h_m', U_m, h_m(x)/x at a CasADi SX expression, stable for every finite double.
@@ -19,7 +22,8 @@ def smooth_forms(m: int, x: Any) -> CasadiForms:
     """
     import casadi as ca
 
-    near, far = _near(ca, m, ca.fmin(ca.fmax(x, -1), 1)), _far(ca, m, x, ca.fmax(ca.fabs(x), 1))
+    near = _near(ca, m, ca.fmin(ca.fmax(x, -_SLACK), _SLACK))
+    far = _far(ca, m, x, ca.fmax(ca.fabs(x), 1 / _SLACK))
     inside = ca.fabs(x) <= 1
     return CasadiForms(*(ca.if_else(inside, a, b) for a, b in zip(near, far, strict=True)))
 
