@@ -1,113 +1,106 @@
-"""Arm files: one TOML file describes one arm."""
+"""Arm files: one TOML file describes one arm, built-in or the user's own.
+
+Every number is a plain decimal, read exactly, or a table that says more about it::
+
+    mass = 23.902
+    mass = { value = 23.902, unit = "kg", source = "…", assumed = true, low = 23, high = 25, note = "why" }
+
+An assumed number needs a reason (``note`` or ``source``); one with ``low`` and ``high`` may have any value
+between them. Units are SI and fixed by the key. At the top of a file stand::
+
+    title = "…"             one line for reports
+    source = "…"            optional: where the plain numbers are printed
+    remarks = ["…"]         optional: what else is taken for granted, one sentence each
+
+Then comes one of two kinds of model. **Links**: a serial chain of revolute joints, from which M and the
+potential are derived. All frames are parallel to the base frame at q = 0; lengths in m::
+
+    gravity = [0, 0, -9.81]           m/s², in the base frame
+
+    [[links]]                         one for each joint with the link that it moves, base first
+    name = "shoulder"
+    axis = [0, 0, 1]                  of length exactly 1
+    origin = [0, 0, 0]                of the joint, from the joint before (or the base)
+    mass = 23.902                     kg
+    com = [0, -0.091, 0]              centre of mass, from the joint
+    inertia = 1.266                   kg·m² about the centre of mass: one number when all axes are
+                                      parallel, else a table of ixx, iyy, izz (ixy, ixz, iyz)
+    viscous = 2.288                   N·m·s/rad
+    coulomb = 7.17                    N·m, optional, as are the following
+    torque_limit = 150                N·m
+    encoder = 1024000                 counts per turn
+    gravity_bound = 40.28             N·m, k_gi where a source prints it
+
+**Printed**: M and the potential energy as a source prints them, as terms (`lyapcheck.robots.printed`), with
+the motors in ``[[joints]]`` (the keys of a link from ``viscous`` on, and ``name``)::
+
+    [numbers]
+    b = 0.084
+
+    [model]
+    M11 = [[2.351, ""], [2, "b c2"]]
+    M12 = [[0.102, ""], [1, "b c2"]]  on and above the diagonal
+    M22 = [[0.102, ""]]
+    potential = [[-38.46501, "c1"], [-1.82466, "c12"]]     J
+"""
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
-from flint import fmpq_mpoly, fmpq_mpoly_ctx
-
-from lyapcheck.errors import InputError, Problem
-from lyapcheck.robots import printed, trig
-from lyapcheck.robots.fields import Fields, KeyPath, Notes
-from lyapcheck.robots.links import Link, chain
+from lyapcheck.errors import InputError
+from lyapcheck.robots import trig
+from lyapcheck.robots.document import open_document
+from lyapcheck.robots.fields import Fields, Notes
 from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.physics import check_positive_definite
+from lyapcheck.robots.plans import Plan, read_plan
 
 
-def read_arm(path: Path, known: Sequence[str] = ()) -> RobotModel:
-    data = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Fraction)
-    notes = Notes(path.name, lambda key: None)
-    source = data.get("source", "")
-    top = Fields(data, (), notes, source)
-    title = top.text("title", required=True)
-    top.text("source")
+def read_arm(path: Path) -> RobotModel:
+    """The arm that a file describes.
+
+    Raises:
+        InputError: the file cannot be read or describes no arm; carries every problem found.
+    """
+    document = open_document(path)
+    notes = Notes(path.name, document.line)
+    top = Fields(document.data, (), notes)
+    title, top.source = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
-    gravity = top.vector("gravity", "m/s²")
-    numbers: dict[str, Number] = {}
-    table = top.table("numbers")
-    if table is not None:
-        for key in table.data:
-            number = table.number(key, "")
-            if number is not None:
-                numbers[key] = number
-    links, joints = top.tables("links"), top.tables("joints")
-    model = top.table("model")
+    plan = read_plan(top)
     top.close()
-    bodies = links or joints or []
-    n = len(bodies)
-    names = tuple(body.text("name", required=True) for body in bodies)
-    actuators = [_actuator(body, name, numbers) for body, name in zip(bodies, names)]
-    raw_links = []
-    if links:
-        raw_links = [_link(body, name, numbers) for body, name in zip(links, names)]
-    for body in bodies:
-        body.close()
-    used = [name for name, number in numbers.items() if number.ranged and not name.endswith(("viscous", "coulomb", "torque_limit"))]
-    ring = trig.trig_ring(n, used)
-    polys = {
-        name: ring.gen(2 * n + used.index(name)) if name in used else trig.constant(ring, number.value)
-        for name, number in numbers.items()
-    }
-    if links:
-        assert gravity is not None
-        built = [
-            Link(*( [polys[x] for x in part] if isinstance(part, list) and isinstance(part[0], str)
-                   else [[polys[x] for x in row] for row in part] if isinstance(part, list) else polys[part]
-                   for part in raw))
-            for raw in raw_links
-        ]
-        mass, potential = chain(ring, built, [trig.constant(ring, g.value) for g in gravity])
-    else:
-        assert model is not None
-        def poly(key: str) -> Any:
-            total = trig.constant(ring, 0)
-            for coefficient, factors in model.raw(key, required=True):
-                total += trig.constant(ring, coefficient) * printed.monomial(factors, ring, polys)
-            return trig.normal_form(total)
-        upper = {(i, j): poly(f"M{i + 1}{j + 1}") for i in range(n) for j in range(i, n)}
-        mass = tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
-        potential = poly("potential")
-        model.close()
+    if notes.problems or plan is None:
+        raise InputError(notes.problems)
+    model = _model(path.stem, title, remarks, plan)
+    check_positive_definite(model, plan.place, notes)
     if notes.problems:
         raise InputError(notes.problems)
+    return model
+
+
+def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan) -> RobotModel:
+    numbers, joints = plan.numbers(), plan.joints
+    parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used()}
+    ring = trig.trig_ring(len(joints), tuple(parameters))
+    polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
+    polys |= dict(zip(parameters, ring.gens()[2 * len(joints) :], strict=True))
+    mass, potential = plan.build(ring, polys)
+    for joint in joints:
+        numbers |= joint.numbers()
     return RobotModel(
-        path.stem, title, names, ring, mass, potential,
-        tuple(a[0] for a in actuators), tuple(a[1] for a in actuators), tuple(a[2] for a in actuators),
-        tuple(a[3] for a in actuators), tuple(a[4] for a in actuators),
-        numbers, {name: numbers[name] for name in used}, remarks,
+        name=name,
+        title=title,
+        joints=tuple(joint.name for joint in joints),
+        ring=ring,
+        mass=mass,
+        potential=potential,
+        viscous=tuple(joint.viscous for joint in joints if joint.viscous is not None),
+        coulomb=tuple(joint.coulomb for joint in joints),
+        torque_limit=tuple(joint.torque_limit for joint in joints),
+        encoder=tuple(joint.encoder for joint in joints),
+        gravity_bound=tuple(joint.gravity_bound for joint in joints),
+        numbers=numbers,
+        parameters=parameters,
+        remarks=remarks,
     )
-
-
-def _actuator(body, name, numbers):
-    out = []
-    for key, unit in (("viscous", "N·m·s/rad"), ("coulomb", "N·m"), ("torque_limit", "N·m")):
-        number = body.number(key, unit)
-        if number is not None:
-            numbers[f"{name}_{key}"] = number
-        out.append(number)
-    return (*out, body.count("encoder"), body.number("gravity_bound", "N·m"))
-
-
-def _link(body, name, numbers):
-    def keep(key, number):
-        numbers[f"{name}_{key}"] = number
-        return f"{name}_{key}"
-    zero = Number(Fraction(0))
-    def vec(key, unit):
-        items = body.vector(key, unit) or [zero] * 3
-        return [keep(f"{key}_{c}", x) for c, x in zip("xyz", items)]
-    axis = vec("axis", "")
-    origin = vec("origin", "m")
-    mass = keep("mass", body.number("mass", "kg", required=True))
-    com = vec("com", "m")
-    inertia = keep("inertia", body.number("inertia", "kg·m²"))
-    nil = keep("nil", zero)
-    # planar: along the joint axis
-    rows = [[nil] * 3 for _ in range(3)]
-    rows[2][2] = inertia
-    return [axis, origin, mass, com, rows]

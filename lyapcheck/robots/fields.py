@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import Enum
 from fractions import Fraction
 from typing import Any
 
 from lyapcheck.errors import Problem
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.number import Number, decimal_text
 
 KeyPath = tuple[str | int, ...]
-_NUMBER_KEYS = {"value", "unit", "source", "assumed", "low", "high", "note"}
+
+
+class Sign(Enum):
+    """Which values a number may have over its whole range."""
+
+    ANY = "any number"
+    NONNEGATIVE = "zero or positive"
+    POSITIVE = "positive"
+
+    def allows(self, low: Fraction) -> bool:
+        """Whether a number whose smallest value is ``low`` is of this sign."""
+        return self is Sign.ANY or low > 0 or (self is Sign.NONNEGATIVE and low == 0)
 
 
 class Notes:
@@ -75,18 +87,24 @@ class Fields:
             return None
         return value
 
-    def number(self, key: str, unit: str, required: bool = False) -> Number | None:
+    def number(self, key: str, unit: str, sign: Sign = Sign.ANY, required: bool = False) -> Number | None:
         """A decimal, or a table of a value with its provenance; ``None`` when absent or bad."""
         value = self.raw(key, required)
-        return None if value is None else self._number((*self.path, key), value, unit)
+        number = None if value is None else self._number((*self.path, key), value, unit)
+        if number is not None and not sign.allows(number.bounds[0]):
+            self.fail(key, f"must be {sign.value}", "correct the value, or the low end of its range")
+            return None
+        return number
 
     def vector(self, key: str, unit: str, length: int = 3) -> list[Number] | None:
-        """A list of numbers of that length; ``None`` when absent or bad."""
-        value = self.raw(key)
+        """A list of numbers of that length, required; ``None`` when bad."""
+        value = self.raw(key, required=True)
         if value is None:
             return None
         if not isinstance(value, list) or len(value) != length:
-            self.fail(key, f"must be a list of {length} numbers", f"write {key} = [{', '.join(['0'] * length)}]")
+            self.fail(
+                key, f"must be a list of {length} numbers", f"write {key} = [{', '.join(['0'] * length)}]"
+            )
             return None
         items = [self._number((*self.path, key, i), item, unit) for i, item in enumerate(value)]
         return [item for item in items if item is not None] if None not in items else None
@@ -120,7 +138,7 @@ class Fields:
 
     def _number(self, path: KeyPath, value: object, unit: str) -> Number | None:
         if not isinstance(value, dict):
-            exact = self._exact(path, value)
+            exact = self.decimal(path, value)
             return None if exact is None else Number(exact, unit, self.source)
         inner = Fields(value, path, self.notes, self.source)
         number = inner._described(unit)
@@ -129,30 +147,43 @@ class Fields:
 
     def _described(self, unit: str) -> Number | None:
         """The number that this table of value, unit, source … describes."""
-        exact = {key: self._exact((*self.path, key), self.raw(key)) for key in ("value", "low", "high") if key in self.data}
-        if "value" not in self.data:
-            self.raw("value", required=True)
-        self._asked.extend(_NUMBER_KEYS)
-        given = self.text("unit")
+        value, low, high = (self._decimal(key, required=key == "value") for key in ("value", "low", "high"))
+        given, source, note = self.text("unit"), self.text("source"), self.text("note")
         if unit and given and given != unit:
             self.fail("unit", f"must be {unit}", f"convert the value to {unit}")
-        assumed = self.data.get("assumed", False)
-        if not isinstance(assumed, bool):
-            self.fail("assumed", "must be true or false", "write assumed = true")
-        value, low, high = (exact.get(key) for key in ("value", "low", "high"))
+        assumed = self._flag("assumed")
+        if assumed and not (note or source):
+            self.fail("assumed", "an assumption needs its reason", 'add note = "why this value"')
+        self._check_range(value, low, high)
         if value is None:
             return None
-        if ("low" in self.data) != ("high" in self.data):
-            self.fail("low" if "low" in self.data else "high", "a range needs both ends", "give both low and high")
-        elif low is not None and high is not None and not low <= value <= high:
-            self.fail("value", f"must lie in its range [{low}, {high}]", "correct value, low or high")
-        source = self.text("source") or ("" if assumed else self.source)
-        return Number(value, given or unit, source, bool(assumed), low, high, self.text("note"))
+        return Number(
+            value, given or unit, source or ("" if assumed else self.source), assumed, low, high, note
+        )
 
-    def _exact(self, path: KeyPath, value: object) -> Fraction | None:
+    def _check_range(self, value: Fraction | None, low: Fraction | None, high: Fraction | None) -> None:
+        if ("low" in self.data) != ("high" in self.data):
+            present = "low" if "low" in self.data else "high"
+            self.fail(present, "a range needs both ends", "give both low and high")
+        if value is not None and low is not None and high is not None and not low <= value <= high:
+            ends = f"[{decimal_text(low)}, {decimal_text(high)}]"
+            self.fail("value", f"must lie in its range {ends}", "correct value, low or high")
+
+    def _flag(self, key: str) -> bool:
+        value = self.raw(key)
+        if value is not None and not isinstance(value, bool):
+            self.fail(key, "must be true or false", f"write {key} = true")
+        return value is True
+
+    def _decimal(self, key: str, required: bool) -> Fraction | None:
+        value = self.raw(key, required)
+        return None if value is None else self.decimal((*self.path, key), value)
+
+    def decimal(self, path: KeyPath, value: object) -> Fraction | None:
+        """An exact number, ``None`` when the value is none."""
         if isinstance(value, int | Fraction) and not isinstance(value, bool):
             return Fraction(value)
-        self.notes.fail(path, value, "must be a finite decimal number", "write it as a plain decimal like 0.091")
+        self.notes.fail(path, value, "must be a finite decimal number", "write a plain decimal like 0.091")
         return None
 
 

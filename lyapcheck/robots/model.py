@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
@@ -79,7 +79,9 @@ class RobotModel:
         joints = range(self.n)
         slope = [[[trig.derivative(entry, k) for k in joints] for entry in row] for row in self.mass]
         return tuple(
-            tuple(tuple((slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) / 2 for k in joints) for j in joints)
+            tuple(
+                tuple((slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) / 2 for k in joints) for j in joints
+            )
             for i in joints
         )
 
@@ -113,7 +115,9 @@ class RobotModel:
         parameters: Mapping[str, T] | None = None,
     ) -> list[list[T]]:
         """C(q, x) of the Christoffel symbols, kg·m²/s, in any arithmetic; x is (n,), rad/s."""
-        symbols = [(i, j, k) for i, j, k in product(range(self.n), repeat=3) if self.christoffel[i][j][k] != 0]
+        symbols = [
+            (i, j, k) for i, j, k in product(range(self.n), repeat=3) if self.christoffel[i][j][k] != 0
+        ]
         values = self.point(sin, cos, lift, parameters)
         rates = trig.evaluate_all([self.christoffel[i][j][k] for i, j, k in symbols], values, lift)
         terms: dict[tuple[int, int], list[T]] = {}
@@ -134,6 +138,20 @@ class RobotModel:
         """The potential energy, J, in any arithmetic."""
         return trig.evaluate(self.potential, self.point(sin, cos, lift, parameters), lift)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields with polynomials as plain terms: polynomials of python-flint cannot be pickled."""
+        state = {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        state["ring"] = tuple(self.parameters)
+        state["mass"] = [[trig.to_terms(poly) for poly in row] for row in self.mass]
+        state["potential"] = trig.to_terms(self.potential)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        ring = trig.trig_ring(len(state["joints"]), state["ring"])
+        mass = tuple(tuple(trig.from_terms(ring, terms) for terms in row) for row in state["mass"])
+        potential = trig.from_terms(ring, state["potential"])
+        self.__dict__.update(state | {"ring": ring, "mass": mass, "potential": potential})
+
     def fixed(self, **parameters: Fraction | int) -> RobotModel:
         """The same arm with every uncertain parameter of M and the potential at one exact value.
 
@@ -146,8 +164,12 @@ class RobotModel:
         for name in parameters:
             if name not in self.parameters:
                 known = ", ".join(self.parameters) or "none"
-                raise argument_error("parameter", name, f"{self.name} has no such parameter", f"use one of: {known}")
-        values = {name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()}
+                raise argument_error(
+                    "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
+                )
+        values = {
+            name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
+        }
         ring = trig.trig_ring(self.n)
         mass = tuple(tuple(trig.substitute(entry, values, ring) for entry in row) for row in self.mass)
         potential = trig.substitute(self.potential, values, ring)

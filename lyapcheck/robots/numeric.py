@@ -66,7 +66,11 @@ class _Table:
         self.n = n
         self.steps: list[tuple[int, int]] = []
         self._rows: dict[tuple[int, ...], int] = {(0,) * (2 * n): 0}
-        entries = [(self._row(powers), column, value) for column, poly in enumerate(polys) for powers, value in poly.terms()]
+        entries = [
+            (self._row(powers), column, value)
+            for column, poly in enumerate(polys)
+            for powers, value in poly.terms()
+        ]
         self.coefficients = np.zeros((len(self._rows), len(polys)))
         for row, column, value in entries:
             self.coefficients[row, column] = float(trig.fraction(value))

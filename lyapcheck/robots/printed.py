@@ -9,47 +9,117 @@ evaluated as code.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.robots import trig
+from lyapcheck.robots.fields import Fields, KeyPath
 
 _FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9]))?")
-_ANGLE = re.compile(r"[sc][1-9]+")
+_ANGLE = re.compile(r"[sc][0-9]+")
+_MOST_FACTORS = 12
+_MOST_TERMS = 1000
+
+Terms = tuple[tuple[Fraction, tuple[tuple[str, int], ...]], ...]
 
 
-class TermError(ValueError):
-    """A factor of a printed term cannot be read; the message is the rule that it breaks."""
+@dataclass(frozen=True)
+class Printed:
+    """The terms of M on and above the diagonal, and of the potential, as read."""
+
+    mass: Mapping[tuple[int, int], Terms]
+    potential: Terms
+
+    def names(self) -> set[str]:
+        """The entries of ``[numbers]`` that occur."""
+        entries = [*self.mass.values(), self.potential]
+        return {
+            name for terms in entries for _, factors in terms for name, _ in factors if not is_angle(name)
+        }
+
+    def build(
+        self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]
+    ) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], fmpq_mpoly]:
+        """M and the potential in normal form, with the given polynomials for the numbers."""
+        n = trig.joint_count(ring)
+        upper = {place: _polynomial(terms, ring, numbers) for place, terms in self.mass.items()}
+        mass = tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
+        return mass, _polynomial(self.potential, ring, numbers)
 
 
 def is_angle(name: str) -> bool:
-    """Whether the name is one of a sine or cosine, and so cannot name a number."""
+    """Whether the name is that of a sine or cosine, and so cannot name a number."""
     return _ANGLE.fullmatch(name) is not None
 
 
-def monomial(text: str, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
-    """The product of the factors in the text, in normal form; 1 for an empty text.
+def read_printed(fields: Fields, n: int, numbers: Collection[str]) -> Printed:
+    """The ``[model]`` table of an arm with n joints; problems are noted in ``fields``."""
+    mass = {
+        (i, j): _read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)
+    }
+    potential = _read_terms(fields, "potential", n, numbers)
+    for i, j in mass:
+        mirror = f"M{j + 1}{i + 1}"
+        if i != j and mirror in fields.data:
+            fields.raw(mirror)
+            fields.fail(mirror, "M is symmetric: its entries below the diagonal are not given", "remove it")
+    return Printed(mass, potential)
 
-    Raises:
-        TermError: a factor that is no sine, cosine or known number.
-    """
-    product = trig.constant(ring, 1)
-    for word in text.split():
-        product = trig.normal_form(product * _factor(word, ring, numbers))
-    return product
+
+def _read_terms(fields: Fields, key: str, n: int, numbers: Collection[str]) -> Terms:
+    value = fields.raw(key, required=True)
+    if value is None:
+        return ()
+    if not isinstance(value, list) or len(value) > _MOST_TERMS:
+        rule = f"must be a list of at most {_MOST_TERMS} terms"
+        fields.fail(key, rule, f'write {key} = [[2.351, ""], [0.168, "c2"]]')
+        return ()
+    read = [_read_term(fields, (*fields.path, key, i), term, n, numbers) for i, term in enumerate(value)]
+    return tuple(term for term in read if term is not None)
 
 
-def _factor(word: str, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
-    match = _FACTOR.fullmatch(word)
-    if match is None:
-        raise TermError(f"{word!r} is not a factor")
-    name, power = match[1], int(match[2] or 1)
-    if is_angle(name):
-        return _angle(name, ring) ** power
-    if name not in numbers:
-        raise TermError(f"{name!r} is neither a sine, a cosine nor an entry of [numbers]")
-    return numbers[name] ** power
+def _read_term(
+    fields: Fields, path: KeyPath, term: object, n: int, numbers: Collection[str]
+) -> tuple[Fraction, tuple[tuple[str, int], ...]] | None:
+    if not isinstance(term, list) or len(term) != 2 or not isinstance(term[1], str):
+        fields.notes.fail(path, term, "must be a decimal and a text of factors", 'write [0.168, "c2"]')
+        return None
+    coefficient = fields.decimal((*path, 0), term[0])
+    factors = [_FACTOR.fullmatch(word) for word in term[1].split()]
+    rule = _broken_rule(term[1], [match and match[1] for match in factors], n, numbers)
+    if rule:
+        known = ", ".join(["s1", "c1", *numbers])
+        fields.notes.fail((*path, 1), term[1], rule, f"use factors like {known}, separated by spaces")
+    if coefficient is None or rule:
+        return None
+    return coefficient, tuple((match[1], int(match[2] or 1)) for match in factors if match)
+
+
+def _broken_rule(text: str, names: list[str | None], n: int, numbers: Collection[str]) -> str:
+    if len(names) > _MOST_FACTORS:
+        return f"has more than {_MOST_FACTORS} factors"
+    for name, word in zip(names, text.split(), strict=True):
+        if name is None:
+            return f"{word!r} is no factor"
+        if is_angle(name) and not all(1 <= int(digit) <= n for digit in name[1:]):
+            return f"{word!r} speaks of a joint that this arm of {n} does not have"
+        if not is_angle(name) and name not in numbers:
+            return f"{word!r} is neither a sine, a cosine nor an entry of [numbers]"
+    return ""
+
+
+def _polynomial(terms: Terms, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
+    result = trig.constant(ring, 0)
+    for coefficient, factors in terms:
+        product = trig.constant(ring, coefficient)
+        for name, power in factors:
+            factor = _angle(name, ring) if is_angle(name) else numbers[name]
+            product = trig.normal_form(product * factor**power)
+        result += product
+    return result
 
 
 def _angle(name: str, ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
@@ -57,9 +127,6 @@ def _angle(name: str, ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
     n = trig.joint_count(ring)
     sine, cosine = trig.constant(ring, 0), trig.constant(ring, 1)
     for digit in name[1:]:
-        joint = int(digit) - 1
-        if joint >= n:
-            raise TermError(f"{name!r} speaks of joint {digit}, and the arm has {n}")
-        s, c = ring.gen(joint), ring.gen(n + joint)
+        s, c = ring.gen(int(digit) - 1), ring.gen(n + int(digit) - 1)
         sine, cosine = sine * c + cosine * s, cosine * c - sine * s
     return trig.normal_form(sine if name[0] == "s" else cosine)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 
+from lyapcheck.errors import argument_error
 from lyapcheck.robots.armfile import read_arm
 from lyapcheck.robots.model import RobotModel
 
@@ -23,7 +25,18 @@ def load(name_or_path: str | Path) -> RobotModel:
     """
     if str(name_or_path) in names():
         return _builtin(str(name_or_path))
-    return read_arm(Path(name_or_path), known=names())
+    path = Path(name_or_path)
+    if not path.suffix and not path.exists():
+        raise argument_error(
+            "robot", name_or_path, "is neither a built-in arm nor a file", _advice(str(name_or_path))
+        )
+    return read_arm(path)
+
+
+def _advice(name: str) -> str:
+    near = get_close_matches(name, names(), n=1)
+    guess = f"did you mean {near[0]}? " if near else ""
+    return f"{guess}built-in arms: {', '.join(names())}; or give the path of an arm file (.toml)"
 
 
 @lru_cache(maxsize=64)

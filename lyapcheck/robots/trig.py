@@ -46,6 +46,16 @@ def fraction(coefficient: fmpq) -> Fraction:
     return Fraction(int(coefficient.p), int(coefficient.q))
 
 
+def to_terms(poly: fmpq_mpoly) -> list[tuple[tuple[int, ...], Fraction]]:
+    """The polynomial as plain data, in the order of its ring."""
+    return [(tuple(int(power) for power in powers), fraction(value)) for powers, value in poly.terms()]
+
+
+def from_terms(ring: fmpq_mpoly_ctx, terms: Sequence[tuple[tuple[int, ...], Fraction]]) -> fmpq_mpoly:
+    """The polynomial with these terms; inverse of `to_terms`."""
+    return ring.from_dict({powers: fmpq(value.numerator, value.denominator) for powers, value in terms})
+
+
 def derivative(poly: fmpq_mpoly, i: int) -> fmpq_mpoly:
     """The derivative with respect to the joint angle q_i, i counted from 0, in normal form.
 
@@ -86,9 +96,7 @@ def evaluate(poly: fmpq_mpoly, values: Sequence[T], lift: Callable[[Fraction], T
     return evaluate_all([poly], values, lift)[0]
 
 
-def evaluate_all(
-    polys: Sequence[fmpq_mpoly], values: Sequence[T], lift: Callable[[Fraction], T]
-) -> list[T]:
+def evaluate_all(polys: Sequence[fmpq_mpoly], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
     """The values of several polynomials of one ring, each monomial computed once; see `evaluate`."""
     known: dict[tuple[int, ...], T] = {}
     return [total([_term(term, known, values, lift) for term in poly.terms()], lift) for poly in polys]

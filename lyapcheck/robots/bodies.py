@@ -1,0 +1,124 @@
+"""Reading ``[[links]]``: the mass geometry of each link, and whether such a body can exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+from lyapcheck.robots.fields import Fields, Sign
+from lyapcheck.robots.number import Number
+
+_ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+_PLACE = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
+_ZERO = Number(Fraction(0))
+
+
+@dataclass(frozen=True)
+class Body:
+    """One link as read; ``inertia`` has the six entries of a tensor, or only ``planar``."""
+
+    axis: tuple[Number, ...]
+    origin: tuple[Number, ...]
+    mass: Number
+    com: tuple[Number, ...]
+    inertia: dict[str, Number]
+
+    def numbers(self, name: str) -> dict[str, Number]:
+        """The numbers of the link under the names that reports use; axes are exact and not listed."""
+        found = {f"{name}_mass": self.mass}
+        for key, vector in (("origin", self.origin), ("com", self.com)):
+            found |= {f"{name}_{key}_{letter}": x for letter, x in zip("xyz", vector, strict=True)}
+        return found | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
+
+
+def read_bodies(tables: list[Fields]) -> list[Body | None]:
+    """The links, base first; ``None`` for a link with a problem."""
+    bodies = [_read_body(table) for table in tables]
+    axes = [[x.value for x in body.axis] for body in bodies if body is not None]
+    if all(_parallel(axis, axes[0]) for axis in axes):
+        return bodies
+    for table, body in zip(tables, bodies, strict=True):
+        if body is not None and "inertia" in body.inertia:
+            rule = "one number describes turning in a plane only, and the axes of this arm are not parallel"
+            table.fail("inertia", rule, "give a table of ixx, iyy, izz and, where not zero, ixy, ixz, iyz")
+    return bodies
+
+
+def _read_body(fields: Fields) -> Body | None:
+    axis = _read_axis(fields)
+    origin, com = fields.vector("origin", "m"), fields.vector("com", "m")
+    mass = fields.number("mass", "kg", Sign.POSITIVE, required=True)
+    inertia = _read_inertia(fields)
+    if axis is None or origin is None or com is None or mass is None or inertia is None:
+        return None
+    return Body(tuple(axis), tuple(origin), mass, tuple(com), inertia)
+
+
+def _read_axis(fields: Fields) -> list[Number] | None:
+    axis = fields.vector("axis", "")
+    if axis is None:
+        return None
+    if any(x.ranged for x in axis) or sum(x.value**2 for x in axis) != 1:
+        fields.fail("axis", "must be a vector of length exactly 1", "write [0, 0, 1], or [0.6, 0.8, 0]")
+        return None
+    return axis
+
+
+def _read_inertia(fields: Fields) -> dict[str, Number] | None:
+    value = fields.data.get("inertia")
+    if not isinstance(value, dict) or "value" in value:
+        planar = fields.number("inertia", "kg·m²", Sign.NONNEGATIVE, required=True)
+        return None if planar is None else {"inertia": planar}
+    table = fields.table("inertia")
+    if table is None:
+        return None
+    read = {key: table.number(key, "kg·m²", required=key in _ENTRIES[:3]) for key in _ENTRIES}
+    table.close()
+    if any(read[key] is None and key in (*_ENTRIES[:3], *table.data) for key in _ENTRIES):
+        return None
+    tensor = {key: number or _ZERO for key, number in read.items()}
+    broken = _broken_rule(tensor)
+    if broken:
+        fields.fail(
+            "inertia", broken, "check the signs and the point about which it is given (the centre of mass)"
+        )
+        return None
+    return tensor
+
+
+def _broken_rule(tensor: dict[str, Number]) -> str:
+    """Why no body has this inertia for some values in range; empty when there is one.
+
+    Both conditions are convex and the entries independent, so the corners of the ranges decide.
+    """
+    for matrix in _corners(tensor):
+        if not _positive_semidefinite(matrix):
+            return "must be positive semidefinite"
+        half = sum((matrix[i][i] for i in range(3)), Fraction(0)) / 2
+        second = [[half * (i == k) - matrix[i][k] for k in range(3)] for i in range(3)]
+        if not _positive_semidefinite(second):
+            return "must obey the triangle inequality (no principal moment above the sum of the others)"
+    return ""
+
+
+def _corners(tensor: dict[str, Number]) -> Iterator[list[list[Fraction]]]:
+    for corner in product(*(sorted(set(tensor[key].bounds)) for key in _ENTRIES)):
+        matrix = [[Fraction(0)] * 3 for _ in range(3)]
+        for key, value in zip(_ENTRIES, corner, strict=True):
+            i, k = _PLACE[key]
+            matrix[i][k] = matrix[k][i] = value
+        yield matrix
+
+
+def _positive_semidefinite(a: list[list[Fraction]]) -> bool:
+    """All principal minors of a symmetric 3 × 3 matrix are non-negative."""
+    pairs = [a[i][i] * a[k][k] - a[i][k] ** 2 for i, k in ((0, 1), (0, 2), (1, 2))]
+    cofactors = (pairs[2], a[1][2] * a[0][2] - a[0][1] * a[2][2], a[0][1] * a[1][2] - a[0][2] * a[1][1])
+    determinant = sum(x * y for x, y in zip(a[0], cofactors, strict=True))
+    return min(*(a[i][i] for i in range(3)), *pairs, determinant) >= 0
+
+
+def _parallel(a: list[Fraction], b: list[Fraction]) -> bool:
+    return all(a[i] * b[k] == a[k] * b[i] for i in range(3) for k in range(3))

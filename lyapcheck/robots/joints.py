@@ -1,0 +1,64 @@
+"""What an arm file says of a joint's motor: friction, limits, encoder."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from lyapcheck.robots.fields import Fields, Sign
+from lyapcheck.robots.number import Number
+
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One joint as read; ``None`` where the file says nothing (or nothing usable)."""
+
+    name: str
+    viscous: Number | None
+    coulomb: Number | None
+    torque_limit: Number | None
+    encoder: int | None
+    gravity_bound: Number | None
+
+    def numbers(self) -> dict[str, Number]:
+        """The numbers of the joint under the names that reports use."""
+        parts = ("viscous", "coulomb", "torque_limit", "gravity_bound")
+        found = {f"{self.name}_{part}": getattr(self, part) for part in parts}
+        return {name: number for name, number in found.items() if number is not None}
+
+
+def read_joints(tables: list[Fields]) -> list[Joint]:
+    """The joints of ``[[links]]`` or ``[[joints]]``, base first; names must differ."""
+    joints = [_read_joint(table) for table in tables]
+    for i, joint in enumerate(joints):
+        if joint.name and joint.name in [other.name for other in joints[:i]]:
+            tables[i].fail("name", "is used by another joint", "give each joint its own name")
+    return joints
+
+
+def _read_joint(fields: Fields) -> Joint:
+    name = fields.text("name", required=True)
+    if name and not _NAME.fullmatch(name):
+        rule = "must be up to 31 small letters, digits and underscores, a letter first"
+        fields.fail("name", rule, 'write a name like "shoulder"')
+    _refuse_other_kinds(fields)
+    return Joint(
+        name,
+        fields.number("viscous", "N·m·s/rad", Sign.POSITIVE, required=True),
+        fields.number("coulomb", "N·m", Sign.NONNEGATIVE),
+        fields.number("torque_limit", "N·m", Sign.POSITIVE),
+        fields.count("encoder"),
+        fields.number("gravity_bound", "N·m", Sign.NONNEGATIVE),
+    )
+
+
+def _refuse_other_kinds(fields: Fields) -> None:
+    kind = fields.text("type")
+    if kind in ("", "revolute", "continuous"):
+        return
+    rule = "only revolute joints are understood"
+    if kind == "prismatic":
+        rule = "the paper assumes revolute joints: its bounds on M, C and g fail for a prismatic one"
+    fields.fail("type", rule, "remove the joint, or hold it fixed and give the arm without it")

@@ -1,0 +1,52 @@
+"""A check that an arm as described can exist: M positive definite at a spread of states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import islice, product
+
+from flint import fmpq, fmpq_mat
+
+from lyapcheck.robots.fields import Notes
+from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.number import decimal_text
+
+_STATES = 24
+_MOST_CORNERS = 64
+
+
+def check_positive_definite(model: RobotModel, place: str, notes: Notes) -> None:
+    """Note a problem when M is not positive definite at a state, at a corner of the parameter ranges.
+
+    Exact at each state, but at finitely many: it finds slips in a file and proves nothing.
+    """
+    for corner, state in product(_corners(model), range(_STATES)):
+        tangents = [_tangent(state, joint) for joint in range(model.n)]
+        sin = [2 * t / (1 + t * t) for t in tangents]
+        cos = [(1 - t * t) / (1 + t * t) for t in tangents]
+        if not _positive_definite(model.mass_at(sin, cos, Fraction, corner)):
+            where = [f"cos q{i + 1} = {decimal_text(value)}" for i, value in enumerate(cos)]
+            where += [f"{name} = {decimal_text(value)}" for name, value in corner.items()]
+            rule = f"makes M not positive definite, e.g. at {', '.join(where)}"
+            repair = "every joint must move some inertia: check masses, inertias, signs and ranges"
+            notes.fail((place,), None, rule, repair)
+            return
+
+
+def _corners(model: RobotModel) -> Iterator[dict[str, Fraction]]:
+    """Corners of the box of parameters, the first few when there are very many."""
+    bounds = [number.bounds for number in model.parameters.values()]
+    for values in islice(product(*bounds), _MOST_CORNERS):
+        yield dict(zip(model.parameters, values, strict=True))
+
+
+def _tangent(state: int, joint: int) -> Fraction:
+    """tan(q/2) of a joint: 0 everywhere in the first state, then spread over the circle."""
+    return Fraction((state * (2 * joint + 3)) % 23, 5) * (-1 if state % 2 else 1)
+
+
+def _positive_definite(rows: list[list[Fraction]]) -> bool:
+    """All leading principal minors are positive."""
+    exact = [[fmpq(x.numerator, x.denominator) for x in row] for row in rows]
+    return all(fmpq_mat([row[:k] for row in exact[:k]]).det() > 0 for k in range(1, len(exact) + 1))
