@@ -1,0 +1,17 @@
+"""Reading what users write: TOML with every decimal exact, every key's place known, every problem told at once."""
+
+from lyapcheck.files.decimals import NotFinite, Written, decimal_text, round_down
+from lyapcheck.files.fields import Fields, KeyPath, Notes
+from lyapcheck.files.toml import Document, open_document
+
+__all__ = [
+    "Document",
+    "Fields",
+    "KeyPath",
+    "NotFinite",
+    "Notes",
+    "Written",
+    "decimal_text",
+    "open_document",
+    "round_down",
+]

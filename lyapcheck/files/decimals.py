@@ -1,0 +1,87 @@
+"""Decimals as they are written: the exact rational value and the digits the writer chose."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+LARGEST_EXPONENT = 400
+"""Decimals beyond 10^±400 are outside every physical range; reading one exactly could fill the memory."""
+
+
+class Written(Fraction):
+    """An exact rational that remembers the text it was read from."""
+
+    __slots__ = ("text",)
+    text: str
+
+    @property
+    def places(self) -> int:
+        """Digits after the decimal point, as written: ``0.50`` has two, ``5e-3`` has three, ``28`` none."""
+        return decimal_places(self.text)
+
+    def __reduce__(self) -> Any:
+        return (written, (self.text,))
+
+
+@dataclass(frozen=True)
+class NotFinite:
+    """A number of a file that has no finite exact value here: ``nan``, ``inf``, or one beyond all sizes."""
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def written(text: str) -> Written | NotFinite:
+    """The exact value of a TOML float."""
+    plain = text.replace("_", "")
+    exponent = re.search(r"[eE]([+-]?\d+)$", plain)
+    if not re.match(r"[+-]?\d", plain) or (exponent and abs(int(exponent[1][:9])) > LARGEST_EXPONENT):
+        return NotFinite(text)
+    value = Written(plain)
+    value.text = plain
+    return value
+
+
+def decimal_places(text: str) -> int:
+    """Digits after the decimal point of a decimal as written, with its exponent taken into account."""
+    mantissa, _, exponent = text.lower().partition("e")
+    return max(0, len(mantissa.partition(".")[2]) - int(exponent or 0))
+
+
+def places_of(value: Fraction | int) -> int:
+    """Digits after the decimal point that the writer of a value used; integers have none."""
+    return value.places if isinstance(value, Written) else 0
+
+
+def round_down(value: Fraction, places: int) -> Fraction:
+    """The largest decimal with so many places that is not above ``value``."""
+    scale = 10**places
+    return Fraction((value.numerator * scale) // value.denominator, scale)
+
+
+def decimal_text(value: Fraction | int, places: int | None = None) -> str:
+    """The value as a terminating decimal where it has one, as a fraction otherwise.
+
+    With ``places`` the decimal is padded with zeros to that many places.
+    """
+    value = Fraction(value)
+    needed = _terminating_places(value.denominator)
+    if needed is None:
+        return f"{value.numerator}/{value.denominator}"
+    digits = max(needed, places or 0)
+    scaled = str(abs(value.numerator) * 10**digits // value.denominator).rjust(digits + 1, "0")
+    text = f"{scaled[:-digits]}.{scaled[-digits:]}" if digits else scaled
+    return f"-{text}" if value < 0 else text
+
+
+def _terminating_places(denominator: int) -> int | None:
+    twos = (denominator & -denominator).bit_length() - 1
+    rest, fives = denominator >> twos, 0
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    return max(twos, fives) if rest == 1 else None

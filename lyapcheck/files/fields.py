@@ -1,0 +1,141 @@
+"""Reading one table of a file: each getter returns a checked value, or notes what is wrong and returns nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from difflib import get_close_matches
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.errors import Problem
+from lyapcheck.files.places import KeyPath
+
+
+class Notes:
+    """Collects the problems of one file, so that all of them are told at once."""
+
+    def __init__(self, file: str, line: Callable[[KeyPath], int | None]) -> None:
+        self.file = file
+        self.problems: list[Problem] = []
+        self._line = line
+
+    def fail(self, path: KeyPath, value: object, rule: str, repair: str) -> None:
+        """Note one problem at a key."""
+        shown = "" if value is None else _shown(value)
+        self.problems.append(Problem(self.file, self._line(path), key_text(path), shown, rule, repair))
+
+
+class Fields:
+    """The keys of one table; ``close`` notes those that nobody asked for."""
+
+    def __init__(self, data: dict[str, Any], path: KeyPath, notes: Notes) -> None:
+        self.data, self.path, self.notes = data, path, notes
+        self._asked: list[str] = []
+
+    def fail(self, key: str, rule: str, repair: str) -> None:
+        """Note a problem with one key of this table."""
+        self.notes.fail((*self.path, key), self.data.get(key), rule, repair)
+
+    def raw(self, key: str, required: bool = False) -> Any:
+        """The value as read, ``None`` when absent."""
+        self._asked.append(key)
+        if required and key not in self.data:
+            self.fail(key, "is missing", f"add {key} to this table")
+        return self.data.get(key)
+
+    def text(self, key: str, required: bool = False) -> str:
+        """A string, empty when absent."""
+        value = self.raw(key, required)
+        if value is None:
+            return ""
+        if not isinstance(value, str) or not value.strip():
+            self.fail(key, "must be a non-empty text", f'write {key} = "…"')
+            return ""
+        return value
+
+    def choice(self, key: str, options: Sequence[str], default: str) -> str:
+        """One of a few texts, ``default`` when absent."""
+        value = self.text(key)
+        if value and value not in options:
+            self.fail(key, f"must be one of {', '.join(options)}", f'write {key} = "{default}"')
+            return default
+        return value or default
+
+    def integer(self, key: str, low: int, high: int, required: bool = False) -> int | None:
+        """A whole number between two bounds, ``None`` when absent or bad."""
+        value = self.raw(key, required)
+        if value is None:
+            return None
+        if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
+            self.fail(key, f"must be a whole number from {low} to {high}", f"write {key} = {low}")
+            return None
+        return value
+
+    def number(self, key: str, positive: bool = True) -> Fraction | None:
+        """One exact number, ``None`` when absent or bad."""
+        value = self.raw(key)
+        return None if value is None else self._number((*self.path, key), value, positive)
+
+    def numbers(self, key: str, required: bool = False, positive: bool = True) -> tuple[Fraction, ...] | None:
+        """A non-empty list of exact numbers, ``None`` when absent or bad."""
+        value = self.raw(key, required)
+        if value is None:
+            return None
+        if not isinstance(value, list) or not value:
+            self.fail(key, "must be a list of numbers, one a joint", f"write {key} = [1.0, 1.0]")
+            return None
+        items = [self._number((*self.path, key, i), item, positive) for i, item in enumerate(value)]
+        kept = tuple(item for item in items if item is not None)
+        return kept if len(kept) == len(items) else None
+
+    def table(self, key: str) -> Fields | None:
+        """A table, ``None`` when absent or bad."""
+        value = self.raw(key)
+        if value is None:
+            return None
+        if not isinstance(value, dict):
+            self.fail(key, "must be a table", f"write it as [{key_text((*self.path, key))}]")
+            return None
+        return type(self)(value, (*self.path, key), self.notes)
+
+    def tables(self, key: str, required: bool = False) -> list[Fields]:
+        """An array of tables, empty when absent or bad."""
+        value = self.raw(key, required)
+        if value is None:
+            return []
+        if not isinstance(value, list) or not value or not all(isinstance(item, dict) for item in value):
+            self.fail(key, "must be an array of tables", f"write each entry as [[{key}]]")
+            return []
+        return [type(self)(item, (*self.path, key, i), self.notes) for i, item in enumerate(value)]
+
+    def close(self) -> None:
+        """Note every key of the table that is not known."""
+        known = sorted(set(self._asked))
+        for key in self.data:
+            if key not in known:
+                near = get_close_matches(key, known, 1)
+                repair = f"did you mean {near[0]}?" if near else f"remove it, or use one of: {', '.join(known)}"
+                self.fail(key, "is not a known key here", repair)
+
+    def _number(self, path: KeyPath, value: object, positive: bool) -> Fraction | None:
+        if not isinstance(value, int | Fraction) or isinstance(value, bool):
+            self.notes.fail(path, value, "must be a finite decimal number", "write a plain decimal like 0.223")
+            return None
+        if value < 0 or (positive and value == 0):
+            rule = "must be positive" if positive else "must not be negative"
+            self.notes.fail(path, value, rule, "correct the sign or the value")
+            return None
+        return value if isinstance(value, Fraction) else Fraction(value)
+
+
+def key_text(path: KeyPath) -> str:
+    """The path as a reader names it, list entries counted from 1: ``gains[2].kp[1]``."""
+    text = ""
+    for part in path:
+        text += f"[{part + 1}]" if isinstance(part, int) else f".{part}"
+    return text.lstrip(".")
+
+
+def _shown(value: object) -> str:
+    text = str(getattr(value, "text", value))
+    return text if len(text) <= 60 else text[:57] + "…"

@@ -1,0 +1,84 @@
+"""A TOML file, read exactly."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.decimals import written
+from lyapcheck.files.places import KeyPath, Place, places
+
+LARGEST_FILE = 20_000_000
+"""Bytes; a file of ten thousand gain sets has about two million."""
+
+
+@dataclass(frozen=True)
+class Document:
+    """A TOML file: its data, floats as exact ``Written`` rationals, and the place of each key."""
+
+    name: str
+    text: str
+    data: dict[str, Any]
+
+    @cached_property
+    def _places(self) -> dict[KeyPath, Place]:
+        return places(self.text)
+
+    def place(self, path: KeyPath) -> Place | None:
+        """Where a key stands, or the nearest table or list around it that stands in the file."""
+        while path and path not in self._places:
+            path = path[:-1]
+        return self._places.get(path)
+
+    def line(self, path: KeyPath) -> int | None:
+        """The line of a key, counted from 1."""
+        place = self.place(path)
+        return None if place is None else place.line
+
+
+def open_document(path: Path, shown: str | None = None) -> Document:
+    """Read a TOML file; ``shown`` is the name that messages use, as the user wrote it.
+
+    Raises:
+        InputError: no such file, not a file, too large, not UTF-8, or not TOML (with the line).
+    """
+    name = str(path) if shown is None else shown
+    text = _text(path, name)
+    try:
+        return Document(name, text, tomllib.loads(text, parse_float=written))
+    except tomllib.TOMLDecodeError as error:
+        raise _syntax(name, str(error)) from None
+    except RecursionError:
+        raise _refused(name, "is nested too deeply", "write plain tables and lists") from None
+    except ValueError:
+        raise _refused(name, "holds an integer of absurd length", "write a number of physical size") from None
+
+
+def _text(path: Path, name: str) -> str:
+    try:
+        if path.is_dir():
+            raise _refused(name, "is a folder", "name a file in it")
+        if path.stat().st_size > LARGEST_FILE:
+            raise _refused(name, f"is larger than {LARGEST_FILE} bytes", "split it into several files")
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise _refused(name, "is not UTF-8 text", "save it as UTF-8") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise _refused(name, f"cannot be read ({reason})", "check the path") from None
+
+
+def _refused(name: str, rule: str, repair: str) -> InputError:
+    return InputError(Problem(name, None, "file", "", rule, repair))
+
+
+def _syntax(name: str, message: str) -> InputError:
+    found = re.search(r"\(at line (\d+), column (\d+)\)", message)
+    what = re.sub(r" \(at .*\)$", "", message)
+    line = int(found[1]) if found else None
+    return InputError(Problem(name, line, "TOML", "", what, "correct the syntax on this line"))
