@@ -6,36 +6,42 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.csv import run_csv
     from lyapcheck.simulate.run import Indices, Promises, Run, SimulationFailed
     from lyapcheck.simulate.task import PAPER_TASK, Task
+    from lyapcheck.simulate.trial import experiment
 
 _HOME = {
     "PAPER_TASK": "task",
+    "Bench": "bench",
     "Indices": "run",
     "Promises": "run",
     "Run": "run",
     "SimulationFailed": "run",
     "Task": "task",
+    "experiment": "trial",
     "run_csv": "csv",
     "simulate": "closed_loop",
 }
 
 __all__ = [
     "PAPER_TASK",
+    "Bench",
     "Indices",
     "Promises",
     "Run",
     "SimulationFailed",
     "Task",
+    "experiment",
     "run_csv",
     "simulate",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Import a public name when it is first asked for: NumPy and SciPy are not needed to print a help page."""
+    """Import a public name when it is first asked for: a help page needs no NumPy."""
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

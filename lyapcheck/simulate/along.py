@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 def lyapunov_along(
-    gains: Gains, model: RobotModel, q: Array, e: Array, w: Array, eps0: float
+    gains: Gains, model: RobotModel, *, q: Array, e: Array, w: Array, eps0: float
 ) -> tuple[Array, Array]:
     """V of (12) in J and its derivative along (11) in W at (N, n) states, with ε = ε₀/(1 + ‖e‖).
 
@@ -41,4 +41,4 @@ def lyapunov_along(
 
 
 def _dot(a: Array, b: Array) -> Array:
-    return np.sum(a * b, axis=1)
+    return np.asarray(np.sum(a * b, axis=1))

@@ -1,4 +1,4 @@
-"""The bench of the experiment as a discrete map: sensors, controller, hold, motors, and the arm between two samples."""
+"""The bench as a discrete map: encoders, controller, hold, motors, and the arm between two samples."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 class Bench:
     """How the experiment was run.
 
-    The controller reads the encoders every ``period`` seconds, takes the backward difference of two readings for
-    the velocity, and holds its torque, cut at the motors' limits, until the next reading. Dry friction is
-    f_c tanh(w/creep): a joint that should stick creeps at a fraction of ``creep`` rad/s instead.
+    The controller reads the encoders every ``period`` seconds, takes the backward difference of two
+    readings for the velocity, and holds its torque, cut at the motors' limits, until the next reading.
+    Dry friction is f_c tanh(w/creep): a joint that should stick creeps at about ``creep`` rad/s instead.
 
     References: ``reyes2019family``, Section 4 and Table 1.
     """
@@ -34,7 +34,7 @@ class Bench:
 
 
 def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> Any:
-    """The CasADi function ((q, w, last reading), q_d) ↦ (the same one period later, the torque held meanwhile).
+    """The CasADi function ((q, w, last reading), q_d) ↦ (the same one period later, the torque held).
 
     The arm moves by ``substeps`` steps of the classical Runge–Kutta method.
     """
@@ -61,7 +61,7 @@ def _controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
 
 
 def read_encoders(q: Any, counts: Sequence[int | None]) -> Any:
-    """The nearest encoder line to each angle in rad; the angle itself where the arm's encoder is not known."""
+    """The nearest encoder line to each angle in rad; the angle itself where the encoder is unknown."""
     line = [2.0 * math.pi / number if number else None for number in counts]
     return ca.vertcat(*(q[i] if a is None else a * ca.floor(q[i] / a + 0.5) for i, a in enumerate(line)))
 

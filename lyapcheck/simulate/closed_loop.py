@@ -1,4 +1,4 @@
-"""The reference simulation: the closed loop (11) as written, without friction, sampling or saturation of the bench."""
+"""The reference simulation: the closed loop (11) as written, with nothing of the bench."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
-from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.integrate import Trajectory, integrate
 from lyapcheck.simulate.results import Motion, run_of
 from lyapcheck.simulate.run import Run, SimulationFailed
-from lyapcheck.simulate.task import Task, task_for
+from lyapcheck.simulate.setup import Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control import GainSet
@@ -37,6 +36,7 @@ def simulate(
     q0: Sequence[float] | None = None,
     w0: Sequence[float] | None = None,
     T: float = 5.0,
+    *,
     eps0: float | None = None,
     points: int = POINTS,
     tolerance: float = TOLERANCE,
@@ -44,8 +44,8 @@ def simulate(
 ) -> Run:
     """Move an arm under (6), or under PD with gravity compensation, along the closed loop (11).
 
-    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w. The integration is done twice, the second time ten times
-    tighter; the second is handed back and their difference is its ``accuracy``.
+    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w. The integration is done twice, the second
+    time ten times tighter; the second is handed back and their difference is its ``accuracy``.
 
     Args:
         gain_set: the controller, of any family.
@@ -67,22 +67,20 @@ def simulate(
 
     References: (6), (11), (12), (20) of ``reyes2019family``.
     """
-    task = task_for(model.n, q_d, q0, w0, T, eps0, points)
-    gains = gains_for(gain_set, model.n)
-    loop = closed_loop(gains, model)
-    rough, fine = _twice(loop, task, points, tolerance, on_progress or _silent)
-    reached = min(rough.t.size, fine.t.size)
-    accuracy = float(np.max(np.abs(fine.y[:reached] - rough.y[:reached])[:, : 2 * model.n]))
-    run = _reference(loop, gains, model, task, 0.0 if eps0 is None else float(eps0), fine, accuracy)
-    if fine.failure is not None:
-        raise SimulationFailed(f"{gains.name} on {model.name}: {fine.failure}", run)
+    setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
+    loop = closed_loop(setup.gains, model)
+    rough, fine = _twice(loop, setup, points, tolerance, on_progress or _silent)
+    failure = fine.failure or rough.failure
+    run = _reference(loop, setup, fine, math.nan if failure else _difference(rough, fine, model.n))
+    if failure is not None:
+        raise SimulationFailed(f"{setup.title}: {failure}", run)
     return run
 
 
 def _twice(
-    loop: ClosedLoop, task: Task, points: int, tolerance: float, on_progress: Progress
+    loop: ClosedLoop, setup: Setup, points: int, tolerance: float, on_progress: Progress
 ) -> tuple[Trajectory, Trajectory]:
-    rate, jacobian = loop.compiled_rate(), loop.compiled_jacobian()
+    rate, jacobian, task = loop.compiled_rate(), loop.compiled_jacobian(), setup.task
     goal, t = np.array(task.q_d), np.linspace(0.0, task.T, points)
     y0 = np.array([*task.q0, *task.w0, 0.0, 0.0])
 
@@ -93,35 +91,27 @@ def _twice(
             y0,
             t,
             tolerance,
-            lambda time: on_progress(done + 0.5 * time / task.T, ""),
+            on_time=lambda time: on_progress(done + 0.5 * time / task.T, ""),
         )
 
     return once(tolerance, 0.0), once(tolerance / 10, 0.5)
 
 
-def _reference(
-    loop: ClosedLoop,
-    gains: Gains,
-    model: RobotModel,
-    task: Task,
-    eps0: float,
-    path: Trajectory,
-    accuracy: float,
-) -> Run:
+def _difference(rough: Trajectory, fine: Trajectory, n: int) -> float:
+    """The largest change of q or w between two solutions."""
+    return float(np.max(np.abs(fine.y - rough.y)[:, : 2 * n]))
+
+
+def _reference(loop: ClosedLoop, setup: Setup, path: Trajectory, accuracy: float) -> Run:
     n, y = loop.n, path.y
-    tau, energy = (np.array(signal) for signal in loop.signals().map(y.shape[0])(y.T, np.array(task.q_d)))
-    motion = Motion("reference", path.t, y[:, :n], y[:, n : 2 * n], tau.T)
-    complete = path.failure is None
+    tau, energy = (np.array(x) for x in loop.signals().map(y.shape[0])(y.T, np.array(setup.task.q_d)))
     return run_of(
-        motion,
-        gains,
-        model,
-        task,
-        eps0,
-        accuracy=accuracy if complete else math.nan,
+        setup,
+        Motion("reference", path.t, y[:, :n], y[:, n : 2 * n], tau.T),
+        accuracy=accuracy,
         energy_balance=_imbalance(energy[0], y[:, 2 * n]),
         L2=math.degrees(math.sqrt(y[-1, -1] / path.t[-1])) if path.t[-1] > 0 else math.nan,
-        complete=complete,
+        complete=path.failure is None,
     )
 
 

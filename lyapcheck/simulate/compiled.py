@@ -11,10 +11,9 @@ Array = NDArray[np.float64]
 
 
 class Compiled:
-    """A CasADi function of vectors with one dense output, evaluated on buffers: about a microsecond a call.
+    """A CasADi function of vectors with one dense output, evaluated on buffers in microseconds.
 
-    The answer is a fresh array each time, a (rows, columns) matrix in Fortran order or a vector when there is a
-    single column.
+    The answer is a fresh array each time, (rows, columns), or (rows,) when there is a single column.
     """
 
     def __init__(self, function: Any) -> None:
@@ -24,10 +23,11 @@ class Compiled:
         self._shape = (rows,) if columns == 1 else (columns, rows)
         self._output = np.zeros(rows * columns)
         for i, values in enumerate(self._inputs):
-            self._buffer.set_arg(i, memoryview(values))
-        self._buffer.set_res(0, memoryview(self._output))
+            self._buffer.set_arg(i, memoryview(values.data))
+        self._buffer.set_res(0, memoryview(self._output.data))
 
     def __call__(self, *values: Array) -> Array:
+        """The output at the given inputs, in the order of the function's arguments."""
         for held, given in zip(self._inputs, values, strict=True):
             held[:] = given
         self._evaluate()

@@ -8,10 +8,10 @@ from lyapcheck.simulate.run import Run
 
 
 def run_csv(run: Run) -> str:
-    """The samples of a run as CSV text: t, then q, w, e (rad, rad/s), tau (N·m) per joint, V (J) and dV (W).
+    """The samples of a run as CSV text: t, then q, w, e, tau of every joint, V and dV, units in the header.
 
-    Every number is the shortest decimal that reads back as the same double. A run that was cut short ends with
-    the last sample it reached.
+    Every number is the shortest decimal that reads back as the same double. A run that was cut short ends
+    with the last sample it reached.
     """
     joints = range(1, run.q.shape[1] + 1)
     signals = ("q", "w", "e", "tau")

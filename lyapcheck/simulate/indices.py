@@ -57,7 +57,7 @@ def _settled(t: Array, size: Array, width: float) -> float:
 
 
 def overshoots(e: Array) -> Array:
-    """Per joint how far it runs past its goal, in per cent of its step |e_i(0)|; NaN for a joint without a step.
+    """Per joint how far it runs past its goal, in per cent of its step |e_i(0)|; NaN without a step.
 
     Args:
         e: (N, n) position errors in rad.
@@ -65,7 +65,7 @@ def overshoots(e: Array) -> Array:
     start = e[0]
     beyond = np.max(-np.sign(start) * e, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(start != 0.0, 100.0 * np.maximum(beyond, 0.0) / np.abs(start), np.nan)
+        return np.asarray(np.where(start != 0.0, 100.0 * np.maximum(beyond, 0.0) / np.abs(start), np.nan))
 
 
 def peak_torques(tau: Array) -> Array:
@@ -78,4 +78,4 @@ def final_errors(e: Array) -> Array:
 
     This is what the paper calls the error in steady state; it is one only if the run has come to rest.
     """
-    return np.degrees(e[-1])
+    return np.asarray(np.degrees(e[-1]))

@@ -1,4 +1,4 @@
-"""Integration of an initial value problem on a grid of times, step by step so that nothing reached is ever lost."""
+"""Integration of an initial value problem on a grid of times; what was reached is never lost."""
 
 from __future__ import annotations
 
@@ -34,10 +34,11 @@ def integrate(
     y0: Array,
     t: Array,
     tolerance: float,
+    *,
     on_time: Callable[[float], None] | None = None,
     max_steps: int = MAX_STEPS,
 ) -> Trajectory:
-    """Solve ẏ = rate(t, y), y(t₀) = y0 at the times ``t`` with LSODA, which turns stiff by itself (Adams to BDF).
+    """Solve ẏ = rate(t, y), y(t₀) = y0 at the times ``t`` with LSODA, which turns stiff (BDF) by itself.
 
     Args:
         rate: the right-hand side, (d,) to (d,).

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def observe(
-    t: Array, V: Array, tau: Array, gains: Gains, model: RobotModel, noise: float, saturated: bool = False
+    t: Array, V: Array, tau: Array, gains: Gains, model: RobotModel, *, noise: float, saturated: bool = False
 ) -> Promises:
     """The promises beside the samples of a run.
 
@@ -69,7 +69,7 @@ def torque_bound(gains: Gains, model: RobotModel) -> float | None:
 
 
 def gravity_bounds(model: RobotModel) -> tuple[float, ...]:
-    """Per joint a bound of |g_i| in N·m: the printed k_gi, or else the sum of the sizes of its coefficients."""
+    """Per joint a bound of |g_i| in N·m: the printed k_gi, else the sum of the sizes of its coefficients."""
     from lyapcheck.robots.trig import evaluate
 
     ones = [1.0] * (2 * model.n) + [max(map(abs, map(float, p.bounds))) for p in model.parameters.values()]

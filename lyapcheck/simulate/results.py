@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.simulate import indices
 from lyapcheck.simulate.along import lyapunov_along
-from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.monitor import observe, torque_limits
 from lyapcheck.simulate.run import Indices, Run
-from lyapcheck.simulate.task import Task
-
-if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
+from lyapcheck.simulate.setup import Setup
 
 Array = NDArray[np.float64]
 
@@ -36,11 +31,8 @@ class Motion:
 
 
 def run_of(
+    setup: Setup,
     motion: Motion,
-    gains: Gains,
-    model: RobotModel,
-    task: Task,
-    eps0: float,
     *,
     accuracy: float,
     energy_balance: float,
@@ -50,15 +42,16 @@ def run_of(
     notes: tuple[str, ...] = (),
 ) -> Run:
     """The run of a motion: everything that can be computed from its samples."""
-    e = np.array(task.q_d) - motion.q
-    V, dV = lyapunov_along(gains, model, motion.q, e, motion.w, eps0)
+    gains, model = setup.gains, setup.model
+    e = np.array(setup.task.q_d) - motion.q
+    V, dV = lyapunov_along(gains, model, q=motion.q, e=e, w=motion.w, eps0=setup.eps0)
     return Run(
         name=gains.name,
         m=gains.family.m,
         robot=model.name,
         kind=motion.kind,
-        task=task,
-        eps0=eps0,
+        task=setup.task,
+        eps0=setup.eps0,
         t=motion.t,
         q=motion.q,
         w=motion.w,
@@ -67,7 +60,7 @@ def run_of(
         V=V,
         dV=dV,
         indices=_indices(motion, e, L2),
-        promises=observe(motion.t, V, motion.tau, gains, model, V_NOISE, saturated),
+        promises=observe(motion.t, V, motion.tau, gains, model, noise=V_NOISE, saturated=saturated),
         accuracy=accuracy,
         energy_balance=energy_balance,
         torque_limit=torque_limits(model),

@@ -49,8 +49,8 @@ class Indices:
 class Run:
     """One simulated motion of one gain set on one arm.
 
-    Signals are sampled at ``t`` (N,) in s: ``q`` (N, n) in rad, ``w`` = q̇ in rad/s, ``e`` = q_d − q in rad, ``tau``
-    in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along (11) in W, both for ``eps0``.
+    Signals are sampled at ``t`` (N,) in s: ``q`` (N, n) in rad, ``w`` = q̇ in rad/s, ``e`` = q_d − q in rad,
+    ``tau`` in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along (11) in W, both for ``eps0``.
     """
 
     name: str
@@ -70,9 +70,9 @@ class Run:
     indices: Indices
     promises: Promises
     accuracy: float
-    """The largest change of q (rad) or w (rad/s) when the tolerance is made ten times tighter; NaN if cut short."""
+    """The largest change of q (rad) or w (rad/s) at a ten times tighter tolerance; NaN if cut short."""
     energy_balance: float
-    """The largest |E(t) + dissipated(t) − E(0)| relative to the largest of these terms; NaN for an experiment."""
+    """The largest |E(t) + dissipated(t) − E(0)| relative to the largest of these; NaN for an experiment."""
     torque_limit: tuple[float | None, ...]
     """N·m, what the motors can give."""
     complete: bool = True

@@ -49,13 +49,14 @@ def task_for(
     q0: Sequence[float] | None,
     w0: Sequence[float] | None,
     T: float,
+    *,
     eps0: float | None = None,
     points: int = 2,
 ) -> Task:
     """The task on an arm of ``n`` joints; missing initial values are zero (at rest at home).
 
-    ``eps0`` (the ε₀ of V) and ``points`` (samples of the run) are only looked at, so that all that is wrong with a
-    request is said at once.
+    ``eps0`` (the ε₀ of V) and ``points`` (samples of the run) are only looked at, so that all that is wrong
+    with a request is said at once.
 
     Raises:
         InputError: every value that is not finite, too large, or of the wrong length; all at once.

@@ -1,0 +1,137 @@
+"""The experiment as the bench would run it: sampled, quantised, saturated, with dry friction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.errors import argument_error
+from lyapcheck.simulate.bench import Bench, dry_friction, enough_substeps, period_map
+from lyapcheck.simulate.indices import l2_index
+from lyapcheck.simulate.results import Motion, run_of
+from lyapcheck.simulate.run import Run, SimulationFailed
+from lyapcheck.simulate.setup import Setup, set_up
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+
+Array = NDArray[np.float64]
+Progress = Callable[[float, str], None]
+
+BENCH = Bench()
+"""The settings of the published experiment."""
+
+
+def experiment(
+    gain_set: GainSet,
+    model: RobotModel,
+    q_d: Sequence[float],
+    q0: Sequence[float] | None = None,
+    w0: Sequence[float] | None = None,
+    T: float = 5.0,
+    *,
+    eps0: float | None = None,
+    bench: Bench = BENCH,
+    on_progress: Progress | None = None,
+) -> Run:
+    """Move an arm under (6), or under PD with gravity compensation, the way the bench did it.
+
+    Every period: read the encoders, take the backward difference for the velocity, compute the torque, cut it
+    at the motors' limits, hold it. The arm is (1) with dry friction f_c tanh(w/creep) added.
+
+    Args:
+        gain_set: the controller, of any family.
+        model: the arm; uncertain parameters, friction among them, are at their nominal values.
+        q_d: (n,) goal in rad.
+        q0: (n,) start in rad; home if missing.
+        w0: (n,) initial rates in rad/s; rest if missing.
+        T: seconds, cut to whole periods.
+        eps0: the ε₀ of V; 0 if missing, and then V is the energy.
+        bench: period and creep rate.
+        on_progress: told the fraction done.
+
+    Returns:
+        One sample a period; ``tau`` is the torque held from then on, ``dV`` what (11) gives at the states
+        passed, and ``accuracy`` the change when the arm is integrated with twice the steps.
+
+    Raises:
+        InputError: a task the arm cannot be given.
+        SimulationFailed: the motion does not stay finite; carries what was reached.
+
+    Soundness: floating point throughout; dry friction is regularised, so a joint that should stick creeps,
+    and most friction torques are assumptions of the model, which the run lists in ``notes``.
+
+    References: ``reyes2019family``, Section 4 and Table 1.
+    """
+    setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0)
+    periods = math.floor(T / bench.period * (1 + 1e-12))
+    if periods < 1:
+        raise argument_error("T", T, f"is shorter than one period of {bench.period} s", "give a longer time")
+    substeps = enough_substeps(model, bench)
+    tell = on_progress or _silent
+    rough = _motion(setup, bench, periods, substeps)
+    tell(1 / 3, "")
+    fine = _motion(setup, bench, periods, 2 * substeps)
+    tell(1.0, "")
+    return _run(setup, bench, rough, fine)
+
+
+def _motion(setup: Setup, bench: Bench, periods: int, substeps: int) -> Motion:
+    """All periods in one call of a compiled map."""
+    n, task = setup.model.n, setup.task
+    whole = period_map(setup.gains, setup.model, bench, substeps).mapaccum(periods)
+    before = np.array(task.q0) - bench.period * np.array(task.w0)
+    start, goal = np.array([*task.q0, *task.w0, *before]), np.array(task.q_d)
+    states, torques = (np.array(x).T for x in whole(start, np.repeat(goal[:, None], periods, axis=1)))
+    path = np.vstack((start, states))[:, : 2 * n]
+    tau = np.vstack((torques, torques[-1:]))
+    t = np.linspace(0.0, bench.period * periods, periods + 1)
+    return Motion("experiment", t, path[:, :n], path[:, n:], tau)
+
+
+def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:
+    reached = min(_finite(rough), _finite(fine))
+    complete = reached == fine.t.size
+    kept = Motion(fine.kind, fine.t[:reached], fine.q[:reached], fine.w[:reached], fine.tau[:reached])
+    run = run_of(
+        setup,
+        kept,
+        accuracy=_difference(rough, fine) if complete else math.nan,
+        energy_balance=math.nan,
+        L2=l2_index(kept.t, np.array(setup.task.q_d) - kept.q) if reached > 1 else math.nan,
+        complete=complete,
+        saturated=True,
+        notes=_notes(setup, bench),
+    )
+    if not complete:
+        raise SimulationFailed(
+            f"{setup.title}: the state is no longer finite after t = {kept.t[-1]:.6g} s", run
+        )
+    return run
+
+
+def _finite(motion: Motion) -> int:
+    """How many samples from the start are finite."""
+    good = np.all(np.isfinite(np.hstack((motion.q, motion.w, motion.tau))), axis=1)
+    return int(good.size if good.all() else max(1, int(np.argmin(good))))
+
+
+def _difference(rough: Motion, fine: Motion) -> float:
+    """The largest change of q or w between two motions."""
+    return float(max(np.max(np.abs(fine.q - rough.q)), np.max(np.abs(fine.w - rough.w))))
+
+
+def _notes(setup: Setup, bench: Bench) -> tuple[str, ...]:
+    friction = ", ".join(f"{torque:g}" for torque in dry_friction(setup.model))
+    hold = f"torque held for {1000 * bench.period:g} ms, velocity by the backward difference of the readings"
+    dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
+    return hold, dry
+
+
+def _silent(fraction: float, note: str) -> None:
+    pass
