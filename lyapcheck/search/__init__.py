@@ -1,0 +1,1 @@
+"""Untrusted and fast: whatever is found here is a candidate until ``check`` has confirmed it."""

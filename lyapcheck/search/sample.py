@@ -1,0 +1,133 @@
+"""dV/dt over many sampled states at once, as the quadratic in ε₀ that it is.
+
+    dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀²,   s = 1/(1 + ‖e‖)
+    a₀ = wᵀBw + wᵀK_v h(w)
+    a₁ = s [wᵀ(H'M − s ê(Mh)ᵀ − C(q,h))w − hᵀK_p h + hᵀ(Bw + K_v h(w))]
+    a₂ = s² [hᵀC(q,h)w + s (êᵀw) hᵀMh − hᵀM(h'∘w)]
+
+so the smallest ε₀ at which a given state has dV/dt = 0 is a root, not a search.
+
+References: ``reyes2019family`` (15).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from lyapcheck.search.setting import Array, Setting
+
+
+@dataclass(frozen=True)
+class States:
+    """Many states: q, e in rad and w in rad/s, each of shape (count, n)."""
+
+    q: Array
+    e: Array
+    w: Array
+
+    def take(self, chosen: Array) -> States:
+        """The states at the given indices."""
+        return States(self.q[chosen], self.e[chosen], self.w[chosen])
+
+    def scaled(self, factor: Array | float) -> States:
+        """The same states with every rate multiplied."""
+        return States(self.q, self.e, self.w * factor)
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """a₀, a₁, a₂ of dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀² at each state, W."""
+
+    a0: Array
+    a1: Array
+    a2: Array
+
+    def at(self, eps0: float) -> Array:
+        """dV/dt for one ε₀."""
+        return -self.a0 + eps0 * (self.a1 + eps0 * self.a2)
+
+    def reciprocal(self) -> Array:
+        """The largest 1/ε₀ with dV/dt >= 0; 0 where no ε₀ > 0 has it."""
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            b1, b2 = self.a1 / self.a0, self.a2 / self.a0
+            root = (b1 + np.sqrt(b1 * b1 + 4 * b2)) / 2
+        return np.where(np.isfinite(root) & (root > 0), root, 0.0)
+
+
+def quadratic(setting: Setting, states: States) -> Quadratic:
+    """The coefficients of dV/dt in ε₀ at each state."""
+    family, w = setting.family, states.w
+    h, dh, hw = family.h(states.e), family.dh(states.e), family.h(w)
+    s, along = _nearness(states.e)
+    mass = setting.numeric.mass(states.q)
+    turning = setting.numeric.coriolis(states.q, h)
+    mw, mh, cw = _times(mass, w), _times(mass, h), _times(turning, w)
+    ew = _dot(along, w)
+    damping = setting.viscous * w + setting.kv * hw
+    fast = _dot(dh * w, mw) - s * ew * _dot(h, mw) - _dot(w, cw)
+    slow = _dot(h, damping) - _dot(h, setting.kp * h)
+    last = _dot(h, cw) + s * ew * _dot(h, mh) - _dot(mh, dh * w)
+    return Quadratic(_dot(w, damping), s * (fast + slow), s * s * last)
+
+
+def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Array]:
+    """The 1/ε₀ that fast states refute at each (q, e), and the directions of w that do so.
+
+        1/ε₀ = λmax(B^(−½) S B^(−½)) / (1 + r),   S = sym(H'M − ê(Mh)ᵀ/(1 + r) − C(q,h))
+
+    with B replaced by B + K_v for the linear function; directions are of unit length.
+    """
+    h, dh = setting.family.h(e), setting.family.dh(e)
+    s, along = _nearness(e)
+    mass = setting.numeric.mass(q)
+    form = dh[:, :, None] * mass - setting.numeric.coriolis(q, h)
+    form -= s[:, None, None] * along[:, :, None] * _times(mass, h)[:, None, :]
+    scale = 1 / np.sqrt(setting.fast_damping)
+    symmetric = (form + np.swapaxes(form, 1, 2)) / 2 * scale[:, None] * scale
+    values, vectors = np.linalg.eigh(symmetric)
+    directions = vectors[:, :, -1] * scale
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return np.asarray(s * values[:, -1]), directions
+
+
+def sample(setting: Setting, count: int, seed: int) -> States:
+    """Random states: q over the torus, each |e_i| and ‖w‖ log-uniform, half of the w in the fastest direction.
+
+    Args:
+        setting: gains and arm.
+        count: how many states.
+        seed: of the random numbers; the same seed gives the same states.
+    """
+    random = np.random.default_rng(seed)
+    shape = (count, setting.n)
+    q = random.uniform(-np.pi, np.pi, shape)
+    e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 1, shape)
+    _, directions = fastest_directions(setting, q, e)
+    free = random.normal(size=shape)
+    free /= np.linalg.norm(free, axis=1, keepdims=True)
+    directions *= random.choice([-1.0, 1.0], (count, 1))
+    chosen = np.where(np.arange(count)[:, None] % 2 == 0, directions, free)
+    return States(q, e, chosen * 10 ** random.uniform(-2, 5, (count, 1)))
+
+
+def size(setting: Setting, states: States) -> Array:
+    """‖h(e)‖² + ‖w‖², by which dV/dt is made comparable between slow and fast states."""
+    h = setting.family.h(states.e)
+    return _dot(h, h) + _dot(states.w, states.w)
+
+
+def _nearness(e: Array) -> tuple[Array, Array]:
+    """s = 1/(1 + ‖e‖) and ê, which is 0 at e = 0."""
+    r = np.linalg.norm(e, axis=1)
+    return 1 / (1 + r), e / np.where(r > 0, r, 1.0)[:, None]
+
+
+def _dot(x: Array, y: Array) -> Array:
+    return cast("Array", np.einsum("ki,ki->k", x, y))
+
+
+def _times(rows: Array, x: Array) -> Array:
+    return cast("Array", np.einsum("kij,kj->ki", rows, x))

@@ -1,0 +1,108 @@
+"""One gain set on one arm, as doubles for the search and as exact data for the checker."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.check.states import Arm, Controller, Functions
+from lyapcheck.errors import argument_error
+from lyapcheck.family import Family
+from lyapcheck.robots import RobotModel
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.trig import fraction
+
+if TYPE_CHECKING:
+    from flint import fmpq_mpoly
+
+    from lyapcheck.check.states import Term
+    from lyapcheck.control import GainSet
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A gain set on an arm whose uncertain parameters stand at their nominal values."""
+
+    gains: GainSet
+    model: RobotModel
+
+    def __post_init__(self) -> None:
+        n = self.model.n
+        if len(self.gains.kp) != n or len(self.gains.kv) != n:
+            rule = f"has gains for {len(self.gains.kp)} joints, but {self.model.name} has {n}"
+            repair = (
+                "choose the arm the gains were made for, or write a gain file with one gain for each joint"
+            )
+            raise argument_error("gains", self.gains.name, rule, repair)
+
+    @property
+    def family(self) -> Family:
+        """The function of the controller."""
+        return self.gains.family
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return self.model.n
+
+    @property
+    def per_degree(self) -> bool:
+        """Whether the gains are in N·m per degree."""
+        return self.gains.angle_unit == "deg"
+
+    @cached_property
+    def kp(self) -> Array:
+        """Diagonal of K_p, N·m (per rad where h is linear)."""
+        return self._doubles(self.gains.kp)
+
+    @cached_property
+    def kv(self) -> Array:
+        """Diagonal of K_v, N·m (per rad/s where h is linear)."""
+        return self._doubles(self.gains.kv)
+
+    @cached_property
+    def numeric(self) -> NumericModel:
+        """The arm in NumPy."""
+        return NumericModel(self.model)
+
+    @cached_property
+    def fixed(self) -> RobotModel:
+        """The arm without parameters."""
+        return self.model.fixed()
+
+    @cached_property
+    def viscous(self) -> Array:
+        """Diagonal of B, N·m·s/rad."""
+        return self.numeric.viscous
+
+    @cached_property
+    def fast_damping(self) -> Array:
+        """Diagonal of B + K_v D as ‖w‖ → ∞: D → 0 for a bounded h, D = 1 for the linear one."""
+        return self.viscous if self.family.bounded else self.viscous + self.kv
+
+    @cached_property
+    def arm(self) -> Arm:
+        """M and B, exactly."""
+        mass = tuple(tuple(_terms(entry) for entry in row) for row in self.fixed.mass)
+        return Arm(mass, tuple(number.value for number in self.fixed.viscous))
+
+    @cached_property
+    def controller(self) -> Controller:
+        """The controller, exactly."""
+        functions = Functions(self.family.ball_h, self.family.ball_dh, self.family.ball_potential)
+        return Controller(functions, tuple(self.gains.kp), tuple(self.gains.kv), self.per_degree)
+
+    def _doubles(self, gains: object) -> Array:
+        unit = math.degrees(1.0) if self.per_degree else 1.0
+        return np.array([float(gain) * unit for gain in gains])  # type: ignore[attr-defined]
+
+
+def _terms(entry: fmpq_mpoly) -> tuple[Term, ...]:
+    return tuple((tuple(int(p) for p in powers), fraction(value)) for powers, value in entry.terms())
