@@ -1,0 +1,28 @@
+"""The paper's own gain files, which travel with lyapcheck."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+
+from lyapcheck.errors import argument_error
+
+
+def proofs_folder() -> Path:
+    """Where the proof scripts and the paper's gains are: inside an installed package, or at a checkout's top."""
+    package = Path(str(resources.files("lyapcheck")))
+    inside = package / "proofs"
+    return inside if inside.is_dir() else package.parent / "proofs"
+
+
+def paper_gain_file(name: str = "table2") -> Path:
+    """The path of one of the paper's gain files: ``table2``, ``table2_pd`` or ``table2_shoulder_elbow``.
+
+    Raises:
+        InputError: no gain file of that name.
+    """
+    path = proofs_folder() / f"{name}.toml"
+    if not path.is_file():
+        known = ", ".join(sorted(file.stem for file in proofs_folder().glob("*.toml")))
+        raise argument_error("gain file", name, "is not one of the paper's", f"use one of: {known}")
+    return path
