@@ -96,8 +96,8 @@ class Enclosure:
         return "[{}, {}]".format(*written)
 
     def _places(self, digits: int) -> int:
-        """The decimal places that ``digits`` significant digits of the larger end reach."""
-        return digits - _integer_digits(max(abs(self.lower), abs(self.upper)))
+        """The decimal places that ``digits`` significant digits reach, at the larger end; never below 0."""
+        return max(0, digits - _integer_digits(max(abs(self.lower), abs(self.upper))))
 
     def __bool__(self) -> NoReturn:
         raise TypeError("an enclosure has no truth value; ask less(...) and treat None as not decided")
@@ -118,7 +118,7 @@ def _nearest_double(value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
-        return math.copysign(math.inf, value)
+        return math.inf if value > 0 else -math.inf
 
 
 def _not_above(value: float, bound: Fraction) -> bool:
@@ -144,7 +144,7 @@ def _shortest(scaled: int, places: int) -> str:
 
 def _decimal(scaled: int, places: int) -> str:
     """The integer ``scaled`` times 10^-places, written out in full."""
-    if places <= 0:
-        return str(scaled * 10**-places)
+    if places == 0:
+        return str(scaled)
     sign, digits = "-" if scaled < 0 else "", str(abs(scaled)).rjust(places + 1, "0")
     return f"{sign}{digits[:-places]}.{digits[-places:]}"

@@ -16,22 +16,25 @@ from lyapcheck.family.registry import require_none
 
 _SERIES_TERMS = 13
 
+_HUGE = 2.0**27
+"""Beyond it 1 + x² rounds to x²."""
+
 
 @dataclass(frozen=True)
 class Arctan(ElementaryFamily):
     """h = arctan x, h' = 1/(1 + x²), U = x arctan x - ln(1 + x²)/2; γ = π/2 in the limit, ρ = L = 1 at 0."""
 
     def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
-        """From 1/x beyond |x| = 1, where x² may overflow; U near 0 by its series, where its parts cancel."""
+        """From 1/x where x² may overflow; U near 0 by its series, where its parts cancel."""
         a = of.fabs(x)
         near, y = of.smaller(a, 1.0), 1 / of.larger(a, 1.0)
         inside = a <= 1
         z = of.where(inside, near * near, y * y)
-        angle = of.arctan(x)
+        angle, bounded = of.arctan(x), of.smaller(a, _HUGE)
         log = of.log(of.larger(a, 1.0)) + 0.5 * _log1p(of, z)
         return NumericForms(
             h=angle,
-            dh=of.where(inside, 1.0, z) / (1 + z),
+            dh=of.where(a > _HUGE, y * y, 1 / (1 + bounded * bounded)),
             potential=of.where(a <= 0.25, near * near * _series(z), a * of.fabs(angle) - log),
             secant=of.where(a > 0, of.fabs(angle) / of.where(a > 0, a, 1.0), 1.0),
         )

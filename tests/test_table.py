@@ -1,0 +1,176 @@
+"""The table command, from its argument to its five formats."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import mpmath
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.main import build_app
+from lyapcheck.errors import InputError
+from lyapcheck.family.table import RENDERERS, build_table
+
+SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(("table",)), ["table", *arguments])
+
+
+@pytest.fixture(scope="module")
+def table():
+    return build_table((1, 2, 3, 12), 30)
+
+
+@pytest.mark.parametrize(
+    ("text", "members"),
+    [
+        ("3", (3,)),
+        ("1,2,5", (1, 2, 5)),
+        ("1:4", (1, 2, 3, 4)),
+        ("5, 1:2 ,2", (1, 2, 5)),
+        ("7:7", (7,)),
+        ("100000", (100_000,)),
+    ],
+)
+def test_members_are_read(text, members):
+    assert parse_m(text) == members
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("", ["''"]),
+        ("0", ["0"]),
+        ("-1", ["-1"]),
+        ("2.5", ["2.5"]),
+        ("1e3", ["1e3"]),
+        ("nan", ["nan"]),
+        ("5:2", ["5:2"]),
+        ("1:2:3", ["1:2:3"]),
+        ("1:", ["1:"]),
+        ("100001", ["100001"]),
+        ("9" * 5000, ["9" * 5000]),
+        ("²", ["²"]),
+        ("0,2,x", ["0", "x"]),
+    ],
+)
+def test_bad_members_are_all_named(text, values):
+    with pytest.raises(InputError) as caught:
+        parse_m(text)
+    assert sorted(problem.value for problem in caught.value.problems) == values
+    assert all(problem.rule and problem.repair for problem in caught.value.problems)
+
+
+def test_json_bounds_enclose_and_agree_to_the_digits_asked(table):
+    data = json.loads(RENDERERS["json"](table))
+    assert data["schema"] == "lyapcheck/table/1"
+    assert [row["m"] for row in data["rows"]] == [1, 2, 3, 12]
+    for row, exact in zip(data["rows"], table.rows, strict=True):
+        for name in ("gamma", "rho", "L", "gamma_at", "rho_at", "L_at"):
+            value = getattr(exact, name)
+            if value is None:
+                assert row[name] is None
+                continue
+            low, high = Fraction(row[name]["lower"]), Fraction(row[name]["upper"])
+            assert low <= value.lower <= value.upper <= high
+            assert high - low <= Fraction(2, 10**29) * max(1, value.upper)
+
+
+def test_known_values_appear(table):
+    """γ_2 and ρ_1 by mpmath from closed forms: u = 2 + √7 at the peak, h_1' = sech²."""
+    text = RENDERERS["text"](table)
+    with mpmath.workdps(40):
+        u = 2 + mpmath.sqrt(7)
+        gamma = u ** mpmath.mpf("1.5") * mpmath.sqrt(1 + u) / (1 + u**2)
+        assert str(gamma)[:31] in text
+    assert "γ_2 = 1.05: not an upper bound" in text
+    assert "γ_1 = 1: an upper bound" in text
+
+
+def test_csv_has_a_line_for_each_member(table):
+    rows = list(csv.DictReader(io.StringIO(RENDERERS["csv"](table))))
+    assert [row["m"] for row in rows] == ["1", "2", "3", "12"]
+    assert rows[0]["gamma_at_lower"] == ""
+    assert Fraction(rows[1]["L_lower"]) < Fraction(rows[1]["L_upper"])
+
+
+def test_markdown_and_latex_have_as_many_cells_in_every_row(table):
+    lines = [line for line in RENDERERS["markdown"](table).splitlines() if line.startswith("|")]
+    assert {line.count("|") for line in lines} == {8}
+    rows = [line for line in RENDERERS["latex"](table).splitlines() if line.endswith(r"\\")]
+    assert {line.count("&") for line in rows} == {6}
+
+
+def test_columns_of_the_text_are_aligned(table):
+    blocks = RENDERERS["text"](table).split("\n\n")
+    for block in blocks[1:3]:
+        rule = block.splitlines()[1]
+        starts = [0, *(k + 1 for k in range(len(rule) - 1) if rule[k] == " " and rule[k + 1] != " ")]
+        for line in block.splitlines()[2:]:
+            assert all(line[start - 1] == " " for start in starts[1:])
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_every_format_is_reproducible_and_ends_its_last_line(name, table):
+    once, again = RENDERERS[name](table), RENDERERS[name](build_table((1, 2, 3, 12), 30))
+    assert once == again
+    assert once.endswith("\n")
+    assert not once.endswith("\n\n")
+
+
+def test_fewer_digits_are_a_prefix_of_more():
+    few, many = (RENDERERS["text"](build_table((2,), digits)) for digits in (5, 25))
+    short = few.splitlines()[5].split()[1:]
+    long = many.splitlines()[5].split()[1:]
+    assert all(b.startswith(a) for a, b in zip(short, long, strict=True))
+
+
+def test_progress_is_told():
+    told = []
+    build_table(range(1, 31), 5, lambda fraction, note: told.append((fraction, note)))
+    assert told
+    assert [fraction for fraction, _ in told] == sorted(fraction for fraction, _ in told)
+
+
+def test_the_command_prints_and_leaves_with_zero():
+    result = run("--m", "1:3", "--digits", "12", "--format", "json")
+    assert result.exit_code == 0
+    assert len(json.loads(result.stdout)["rows"]) == 3
+
+
+@pytest.mark.parametrize("arguments", [("--m", "0"), ("--digits", "0"), ("--digits", "2001"), ("--m", "")])
+def test_bad_arguments_raise_an_input_error(arguments):
+    result = run(*arguments)
+    assert isinstance(result.exception, InputError)
+
+
+def test_the_whole_process_stays_light():
+    """Neither NumPy nor SymPy nor anything else heavy is imported: start-up is most of the time."""
+    program = (
+        "import sys; sys.argv = ['lyapcheck', 'table', '--m', '1:3']\n"
+        "from lyapcheck.cli.main import main\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        "heavy = {'numpy', 'sympy', 'casadi', 'cvxpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
+        "sys.exit(f'imported {heavy}' if heavy else 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("arguments", [["--m", "0"], ["--m", "x"], ["--digits", "many"], ["--format", "xml"]])
+def test_bad_arguments_leave_with_two_and_no_traceback(arguments):
+    done = subprocess.run([SCRIPT, "table", *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
