@@ -1,22 +1,36 @@
-"""A run as comma-separated values, full precision, one row a sample."""
+"""Runs as comma-separated values, full precision, one row a sample."""
 
 from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
 
 import numpy as np
 
 from lyapcheck.simulate.run import Run
 
+SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
+
 
 def run_csv(run: Run) -> str:
-    """The samples of a run as CSV text: t, then q, w, e, tau of every joint, V and dV, units in the header.
+    """The samples of one run as CSV text, see `runs_csv`."""
+    return runs_csv([run])
 
-    Every number is the shortest decimal that reads back as the same double. A run that was cut short ends
-    with the last sample it reached.
+
+def runs_csv(runs: Sequence[Run]) -> str:
+    """The samples of runs on one arm: gain set, whether its run is complete, t, q, w, e, tau, V, dV.
+
+    Units are in the header. Every number is the shortest decimal that reads back as the same double. A run
+    that was cut short says ``no`` under ``complete`` and ends with the last sample it reached.
     """
-    joints = range(1, run.q.shape[1] + 1)
-    signals = ("q", "w", "e", "tau")
-    units = ("rad", "rad/s", "rad", "N.m")
-    names = [f"{signal}{i} [{unit}]" for signal, unit in zip(signals, units, strict=True) for i in joints]
-    header = ",".join(["t [s]", *names, "V [J]", "dV [W]"])
-    table = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
-    return "\n".join([header, *(",".join(map(repr, row)) for row in table.tolist())]) + "\n"
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    joints = range(1, runs[0].q.shape[1] + 1) if runs else range(0)
+    per_joint = [f"{signal}{i} [{unit}]" for signal, unit in SIGNALS for i in joints]
+    writer.writerow(["gains", "complete", "t [s]", *per_joint, "V [J]", "dV [W]"])
+    for run in runs:
+        table = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
+        complete = "yes" if run.complete else "no"
+        writer.writerows([run.name, complete, *map(repr, row)] for row in table.tolist())
+    return text.getvalue()

@@ -34,7 +34,7 @@ def gains_for(gain_set: GainSet, n: int) -> Gains:
         rule = f"has gains for {len(gain_set.kp)} joints, but the arm has {n}"
         raise argument_error("gains", gain_set.name, rule, "choose the arm the gains were made for")
     scale = math.degrees(1.0) if gain_set.angle_unit == "deg" else 1.0
-    family = gain_set.family if isinstance(gain_set.family, Family) else named(gain_set.family, gain_set.m)
+    family = named(gain_set.family, gain_set.m)
     return Gains(
         gain_set.name,
         family,

@@ -49,6 +49,7 @@ def run_of(
         name=gains.name,
         m=gains.family.m,
         robot=model.name,
+        joints=model.joints,
         kind=motion.kind,
         task=setup.task,
         eps0=setup.eps0,

@@ -56,6 +56,7 @@ class Run:
     name: str
     m: int | None
     robot: str
+    joints: tuple[str, ...]
     kind: str
     """``reference`` (the equations) or ``experiment`` (the bench)."""
     task: Task
