@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import Any
+from typing import Any, Self
 
 from lyapcheck.errors import Problem
 from lyapcheck.files.places import KeyPath
@@ -88,7 +88,7 @@ class Fields:
         kept = tuple(item for item in items if item is not None)
         return kept if len(kept) == len(items) else None
 
-    def table(self, key: str) -> Fields | None:
+    def table(self, key: str) -> Self | None:
         """A table, ``None`` when absent or bad."""
         value = self.raw(key)
         if value is None:
@@ -98,7 +98,7 @@ class Fields:
             return None
         return type(self)(value, (*self.path, key), self.notes)
 
-    def tables(self, key: str, required: bool = False) -> list[Fields]:
+    def tables(self, key: str, required: bool = False) -> list[Self]:
         """An array of tables, empty when absent or bad."""
         value = self.raw(key, required)
         if value is None:
