@@ -50,23 +50,24 @@ from pathlib import Path
 
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
-from lyapcheck.robots.document import open_document
-from lyapcheck.robots.fields import Fields, Notes
+from lyapcheck.robots.document import open_arm
+from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
 
 
-def read_arm(path: Path) -> RobotModel:
-    """The arm that a file describes.
+def read_arm(path: Path, shown: str | None = None) -> RobotModel:
+    """The arm that a file describes; ``shown`` is the name of the file in messages.
 
     Raises:
         InputError: the file cannot be read or describes no arm; carries every problem found.
     """
-    document = open_document(path)
-    notes = Notes(path.name, document.line)
-    top = Fields(document.data, (), notes)
-    title, top.source = top.text("title", required=True), top.text("source")
+    document = open_arm(path, str(path) if shown is None else shown)
+    source = document.data.get("source")
+    notes = ArmNotes(document.name, document.line, source if isinstance(source, str) else "")
+    top = ArmFields(document.data, (), notes)
+    title, _ = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
     plan = read_plan(top)
     top.close()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
-from lyapcheck.robots.fields import Fields, Sign
+from lyapcheck.robots.fields import ArmFields, Sign
 from lyapcheck.robots.number import Number
 
 _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -33,7 +33,7 @@ class Body:
         return found | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
 
 
-def read_bodies(tables: list[Fields]) -> list[Body | None]:
+def read_bodies(tables: list[ArmFields]) -> list[Body | None]:
     """The links, base first; ``None`` for a link with a problem."""
     bodies = [_read_body(table) for table in tables]
     axes = [[x.value for x in body.axis] for body in bodies if body is not None]
@@ -46,17 +46,17 @@ def read_bodies(tables: list[Fields]) -> list[Body | None]:
     return bodies
 
 
-def _read_body(fields: Fields) -> Body | None:
+def _read_body(fields: ArmFields) -> Body | None:
     axis = _read_axis(fields)
     origin, com = fields.vector("origin", "m"), fields.vector("com", "m")
-    mass = fields.number("mass", "kg", Sign.POSITIVE, required=True)
+    mass = fields.quantity("mass", "kg", Sign.POSITIVE, required=True)
     inertia = _read_inertia(fields)
     if axis is None or origin is None or com is None or mass is None or inertia is None:
         return None
-    return Body(tuple(axis), tuple(origin), mass, tuple(com), inertia)
+    return Body(axis, origin, mass, com, inertia)
 
 
-def _read_axis(fields: Fields) -> list[Number] | None:
+def _read_axis(fields: ArmFields) -> tuple[Number, ...] | None:
     axis = fields.vector("axis", "")
     if axis is None:
         return None
@@ -66,15 +66,15 @@ def _read_axis(fields: Fields) -> list[Number] | None:
     return axis
 
 
-def _read_inertia(fields: Fields) -> dict[str, Number] | None:
+def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
     value = fields.data.get("inertia")
     if not isinstance(value, dict) or "value" in value:
-        planar = fields.number("inertia", "kg·m²", Sign.NONNEGATIVE, required=True)
+        planar = fields.quantity("inertia", "kg·m²", Sign.NONNEGATIVE, required=True)
         return None if planar is None else {"inertia": planar}
     table = fields.table("inertia")
     if table is None:
         return None
-    read = {key: table.number(key, "kg·m²", required=key in _ENTRIES[:3]) for key in _ENTRIES}
+    read = {key: table.quantity(key, "kg·m²", required=key in _ENTRIES[:3]) for key in _ENTRIES}
     table.close()
     if any(read[key] is None and key in (*_ENTRIES[:3], *table.data) for key in _ENTRIES):
         return None

@@ -2,49 +2,31 @@
 
 from __future__ import annotations
 
-import tomllib
-from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
-from typing import Any, Protocol
 
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.robots.fields import KeyPath
+from lyapcheck.files import Document, open_document
+
+LARGEST_ARM_FILE = 1_000_000
+"""Bytes; an arm of nine joints with a page of notes has about twenty thousand."""
 
 
-class Document(Protocol):
-    """A TOML file with exact decimals that knows the line of each key."""
-
-    @property
-    def data(self) -> dict[str, Any]:
-        """The top-level table."""
-
-    def line(self, path: KeyPath) -> int | None:
-        """The line of a key, counted from 1."""
-
-
-def open_document(path: Path) -> Document:
-    """The TOML document of an arm file.
+def open_arm(path: Path, shown: str) -> Document:
+    """The TOML document of an arm file; ``shown`` is the name that messages use.
 
     Raises:
-        InputError: not a ``.toml`` file, missing, a directory, too large, not UTF-8 or not TOML.
+        InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
     """
-    if path.suffix == ".urdf":
+    if path.suffix.lower() == ".urdf":
         raise _refused(
-            path, "URDF is not read by this version", "describe the arm by [[links]] in a .toml file"
+            shown, "URDF is not read by this version", "describe the arm by [[links]] in a .toml file"
         )
-    if path.suffix != ".toml":
-        raise _refused(path, "is no arm file", "give the path of a .toml file")
-    return _Plain(tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Fraction))
+    if path.suffix.lower() != ".toml" and not path.is_dir():
+        raise _refused(shown, "is no arm file", "give the path of a .toml file")
+    if path.is_file() and path.stat().st_size > LARGEST_ARM_FILE:
+        raise _refused(shown, f"is larger than {LARGEST_ARM_FILE} bytes", "give an arm of one page")
+    return open_document(path, shown)
 
 
-def _refused(path: Path, rule: str, repair: str) -> InputError:
-    return InputError(Problem(path.name, None, "file", "", rule, repair))
-
-
-@dataclass
-class _Plain:
-    data: dict[str, Any]
-
-    def line(self, path: KeyPath) -> int | None:
-        return None
+def _refused(shown: str, rule: str, repair: str) -> InputError:
+    return InputError(Problem(shown, None, "file", "", rule, repair))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from lyapcheck.robots.fields import Fields, Sign
+from lyapcheck.robots.fields import ArmFields, Sign
 from lyapcheck.robots.number import Number
 
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
@@ -29,7 +29,7 @@ class Joint:
         return {name: number for name, number in found.items() if number is not None}
 
 
-def read_joints(tables: list[Fields]) -> list[Joint]:
+def read_joints(tables: list[ArmFields]) -> list[Joint]:
     """The joints of ``[[links]]`` or ``[[joints]]``, base first; names must differ."""
     joints = [_read_joint(table) for table in tables]
     for i, joint in enumerate(joints):
@@ -38,7 +38,7 @@ def read_joints(tables: list[Fields]) -> list[Joint]:
     return joints
 
 
-def _read_joint(fields: Fields) -> Joint:
+def _read_joint(fields: ArmFields) -> Joint:
     name = fields.text("name", required=True)
     if name and not _NAME.fullmatch(name):
         rule = "must be up to 31 small letters, digits and underscores, a letter first"
@@ -46,15 +46,15 @@ def _read_joint(fields: Fields) -> Joint:
     _refuse_other_kinds(fields)
     return Joint(
         name,
-        fields.number("viscous", "N·m·s/rad", Sign.POSITIVE, required=True),
-        fields.number("coulomb", "N·m", Sign.NONNEGATIVE),
-        fields.number("torque_limit", "N·m", Sign.POSITIVE),
-        fields.count("encoder"),
-        fields.number("gravity_bound", "N·m", Sign.NONNEGATIVE),
+        fields.quantity("viscous", "N·m·s/rad", Sign.POSITIVE, required=True),
+        fields.quantity("coulomb", "N·m", Sign.NONNEGATIVE),
+        fields.quantity("torque_limit", "N·m", Sign.POSITIVE),
+        fields.integer("encoder", 1, 2**40),
+        fields.quantity("gravity_bound", "N·m", Sign.NONNEGATIVE),
     )
 
 
-def _refuse_other_kinds(fields: Fields) -> None:
+def _refuse_other_kinds(fields: ArmFields) -> None:
     kind = fields.text("type")
     if kind in ("", "revolute", "continuous"):
         return

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.files.decimals import decimal_text
+
 
 @dataclass(frozen=True)
 class Number:
@@ -57,19 +59,3 @@ class Number:
 def with_unit(value: Fraction, unit: str) -> str:
     """The value in decimals followed by its unit, if it has one."""
     return f"{decimal_text(value)} {unit}".rstrip()
-
-
-def decimal_text(value: Fraction) -> str:
-    """The value as a terminating decimal where it has one, as a fraction otherwise."""
-    denominator, digits = value.denominator, 0
-    for prime in (2, 5):
-        count = 0
-        while denominator % prime == 0:
-            denominator //= prime
-            count += 1
-        digits = max(digits, count)
-    if denominator != 1:
-        return f"{value.numerator}/{value.denominator}"
-    scaled = str(abs(value) * 10**digits).rjust(digits + 1, "0")
-    text = f"{scaled[:-digits]}.{scaled[-digits:]}" if digits else scaled
-    return f"-{text}" if value < 0 else text

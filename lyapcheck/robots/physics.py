@@ -8,9 +8,8 @@ from itertools import islice, product
 
 from flint import fmpq, fmpq_mat
 
-from lyapcheck.robots.fields import Notes
+from lyapcheck.files import Notes, decimal_text
 from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import decimal_text
 
 _STATES = 24
 _MOST_CORNERS = 64

@@ -11,7 +11,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import Body, read_bodies
-from lyapcheck.robots.fields import Fields
+from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
 from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.number import Number
@@ -49,7 +49,7 @@ class ChainPlan:
     place: ClassVar[str] = "links"
     joints: list[Joint]
     bodies: list[Body]
-    gravity: list[Number]
+    gravity: tuple[Number, ...]
 
     def numbers(self) -> dict[str, Number]:
         """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
@@ -93,7 +93,7 @@ class PrintedPlan:
         return self.printed.build(ring, numbers)
 
 
-def read_plan(top: Fields) -> Plan | None:
+def read_plan(top: ArmFields) -> Plan | None:
     """The model of an arm file, ``None`` when it has none that can be built; problems are noted."""
     links, joints = top.tables("links"), top.tables("joints")
     numbers, model = top.table("numbers"), top.table("model")
@@ -113,7 +113,7 @@ def read_plan(top: Fields) -> Plan | None:
     return None
 
 
-def _note_missing(top: Fields) -> None:
+def _note_missing(top: ArmFields) -> None:
     if "links" in top.data:
         return
     if "model" not in top.data and "joints" not in top.data:
@@ -123,14 +123,16 @@ def _note_missing(top: Fields) -> None:
             top.fail(key, "is missing", f"a printed model needs {form} as well")
 
 
-def _read_chain(top: Fields, tables: list[Fields], gravity: list[Number] | None) -> Plan | None:
+def _read_chain(top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None) -> Plan | None:
     joints, bodies = _read_joints(top, "links", tables), read_bodies(tables)
     _close(tables)
     sound = [body for body in bodies if body is not None]
     return ChainPlan(joints, sound, gravity) if gravity and len(sound) == len(tables) else None
 
 
-def _read_printed(top: Fields, tables: list[Fields], numbers: Fields | None, model: Fields) -> Plan:
+def _read_printed(
+    top: ArmFields, tables: list[ArmFields], numbers: ArmFields | None, model: ArmFields
+) -> Plan:
     joints = _read_joints(top, "joints", tables)
     taken = {name for joint in joints for name in joint.numbers()}
     entries = {} if numbers is None else _read_numbers(numbers, taken)
@@ -140,14 +142,14 @@ def _read_printed(top: Fields, tables: list[Fields], numbers: Fields | None, mod
     return PrintedPlan(joints, entries, printed)
 
 
-def _read_joints(top: Fields, key: str, tables: list[Fields]) -> list[Joint]:
+def _read_joints(top: ArmFields, key: str, tables: list[ArmFields]) -> list[Joint]:
     if len(tables) > _MOST_JOINTS:
         top.fail(key, f"has more than {_MOST_JOINTS} joints", "give an arm of fewer joints")
     return read_joints(tables)
 
 
-def _read_numbers(fields: Fields, taken: set[str]) -> dict[str, Number]:
-    entries = {name: fields.number(name, "") for name in fields.data}
+def _read_numbers(fields: ArmFields, taken: set[str]) -> dict[str, Number]:
+    entries = {name: fields.quantity(name, "") for name in fields.data}
     for name in fields.data:
         if not _NAME.fullmatch(name) or is_angle(name):
             rule = "must be letters, digits and underscores, and not look like a sine or cosine (s1, c23)"
@@ -157,7 +159,7 @@ def _read_numbers(fields: Fields, taken: set[str]) -> dict[str, Number]:
     return {name: number for name, number in entries.items() if number is not None}
 
 
-def _close(tables: list[Fields]) -> None:
+def _close(tables: list[ArmFields]) -> None:
     for table in tables:
         table.close()
 

@@ -15,8 +15,9 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
+from lyapcheck.files.places import KeyPath
 from lyapcheck.robots import trig
-from lyapcheck.robots.fields import Fields, KeyPath
+from lyapcheck.robots.fields import ArmFields
 
 _FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9]))?")
 _ANGLE = re.compile(r"[sc][0-9]+")
@@ -55,7 +56,7 @@ def is_angle(name: str) -> bool:
     return _ANGLE.fullmatch(name) is not None
 
 
-def read_printed(fields: Fields, n: int, numbers: Collection[str]) -> Printed:
+def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed:
     """The ``[model]`` table of an arm with n joints; problems are noted in ``fields``."""
     mass = {
         (i, j): _read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)
@@ -69,7 +70,7 @@ def read_printed(fields: Fields, n: int, numbers: Collection[str]) -> Printed:
     return Printed(mass, potential)
 
 
-def _read_terms(fields: Fields, key: str, n: int, numbers: Collection[str]) -> Terms:
+def _read_terms(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Terms:
     value = fields.raw(key, required=True)
     if value is None:
         return ()
@@ -82,7 +83,7 @@ def _read_terms(fields: Fields, key: str, n: int, numbers: Collection[str]) -> T
 
 
 def _read_term(
-    fields: Fields, path: KeyPath, term: object, n: int, numbers: Collection[str]
+    fields: ArmFields, path: KeyPath, term: object, n: int, numbers: Collection[str]
 ) -> tuple[Fraction, tuple[tuple[str, int], ...]] | None:
     if not isinstance(term, list) or len(term) != 2 or not isinstance(term[1], str):
         fields.notes.fail(path, term, "must be a decimal and a text of factors", 'write [0.168, "c2"]')

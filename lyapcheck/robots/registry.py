@@ -41,7 +41,7 @@ def _advice(name: str) -> str:
 
 @lru_cache(maxsize=64)
 def _builtin(name: str) -> RobotModel:
-    return read_arm(_arms() / f"{name}.toml")
+    return read_arm(_arms() / f"{name}.toml", f"{name}.toml")
 
 
 def _arms() -> Path:
