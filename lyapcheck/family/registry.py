@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from importlib import import_module
 from pkgutil import iter_modules
 
@@ -19,7 +19,7 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(module.name for module in iter_modules(members.__path__)))
 
 
-@cache
+@lru_cache(maxsize=None, typed=True)  # typed: 1 == 1.0 == True, and only the first is an m
 def named(name: str, m: int | None = None) -> Family:
     """The family of a name; ``m`` chooses the member of a family that has members.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb
 
 from lyapcheck.check.balls import even_range, odd_range, precision
 from lyapcheck.check.enclosure import Enclosure
@@ -15,6 +15,7 @@ from lyapcheck.family.elementary import ElementaryFamily, NumericForms
 from lyapcheck.family.registry import require_none
 
 _SERIES_TERMS = 13
+_SERIES_END = 0.25
 
 _HUGE = 2.0**27
 """Beyond it 1 + x² rounds to x²."""
@@ -27,15 +28,16 @@ class Arctan(ElementaryFamily):
     def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
         """From 1/x where x² may overflow; U near 0 by its series, where its parts cancel."""
         a = of.fabs(x)
-        near, y = of.smaller(a, 1.0), 1 / of.larger(a, 1.0)
-        inside = a <= 1
-        z = of.where(inside, near * near, y * y)
-        angle, bounded = of.arctan(x), of.smaller(a, _HUGE)
-        log = of.log(of.larger(a, 1.0)) + 0.5 * _log1p(of, z)
+        angle, far, bounded = of.arctan(x), a > _HUGE, of.smaller(a, _HUGE)
+        inverse, z = 1 / of.larger(a, 1.0), bounded * bounded
+        log = of.where(far, of.log(of.smaller(of.larger(a, 1.0), 1e308)), 0.5 * _log1p(of, z))
+        near = of.smaller(a, 2 * _SERIES_END)
         return NumericForms(
             h=angle,
-            dh=of.where(a > _HUGE, y * y, 1 / (1 + bounded * bounded)),
-            potential=of.where(a <= 0.25, near * near * _series(z), a * of.fabs(angle) - log),
+            dh=of.where(far, inverse * inverse, 1 / (1 + z)),
+            potential=of.where(
+                a <= _SERIES_END, near * near * _series(near * near), a * of.fabs(angle) - log
+            ),
             secant=of.where(a > 0, of.fabs(angle) / of.where(a > 0, a, 1.0), 1.0),
         )
 
@@ -54,8 +56,8 @@ class Arctan(ElementaryFamily):
         return even_range(lambda a: 1 / (1 + a * a), (), x)
 
     def ball_potential(self, x: arb) -> arb:
-        """U, rising away from 0; worked out with twice the bits, because its parts cancel near 0."""
-        return even_range(_ball_potential, (), x)
+        """U, rising away from 0."""
+        return even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
 
     def ball_secant(self, x: arb) -> arb:
         """arctan(x)/x, falling away from 0."""
@@ -76,7 +78,7 @@ def create(m: int | None) -> Arctan:
 
 
 def _log1p(of: Arithmetic, z: Any) -> Any:
-    """ln(1 + z) for 0 <= z <= 1 by the logarithm alone: the rounding of 1 + z is put back to first order."""
+    """ln(1 + z) for z >= 0 by the logarithm alone: the rounding of 1 + z is put back to first order."""
     w = 1 + z
     return of.log(w) + (z - (w - 1)) / w
 
@@ -87,9 +89,3 @@ def _series(z: Any) -> Any:
     for k in reversed(range(_SERIES_TERMS)):
         total = 1 / ((2 * k + 1) * (2 * k + 2)) - z * total
     return total
-
-
-def _ball_potential(a: arb) -> arb:
-    with ctx.workprec(2 * ctx.prec):
-        exact = a * a.atan() - (a * a).log1p() / 2
-    return +exact

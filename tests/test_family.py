@@ -1,0 +1,245 @@
+"""What holds for every registered family, in all four arithmetics."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb, ctx
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from lyapcheck import family
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.errors import InputError
+
+MEMBERS = (1, 2, 3, 10, 317)
+FAMILIES = [family.hyperbolic(m) for m in MEMBERS] + [
+    family.named(name) for name in family.names() if name != "hyperbolic"
+]
+FORMS = ("h", "dh", "potential", "secant")
+GRID = np.concatenate([np.linspace(-6, 6, 241), np.geomspace(1e-12, 300, 60), -np.geomspace(1e-12, 300, 60)])
+
+every_family = pytest.mark.parametrize("f", FAMILIES, ids=lambda f: f"{f.name}{f.m or ''}")
+
+
+def in_casadi(f, x, forms="casadi"):
+    symbol = ca.SX.sym("x")
+    values = getattr(f, forms)(symbol)
+    function = ca.Function("forms", [symbol], [getattr(values, form) for form in FORMS])
+    return {form: out.full().ravel() for form, out in zip(FORMS, function(x.reshape(1, -1)), strict=True)}
+
+
+@every_family
+def test_h_is_odd_and_the_others_are_even(f):
+    assert np.array_equal(f.h(-GRID), -f.h(GRID))
+    for form in FORMS[1:]:
+        assert np.array_equal(getattr(f, form)(-GRID), getattr(f, form)(GRID))
+
+
+@every_family
+def test_h_vanishes_only_at_zero(f):
+    assert f.h(0.0) == 0
+    x = GRID[np.abs(GRID) > 0.5]
+    assert np.all(np.sign(f.h(x)) == np.sign(x))
+
+
+@every_family
+def test_values_at_zero(f):
+    assert f.potential(0.0) == 0
+    assert f.secant(0.0) == f.dh(0.0)
+
+
+@every_family
+def test_secant_times_x_is_h(f):
+    assert np.allclose(f.secant(GRID) * GRID, f.h(GRID), rtol=2e-15, atol=0)
+
+
+@every_family
+def test_dh_is_the_derivative_of_h_and_h_that_of_the_potential(f):
+    x = np.linspace(0.05, 4, 300)
+    step = 1e-4 / (f.m or 1)
+    for upper, lower in (("h", "dh"), ("potential", "h")):
+        g = getattr(f, upper)
+        slope = (8 * (g(x + step) - g(x - step)) - (g(x + 2 * step) - g(x - 2 * step))) / (12 * step)
+        assert np.allclose(slope, getattr(f, lower)(x), rtol=1e-7, atol=1e-7 * (f.m or 1))
+
+
+@every_family
+def test_certified_constants_bound_the_values_and_are_reached(f):
+    known = f.constants()
+    x = np.linspace(0, 8, 20001)
+    reached = {"gamma": np.max(f.h(x)), "rho": np.max(np.abs(f.dh(x))), "L": np.max(f.secant(x))}
+    for name, value in reached.items():
+        bound = getattr(known, name)
+        if bound is None:
+            assert not f.bounded
+            continue
+        at = getattr(known, f"{name}_at")
+        assert value <= bound.float_upper
+        if at is not None:
+            form = {"gamma": "h", "rho": "dh", "L": "secant"}[name]
+            assert abs(getattr(f, form)(float(at.mid))) == pytest.approx(float(bound.mid), rel=1e-14)
+
+
+@every_family
+def test_a_bound_that_is_not_reached_is_approached(f):
+    known = f.constants()
+    if known.gamma is not None and known.gamma_at is None:
+        assert f.h(1e300) == pytest.approx(known.gamma.float_upper, rel=1e-15)
+
+
+@every_family
+@pytest.mark.parametrize("form", FORMS)
+def test_doubles_are_within_four_units_in_the_last_place_of_the_balls(f, form):
+    for x in GRID[::7].tolist():
+        value = float(getattr(f, form)(x))
+        with ctx.workprec(300):
+            error = abs(getattr(f, f"ball_{form}")(arb(x)) - value)
+        assert error <= 4 * abs(np.spacing(value))
+
+
+@every_family
+@pytest.mark.parametrize("form", FORMS)
+@given(middle=st.floats(-3, 3), radius=st.floats(0, 3), inside=st.floats(-1, 1))
+def test_wide_balls_contain_the_values_inside(f, form, middle, radius, inside):
+    wide = getattr(f, f"ball_{form}")(arb(middle, radius))
+    with ctx.workprec(1300):
+        point = arb(middle) + arb(radius) * inside
+        assert wide.overlaps(getattr(f, f"ball_{form}")(point))
+
+
+@every_family
+def test_casadi_gives_the_same_numbers(f):
+    x = np.concatenate([GRID, [0.0, 1e-310, 1e5, -1e150]])
+    for form, values in in_casadi(f, x).items():
+        assert np.allclose(values, getattr(f, form)(x), rtol=3e-15, atol=1e-320), form
+
+
+@every_family
+def test_the_smooth_casadi_forms_are_close(f):
+    x = np.concatenate([GRID, [0.0, 1e5, -1e150]])
+    for form, values in in_casadi(f, x, "casadi_smooth").items():
+        scale = 1e-15 * (f.m or 1)
+        assert np.allclose(values, getattr(f, form)(x), rtol=20 * scale, atol=10 * scale), form
+
+
+@every_family
+@pytest.mark.parametrize("forms", ["casadi", "casadi_smooth"])
+def test_automatic_differentiation_agrees(f, forms):
+    border = 0.8813735870195430
+    x = np.concatenate([GRID, [0.0, border, -border, 1.0, -1.0, 400.0, -400.0]])
+    symbol = ca.SX.sym("x")
+    values = getattr(f, forms)(symbol)
+    slopes = ca.Function(
+        "slopes", [symbol], [ca.jacobian(values.h, symbol), ca.jacobian(values.potential, symbol)]
+    )
+    dh, h = (out.full().ravel() for out in slopes(x.reshape(1, -1)))
+    tolerance = 1e-13 * (f.m or 1)
+    assert np.allclose(dh, f.dh(x), rtol=tolerance, atol=tolerance)
+    assert np.allclose(h, f.h(x), rtol=tolerance, atol=tolerance)
+
+
+@every_family
+def test_second_derivatives_are_finite_everywhere(f):
+    x = np.concatenate([GRID, [0.0, 1.0, 1e10, -1e300]])
+    symbol = ca.SX.sym("x")
+    second = ca.Function("second", [symbol], [ca.hessian(f.casadi_smooth(symbol).potential, symbol)[0]])
+    assert np.all(np.isfinite(second(x.reshape(1, -1)).full()))
+
+
+@every_family
+def test_casadi_works_elementwise_on_vectors_and_leaves_its_settings_alone(f):
+    before = ca.GlobalOptions.getSimplificationOnTheFly()
+    symbol = ca.SX.sym("x", 3)
+    forms = f.casadi(symbol)
+    assert ca.GlobalOptions.getSimplificationOnTheFly() == before
+    assert all(getattr(forms, form).shape == (3, 1) for form in FORMS)
+    values = ca.Function("h", [symbol], [forms.h])([0.3, -2, 0]).full().ravel()
+    assert np.allclose(values, f.h([0.3, -2, 0]), rtol=1e-15, atol=0)
+
+
+@every_family
+def test_sympy_forms_are_derivatives_of_each_other_and_evaluate_alike(f):
+    x = sp.Symbol("x", positive=True)
+    forms = f.sympy(x)
+    assert (
+        sp.Float(sp.diff(forms.potential, x).subs(x, 0.7).evalf(30) - forms.h.subs(x, 0.7).evalf(30)) < 1e-20
+    )
+    for form in FORMS[:3]:
+        value = sp.sympify(getattr(forms, form)).subs(x, sp.Rational(7, 10)).evalf(40)
+        assert float(getattr(f, form)(0.7)) == pytest.approx(float(value), rel=1e-14)
+
+
+@every_family
+@pytest.mark.parametrize("form", FORMS)
+def test_arrays_of_any_shape_and_length_give_the_same_as_single_numbers(f, form):
+    g = getattr(f, form)
+    one_by_one = np.array([float(g(x)) for x in GRID])
+    assert np.allclose(g(GRID), one_by_one, rtol=1e-15, atol=0)
+    cube = np.resize(GRID, (3, 4, 5, 2))
+    assert g(cube).shape == cube.shape
+    assert g(np.empty((0, 3))).shape == (0, 3)
+    assert g(2).dtype == float
+
+
+@every_family
+@pytest.mark.parametrize("copies", [1, 100])
+def test_special_values(f, copies):
+    x = np.resize([np.nan, np.inf, -np.inf, -0.0], 4 * copies)
+    h, potential = f.h(x)[:4], f.potential(x)[:4]
+    assert np.isnan(h[0])
+    assert np.isnan(potential[0])
+    assert np.signbit(h[3])
+    assert h[1] == -h[2] == (np.inf if f.constants().gamma is None else pytest.approx(f.h(1e300)))
+    assert np.all(potential[1:3] == np.inf)
+    assert potential[3] == 0
+
+
+@every_family
+@given(x=arrays(float, st.integers(1, 40), elements=st.floats(allow_nan=False, allow_infinity=False)))
+def test_bounded_for_every_double(f, x):
+    known = f.constants()
+    assert not np.any(np.isnan(f.h(x)))
+    assert np.all(np.abs(f.dh(x)) <= known.rho.float_upper * (1 + 1e-15))
+    assert np.all((f.secant(x) >= 0) & (f.secant(x) <= known.L.float_upper * (1 + 1e-15)))
+    if known.gamma is not None:
+        assert np.all(np.abs(f.h(x)) <= known.gamma.float_upper * (1 + 1e-15))
+
+
+def test_tanh_is_the_first_member_of_the_hyperbolic_family():
+    assert np.array_equal(family.tanh().h(GRID), family.hyperbolic(1).h(GRID))
+    assert np.allclose(family.tanh().h(GRID), np.tanh(GRID), rtol=1e-15, atol=0)
+    assert family.tanh().constants().gamma == Enclosure.exact(1)
+
+
+def test_families_are_named_and_comparable():
+    assert family.names() == tuple(sorted(family.names()))
+    assert family.named("hyperbolic", 3) == family.hyperbolic(3)
+    assert family.hyperbolic(2) != family.hyperbolic(3)
+    assert hash(family.linear()) == hash(family.named("linear"))
+    assert [f.name for f in FAMILIES if not f.bounded] == ["linear"]
+
+
+@pytest.mark.parametrize(
+    ("name", "m", "subject"),
+    [
+        ("hyperbolic", None, "m"),
+        ("hyperbolic", 0, "m"),
+        ("hyperbolic", -2, "m"),
+        ("hyperbolic", 2.0, "m"),
+        ("hyperbolic", True, "m"),
+        ("hyperbolic", "3", "m"),
+        ("hyperbolic", 10**9, "m"),
+        ("tanh", 1, "m"),
+        ("linear", 3, "m"),
+        ("sigmoid", None, "family"),
+        ("registry", None, "family"),
+    ],
+)
+def test_bad_names_and_members_are_input_errors(name, m, subject):
+    with pytest.raises(InputError) as caught:
+        family.named(name, m)
+    assert [problem.key for problem in caught.value.problems] == [subject]
