@@ -1,0 +1,172 @@
+"""The paper's conditions on gains, decided exactly: (10), its rule for each joint (10p), and (19).
+
+With N = √n γ the three read
+
+    (10)   λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g) / N
+    (10p)  k_pi + k_vi < (τmax_i − k_gi) / N          for each joint i
+    (19)   k_vi < λmin(B) / N                         for each joint i, which is λmax(K_v) < λmin(B)/N
+
+(10p) and (19) compare a rational with a positive number over √n γ; both sides squared, that is the question
+whether γ² is below a rational, which is decided exactly. (10) holds square roots and is decided in balls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb
+
+from lyapcheck.check.balls import precision, to_arb
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.control.bound import GammaBound
+from lyapcheck.control.gains import GainSet
+from lyapcheck.control.limits import Limits
+from lyapcheck.files.decimals import places_of, round_down
+
+CONDITIONS = ("10", "10p", "19")
+ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
+_BITS = (96, 384, 1536)
+
+
+@dataclass(frozen=True)
+class Check:
+    """One condition on one joint (or, for (10), on all): its value, its limit and what would still pass.
+
+    Args:
+        id: ``10``, ``10p`` or ``19``.
+        joint: counted from 0; ``None`` where the condition is on all joints.
+        verdict: ``accepted``, ``rejected`` or ``undecided``.
+        value: what is compared, N·m (N·m·s/rad for 19), exact.
+        limit: what it must stay below; ``None`` where there is none (an unbounded function, no torque limit).
+        largest_admissible: the largest value that passes, with as many decimal places as the user wrote;
+            ``None`` where no positive value does.
+        reason: one sentence where ``limit`` is ``None`` or nothing was decided.
+    """
+
+    id: str
+    joint: int | None
+    verdict: str
+    value: Fraction
+    limit: Enclosure | None
+    largest_admissible: Fraction | None
+    reason: str = ""
+
+    @property
+    def margin(self) -> Fraction | None:
+        """limit − value, from below; negative where the condition is broken."""
+        return None if self.limit is None else self.limit.lower - self.value
+
+
+def check_10p(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+    """k_pi + k_vi < (τmax_i − k_gi)/(√n γ) for each joint.
+
+    References: the tuning rule of Section 4, reyes2019family.
+    """
+    checks = []
+    for i, (kp, kv) in enumerate(zip(gains.kp, gains.kv, strict=True)):
+        torque = limits.torque[i]
+        if torque is None:
+            checks.append(Check("10p", i, UNDECIDED, kp + kv, None, None, _NO_TORQUE))
+        else:
+            places = max(places_of(kp), places_of(kv))
+            checks.append(_scaled("10p", i, kp + kv, torque - limits.gravity[i], limits.n, gamma, places))
+    return checks
+
+
+def check_19(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+    """k_vi < λmin(B)/(√n γ) for each joint.
+
+    References: (19) of reyes2019family.
+    """
+    friction = limits.viscous_min
+    if friction is None:
+        return [Check("19", i, UNDECIDED, kv, None, None, _NO_FRICTION) for i, kv in enumerate(gains.kv)]
+    return [_scaled("19", i, kv, friction, limits.n, gamma, places_of(kv)) for i, kv in enumerate(gains.kv)]
+
+
+def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+    """λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ), with k_g = ‖(k_gi)‖.
+
+    References: (10) of reyes2019family.
+    """
+    value = max(gains.kp) + max(gains.kv)
+    torques = [torque for torque in limits.torque if torque is not None]
+    if len(torques) < limits.n:
+        return [Check("10", None, UNDECIDED, value, None, None, _NO_TORQUE)]
+    if gamma.enclosure is None:
+        return [Check("10", None, REJECTED, value, None, None, _UNBOUNDED)]
+
+    def limit() -> arb:
+        return _norm_limit(torques, limits, gamma)
+
+    verdict, enclosure = _compare(value, limit)
+    places = max(places_of(k) for k in (*gains.kp, *gains.kv))
+    largest = round_down(enclosure.lower, places)
+    reason = "" if verdict != UNDECIDED else "value and limit agree to 400 digits; change a gain in its last digit"
+    return [Check("10", None, verdict, value, enclosure, largest if largest > 0 else None, reason)]
+
+
+CHECKS: dict[str, Callable[[GainSet, Limits, GammaBound], list[Check]]] = {
+    "10": check_10,
+    "10p": check_10p,
+    "19": check_19,
+}
+
+_UNBOUNDED = "the function is unbounded (γ = ∞): no gain keeps the torque within a limit for every state"
+_NO_TORQUE = "the arm has no torque limit for this joint; give [bounds] torque"
+_NO_FRICTION = "the arm has no viscous friction; give [bounds] viscous_min"
+
+
+def _scaled(
+    name: str, joint: int, value: Fraction, budget: Fraction, n: int, gamma: GammaBound, places: int
+) -> Check:
+    """value < budget / (√n γ), exactly."""
+    if gamma.enclosure is None:
+        return Check(name, joint, REJECTED, value, None, None, _UNBOUNDED)
+
+    def passes(k: Fraction) -> bool:
+        return below(k, budget, n, gamma)
+
+    limit = scaled_limit(budget, n, gamma.enclosure)
+    verdict = ACCEPTED if passes(value) else REJECTED
+    return Check(name, joint, verdict, value, limit, largest_passing(passes, limit, places))
+
+
+def below(value: Fraction, budget: Fraction, n: int, gamma: GammaBound) -> bool:
+    """Decide value < budget/(√n γ) for value > 0: γ² < budget²/(n value²), for a positive budget."""
+    return budget > 0 and gamma.squared_less(budget**2 / (n * value**2))
+
+
+def scaled_limit(budget: Fraction, n: int, gamma: Enclosure) -> Enclosure:
+    """budget/(√n γ), enclosed."""
+    with precision(160):
+        return Enclosure.from_arb(to_arb(budget) / (arb(n).sqrt() * gamma.to_arb()))
+
+
+def largest_passing(passes: Callable[[Fraction], bool], limit: Enclosure, places: int) -> Fraction | None:
+    """The largest decimal of so many places that passes; ``None`` if no positive one does."""
+    unit = Fraction(1, 10**places)
+    largest = round_down(limit.upper, places)
+    while largest > 0 and not passes(largest):
+        largest -= unit
+    return largest if largest > 0 else None
+
+
+def _norm_limit(torques: list[Fraction], limits: Limits, gamma: GammaBound) -> arb:
+    assert gamma.enclosure is not None
+    norms = [to_arb(sum((x * x for x in values), Fraction(0))).sqrt() for values in (torques, limits.gravity)]
+    return (norms[0] - norms[1]) / (arb(limits.n).sqrt() * gamma.enclosure.to_arb())
+
+
+def _compare(value: Fraction, limit: Callable[[], arb]) -> tuple[str, Enclosure]:
+    """value ≤ limit in balls of rising precision."""
+    for bits in _BITS:
+        with precision(bits):
+            ball = limit()
+            if ball >= to_arb(value):
+                return ACCEPTED, Enclosure.from_arb(ball)
+            if ball < to_arb(value):
+                return REJECTED, Enclosure.from_arb(ball)
+    return UNDECIDED, Enclosure.from_arb(ball)
