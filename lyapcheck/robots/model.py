@@ -103,8 +103,10 @@ class RobotModel:
     ) -> list[list[T]]:
         """M(q), kg·m², in any arithmetic: sin and cos are (n,), lift turns a Fraction into a T."""
         values = self.point(sin, cos, lift, parameters)
-        entries = trig.evaluate_all([entry for row in self.mass for entry in row], values, lift)
-        return [entries[i * self.n : (i + 1) * self.n] for i in range(self.n)]
+        places = [(i, j) for i in range(self.n) for j in range(i, self.n)]
+        upper = trig.evaluate_all([self.mass[i][j] for i, j in places], values, lift)
+        known = dict(zip(places, upper, strict=True))
+        return [[known[min(i, j), max(i, j)] for j in range(self.n)] for i in range(self.n)]
 
     def coriolis_at(
         self,

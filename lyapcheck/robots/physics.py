@@ -11,7 +11,7 @@ from flint import fmpq, fmpq_mat
 from lyapcheck.files import Notes, decimal_text
 from lyapcheck.robots.model import RobotModel
 
-_STATES = 24
+_STATES = 8
 _MOST_CORNERS = 64
 
 
@@ -24,8 +24,9 @@ def check_positive_definite(model: RobotModel, place: str, notes: Notes) -> None
         tangents = [_tangent(state, joint) for joint in range(model.n)]
         sin = [2 * t / (1 + t * t) for t in tangents]
         cos = [(1 - t * t) / (1 + t * t) for t in tangents]
-        if not _positive_definite(model.mass_at(sin, cos, Fraction, corner)):
-            where = [f"cos q{i + 1} = {decimal_text(value)}" for i, value in enumerate(cos)]
+        parameters = {name: _lift(value) for name, value in corner.items()}
+        if not _positive_definite(model.mass_at(sin, cos, _lift, parameters)):
+            where = [f"cos q{i + 1} = {value}" for i, value in enumerate(cos)]
             where += [f"{name} = {decimal_text(value)}" for name, value in corner.items()]
             rule = f"makes M not positive definite, e.g. at {', '.join(where)}"
             repair = "every joint must move some inertia: check masses, inertias, signs and ranges"
@@ -40,12 +41,15 @@ def _corners(model: RobotModel) -> Iterator[dict[str, Fraction]]:
         yield dict(zip(model.parameters, values, strict=True))
 
 
-def _tangent(state: int, joint: int) -> Fraction:
+def _tangent(state: int, joint: int) -> fmpq:
     """tan(q/2) of a joint: 0 everywhere in the first state, then spread over the circle."""
-    return Fraction((state * (2 * joint + 3)) % 23, 5) * (-1 if state % 2 else 1)
+    return fmpq((state * (2 * joint + 3)) % 23, 5) * (-1 if state % 2 else 1)
 
 
-def _positive_definite(rows: list[list[Fraction]]) -> bool:
+def _lift(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _positive_definite(rows: list[list[fmpq]]) -> bool:
     """All leading principal minors are positive."""
-    exact = [[fmpq(x.numerator, x.denominator) for x in row] for row in rows]
-    return all(fmpq_mat([row[:k] for row in exact[:k]]).det() > 0 for k in range(1, len(exact) + 1))
+    return all(fmpq_mat([row[:k] for row in rows[:k]]).det() > 0 for k in range(1, len(rows) + 1))
