@@ -1,12 +1,13 @@
 """V and dV/dt at one exact state in balls, by the plain chain rule along (11), and what they confirm.
 
-    V = ½ wᵀM(q)w + Σ k_pi U(e_i) − ε hᵀM(q)w,   ε = ε₀/(1 + ‖e‖),   h = (h(e_i))
+    V = ½ yᵀM(q)y + Σ k_pi U(e_i),   y = w − εh,   h = (h(e_i)),   ε = ε₀/(1 + ‖e‖)
+    dV/dt = yᵀ(Mẇ − M(dε/dt h + ε dh/dt)) + ½ yᵀṀy − Σ k_pi h(e_i) w_i
     q̇ = w,   ė = −w,   Mẇ = K_p h − K_v h(w) − Bw − C(q,w)w,   C(q,w)w = Ṁw − ½ (∂/∂q)(wᵀMw)
 
 Neither Christoffel symbols nor the cancellations that lead to (15) nor the quadratic form of the certificates
 are used, so a state confirmed here stands on its own.
 
-References: ``reyes2019family`` (11), (12).
+References: ``reyes2019family`` (11), (13).
 """
 
 from __future__ import annotations
@@ -83,9 +84,8 @@ def value(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: 
     """A ball that contains V at the state, in J."""
     with precision(bits):
         at = _Point(arm, controller, eps0, state)
-        kinetic = _dot(at.w, _times(at.mass, at.w)) / 2
         stored = _sum(k * at.functions.potential(e) for k, e in zip(at.kp, at.e, strict=True))
-        return kinetic + stored - at.eps * _dot(at.h, _times(at.mass, at.w))
+        return _dot(at.y, _times(at.mass, at.y)) / 2 + stored
 
 
 def rate(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: int = 128) -> arb:
@@ -105,21 +105,18 @@ def rate(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: i
     """
     with precision(bits):
         at = _Point(arm, controller, eps0, state)
-        pull = at.inertia_times_acceleration()
-        momentum = _times(at.mass, at.w)
-        turning = _times(at.mass_rate, at.w)
-        kinetic = _dot(at.w, pull) + _dot(at.w, turning) / 2
-        stored = -_sum(k * a * b for k, a, b in zip(at.kp, at.h, at.w, strict=True))
-        dh_dt = [-at.functions.dh(e) * w for e, w in zip(at.e, at.w, strict=True)]
-        cross = at.eps * (_dot(dh_dt, momentum) + _dot(at.h, turning) + _dot(at.h, pull))
-        return kinetic + stored - cross - at.eps_rate * _dot(at.h, momentum)
+        dh = [-at.functions.dh(e) * w for e, w in zip(at.e, at.w, strict=True)]
+        shift = [at.eps_rate * h + at.eps * change for h, change in zip(at.h, dh, strict=True)]
+        pull = [a - b for a, b in zip(at.inertia_times_acceleration(), _times(at.mass, shift), strict=True)]
+        stored = _sum(k * h * w for k, h, w in zip(at.kp, at.h, at.w, strict=True))
+        return _dot(at.y, pull) + _dot(at.y, _times(at.mass_rate, at.y)) / 2 - stored
 
 
 def confirms_positive(arm: Arm, controller: Controller, eps0: Fraction, state: State) -> bool:
     """Whether dV/dt > 0 at the state is proved, with as many bits as that takes.
 
-    ``True`` refutes "dV/dt < 0 away from the origin" for this ε₀. ``False`` says nothing: it is also the answer
-    at the origin, for ε₀ <= 0, and for a state of another number of joints.
+    ``True`` refutes "dV/dt < 0 away from the origin" for this ε₀. ``False`` says nothing: it is the answer
+    also at the origin, for ε₀ <= 0, and for a state of another number of joints.
     """
     sizes = {arm.n, *map(len, (controller.kp, controller.kv, state.q, state.e, state.w))}
     if len(sizes) != 1 or state.at_origin or eps0 <= 0:
@@ -153,6 +150,7 @@ class _Point:
             for i in range(arm.n)
         ]
         self.eps, self.eps_rate = self._eps(to_arb(eps0), state)
+        self.y = [w - self.eps * h for w, h in zip(self.w, self.h, strict=True)]
 
     def _eps(self, eps0: arb, state: State) -> tuple[arb, arb]:
         """ε and dε/dt = ε₀ (eᵀw/r)/(1 + r)²; the latter is put at 0 where e = 0 (see `rate`)."""

@@ -94,7 +94,7 @@ def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Arr
 
 
 def sample(setting: Setting, count: int, seed: int) -> States:
-    """Random states: q over the torus, each |e_i| and ‖w‖ log-uniform, half of the w in the fastest direction.
+    """Random states: q on the torus, |e_i| and ‖w‖ log-uniform, half of the w in the fastest direction.
 
     Args:
         setting: gains and arm.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.states import Arm, Controller, Functions
 from lyapcheck.errors import argument_error
-from lyapcheck.family import Family
+from lyapcheck.family import Family, named
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import fraction
@@ -42,10 +43,10 @@ class Setting:
             )
             raise argument_error("gains", self.gains.name, rule, repair)
 
-    @property
+    @cached_property
     def family(self) -> Family:
         """The function of the controller."""
-        return self.gains.family
+        return named(self.gains.family, self.gains.m)
 
     @property
     def n(self) -> int:
@@ -99,9 +100,9 @@ class Setting:
         functions = Functions(self.family.ball_h, self.family.ball_dh, self.family.ball_potential)
         return Controller(functions, tuple(self.gains.kp), tuple(self.gains.kv), self.per_degree)
 
-    def _doubles(self, gains: object) -> Array:
+    def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0
-        return np.array([float(gain) * unit for gain in gains])  # type: ignore[attr-defined]
+        return np.array([float(gain) * unit for gain in gains])
 
 
 def _terms(entry: fmpq_mpoly) -> tuple[Term, ...]:

@@ -1,0 +1,156 @@
+"""Worst-case states by CasADi and IPOPT from many starts.
+
+Three programs, all smooth, all started from the best of many sampled states:
+
+    fast     max over (q, e, v) of the 1/ε₀ that the state w = t v, t → ∞, refutes: a generalised eigenvalue
+    level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
+    finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
+
+and, for a given ε₀, ``steepest``: max of dV/dt / (‖h(e)‖² + ‖w‖²).
+
+Soundness: none; what is found is a candidate for `lyapcheck.check.states`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from lyapcheck.robots import graph
+from lyapcheck.search.sample import States, fastest_directions, quadratic, size
+from lyapcheck.search.setting import Array, Setting
+
+_OPTIONS: dict[str, Any] = {
+    "print_time": False,
+    "error_on_fail": False,
+    "ipopt": {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-10, "acceptable_tol": 1e-8},
+}
+_LONGEST_ERROR = 30.0
+"""Largest |e_i| searched, rad: beyond it 1/(1 + ‖e‖) is small."""
+_FASTEST = 1e4
+"""Largest |w_i| of the finite program, rad/s: beyond it the fast program is as good."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """Maximise ``objective`` over ``variables`` within ±``bound`` and with ``constraint`` <= 0."""
+
+    variables: Any
+    objective: Any
+    bound: Array
+    constraint: Any = None
+
+    def climb(self, starts: Array) -> Array:
+        """Where IPOPT ends from each start, (starts, variables)."""
+        problem = {"x": self.variables, "f": -self.objective}
+        limits: dict[str, Any] = {"lbx": -self.bound, "ubx": self.bound}
+        if self.constraint is not None:
+            problem["g"] = self.constraint
+            limits |= {"lbg": -np.inf, "ubg": 0.0}
+        solver = ca.nlpsol("solver", "ipopt", problem, _OPTIONS)
+        ends = [np.asarray(solver(x0=start, **limits)["x"]).ravel() for start in starts]
+        return np.array(ends).reshape(len(starts), len(self.bound))
+
+
+@dataclass(frozen=True)
+class Expressions:
+    """The state as symbols, and what the programs are made of, all as CasADi expressions."""
+
+    q: Any
+    e: Any
+    w: Any
+    h: Any
+    a0: Any
+    a1: Any
+    a2: Any
+    fast: Any
+    """wᵀSw / (1 + r): what of a₁ is left for fast states."""
+
+
+def expressions(setting: Setting) -> Expressions:
+    """a₀, a₁, a₂ of `lyapcheck.search.sample` and wᵀSw/(1 + r) as CasADi expressions."""
+    n = setting.n
+    q, e, w = (ca.SX.sym(name, n) for name in "qew")
+    forms, rates = setting.family.casadi_smooth(e), setting.family.casadi_smooth(w)
+    h, dh = forms.h, forms.dh
+    r = ca.sqrt(ca.dot(e, e) + 1e-24)
+    s, ew = 1 / (1 + r), ca.dot(e, w) / r
+    mass = graph.mass(setting.fixed, q)
+    mw, mh, cw = mass @ w, mass @ h, graph.coriolis(setting.fixed, q, h) @ w
+    damping = ca.DM(setting.viscous) * w + ca.DM(setting.kv) * rates.h
+    fast = s * (ca.dot(dh * w, mw) - s * ew * ca.dot(h, mw) - ca.dot(w, cw))
+    slow = s * (ca.dot(h, damping) - ca.dot(h, ca.DM(setting.kp) * h))
+    last = s * s * (ca.dot(h, cw) + s * ew * ca.dot(h, mh) - ca.dot(mh, dh * w))
+    return Expressions(q, e, w, h, ca.dot(w, damping), fast + slow, last, fast)
+
+
+def fast_states(setting: Setting, starts: States) -> States:
+    """Where the fast program ends from each start; w has unit length."""
+    x = expressions(setting)
+    n = setting.n
+    damping = ca.dot(x.w, ca.DM(setting.fast_damping) * x.w)
+    bound = _bound(n, 2.0)
+    found = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
+    return _unit(setting, States(*_parts(found, n)))
+
+
+def level_states(setting: Setting, starts: States) -> States:
+    """Where the fast program ends with e held at 0."""
+    n = setting.n
+    q, w = ca.SX.sym("q", n), ca.SX.sym("w", n)
+    slopes = ca.DM(setting.family.dh(np.zeros(n)))
+    top = ca.dot(slopes * w, graph.mass(setting.fixed, q) @ w)
+    program = Program(
+        ca.vertcat(q, w),
+        top / ca.dot(w, ca.DM(setting.fast_damping) * w),
+        np.concatenate([np.full(n, 2 * np.pi), np.full(n, 2.0)]),
+    )
+    found = program.climb(np.hstack([starts.q, starts.w]))
+    return _unit(setting, States(found[:, :n], np.zeros_like(found[:, :n]), found[:, n:]))
+
+
+def finite_states(setting: Setting, starts: States) -> States:
+    """Where the finite program ends from each start: max y with −a₀y² + a₁y + a₂ >= 0, y = 1/ε₀."""
+    x = expressions(setting)
+    y = ca.SX.sym("y")
+    failing = y * y - (x.a1 / x.a0) * y - x.a2 / x.a0
+    bound = np.append(_bound(setting.n, _FASTEST), 1e6)
+    first = quadratic(setting, starts).reciprocal()
+    program = Program(ca.vertcat(x.q, x.e, x.w, y), y, bound, failing)
+    found = program.climb(np.hstack([_stack(starts), first[:, None]]))
+    return States(*_parts(found[:, :-1], setting.n))
+
+
+def steepest_states(setting: Setting, eps0: float, starts: States) -> States:
+    """Where max dV/dt / (‖h(e)‖² + ‖w‖²) ends from each start, for one ε₀."""
+    x = expressions(setting)
+    rate = -x.a0 + eps0 * (x.a1 + eps0 * x.a2)
+    objective = rate / (ca.dot(x.h, x.h) + ca.dot(x.w, x.w))
+    program = Program(ca.vertcat(x.q, x.e, x.w), objective, _bound(setting.n, _FASTEST))
+    return States(*_parts(program.climb(_stack(starts)), setting.n))
+
+
+def _bound(n: int, rate: float) -> Array:
+    return np.repeat([2 * np.pi, _LONGEST_ERROR, rate], n)
+
+
+def _stack(states: States) -> Array:
+    return np.hstack([states.q, states.e, states.w])
+
+
+def _parts(rows: Array, n: int) -> tuple[Array, Array, Array]:
+    return rows[:, :n], rows[:, n : 2 * n], rows[:, 2 * n : 3 * n]
+
+
+def _unit(setting: Setting, states: States) -> States:
+    """The same (q, e) with the direction of w that is worst there."""
+    return States(states.q, states.e, fastest_directions(setting, states.q, states.e)[1])
+
+
+def steepness(setting: Setting, eps0: float, states: States) -> Array:
+    """dV/dt / (‖h(e)‖² + ‖w‖²) at each state."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(quadratic(setting, states).at(eps0) / size(setting, states))
