@@ -19,8 +19,8 @@ LEGEND = f"Settled: within {100 * SETTLING_BAND:g} % of the step for good; — w
 
 
 def as_text(runs: Sequence[Run]) -> str:
-    """For each run a headline, lines on energy, torque and accuracy, and a row a joint; then what is assumed."""
-    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *_shared_notes(runs)])]) + "\n"
+    """For each run a headline, its facts and a row a joint; then what is assumed."""
+    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *_bullets(runs)])]) + "\n"
 
 
 def _block(run: Run) -> str:
@@ -38,8 +38,7 @@ def _padded(row: Sequence[str], widths: Sequence[int]) -> list[str]:
 
 def as_markdown(runs: Sequence[Run]) -> str:
     """The same as Markdown."""
-    notes = "\n".join(f"- {note}" for note in _shared_notes(runs))
-    return "\n\n".join([*map(_section, runs), LEGEND, notes]).rstrip() + "\n"
+    return "\n\n".join([*map(_section, runs), LEGEND, "\n".join(_bullets(runs))]).rstrip() + "\n"
 
 
 def _section(run: Run) -> str:
@@ -79,9 +78,8 @@ def _checks(run: Run) -> str:
     if not run.complete:
         return "accuracy unknown: the run was cut short"
     accuracy = f"accuracy {run.accuracy:.0e} (rad, rad/s) by a second, tighter run"
-    return (
-        accuracy if math.isnan(run.energy_balance) else f"{accuracy}, energy balance {run.energy_balance:.0e}"
-    )
+    balance = "" if math.isnan(run.energy_balance) else f", energy balance {run.energy_balance:.0e}"
+    return accuracy + balance
 
 
 def _rows(run: Run) -> list[tuple[str, ...]]:
@@ -89,10 +87,10 @@ def _rows(run: Run) -> list[tuple[str, ...]]:
     return [
         (
             joint,
-            _number(found.settling[i], ".3f"),
-            _number(found.overshoot[i], ".2f"),
-            _number(found.final_error[i], ".4f"),
-            _number(found.peak_torque[i], ".2f"),
+            _number(found.settling[i], "z.3f"),
+            _number(found.overshoot[i], "z.2f"),
+            _number(found.final_error[i], "z.4f"),
+            _number(found.peak_torque[i], "z.2f"),
             _number(run.torque_limit[i], "g"),
             _WORDS[run.promises.inside_limits[i]],
         )
@@ -100,7 +98,7 @@ def _rows(run: Run) -> list[tuple[str, ...]]:
     ]
 
 
-_WORDS = {True: "inside", False: "AT THE LIMIT", None: ""}
+_WORDS = {True: "inside", False: "LIMIT REACHED", None: ""}
 
 
 def _number(value: float | None, form: str) -> str:
@@ -109,6 +107,10 @@ def _number(value: float | None, form: str) -> str:
 
 def _shared_notes(runs: Sequence[Run]) -> list[str]:
     return list(dict.fromkeys(note for run in runs for note in run.notes))
+
+
+def _bullets(runs: Sequence[Run]) -> list[str]:
+    return [f"- {note}" for note in _shared_notes(runs)]
 
 
 def as_json(runs: Sequence[Run]) -> str:
