@@ -50,7 +50,9 @@ def gamma_of(gain_set: GainSet, source: str = "true") -> GammaBound:
     """
     if source == "printed":
         if gain_set.family != "hyperbolic" or gain_set.m not in PRINTED:
-            raise argument_error("--gamma", source, f"the paper prints no γ for {gain_set.name}", "use the true γ")
+            raise argument_error(
+                "--gamma", source, f"the paper prints no γ for {gain_set.name}", "use the true γ"
+            )
         return GammaBound(Enclosure.exact(PRINTED[gain_set.m]))
     if gain_set.family == "hyperbolic" and gain_set.m is not None:
         return GammaBound(hyperbolic_constants(gain_set.m, DIGITS).gamma, gain_set.m)

@@ -43,6 +43,7 @@ class Check:
         largest_admissible: the largest value that passes, with as many decimal places as the user wrote;
             ``None`` where no positive value does.
         reason: one sentence where ``limit`` is ``None`` or nothing was decided.
+        places: decimal places that the user wrote.
     """
 
     id: str
@@ -52,6 +53,7 @@ class Check:
     limit: Enclosure | None
     largest_admissible: Fraction | None
     reason: str = ""
+    places: int = 0
 
     @property
     def margin(self) -> Fraction | None:
@@ -104,8 +106,10 @@ def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
     verdict, enclosure = _compare(value, limit)
     places = max(places_of(k) for k in (*gains.kp, *gains.kv))
     largest = round_down(enclosure.lower, places)
-    reason = "" if verdict != UNDECIDED else "value and limit agree to 400 digits; change a gain in its last digit"
-    return [Check("10", None, verdict, value, enclosure, largest if largest > 0 else None, reason)]
+    reason = (
+        "" if verdict != UNDECIDED else "value and limit agree to 400 digits; change a gain in its last digit"
+    )
+    return [Check("10", None, verdict, value, enclosure, largest if largest > 0 else None, reason, places)]
 
 
 CHECKS: dict[str, Callable[[GainSet, Limits, GammaBound], list[Check]]] = {
@@ -131,7 +135,7 @@ def _scaled(
 
     limit = scaled_limit(budget, n, gamma.enclosure)
     verdict = ACCEPTED if passes(value) else REJECTED
-    return Check(name, joint, verdict, value, limit, largest_passing(passes, limit, places))
+    return Check(name, joint, verdict, value, limit, largest_passing(passes, limit, places), "", places)
 
 
 def below(value: Fraction, budget: Fraction, n: int, gamma: GammaBound) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from lyapcheck.errors import InputError
 from lyapcheck.files import Document, Fields, Notes, open_document
-from lyapcheck.files.places import Place
+from lyapcheck.files.places import KeyPath, Place
 
 FAMILIES = ("hyperbolic", "tanh", "arctan", "algebraic", "linear")
 LARGEST_M = 100_000
@@ -72,15 +72,15 @@ class GainFile:
         """Where a gain of a set stands; ``joint`` counts from 0."""
         if self.document is None:
             return None
-        path = ("gains", gain_set.index, *([key] if key else []), *([joint] if joint is not None else []))
-        return self.document.place(path)
+        path: KeyPath = ("gains", gain_set.index, key) if key else ("gains", gain_set.index)
+        return self.document.place(path if joint is None else (*path, joint))
 
 
 def read_gain_file(path: str | Path) -> GainFile:
     """The gain sets of a TOML file, every decimal exact.
 
     Raises:
-        InputError: everything that is wrong with the file, each problem with line, key, value, rule and repair.
+        InputError: everything that is wrong with the file, each problem with its line and repair.
     """
     document = open_document(Path(path), str(path))
     notes = Notes(document.name, document.line)
@@ -129,7 +129,12 @@ def _check_names(gains: tuple[GainSet, ...], notes: Notes) -> None:
     seen: set[str] = set()
     for gain_set in gains:
         if gain_set.name in seen:
-            notes.fail(("gains", gain_set.index, "name"), gain_set.name, "is used twice", "give each set its own name")
+            notes.fail(
+                ("gains", gain_set.index, "name"),
+                gain_set.name,
+                "is used twice",
+                "give each set its own name",
+            )
         seen.add(gain_set.name)
 
 

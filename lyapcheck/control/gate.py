@@ -46,7 +46,9 @@ class GateResult:
     @property
     def failures(self) -> tuple[Check, ...]:
         """The deciding checks that were not accepted."""
-        return tuple(check for check in self.checks if check.id in self.deciding and check.verdict != ACCEPTED)
+        return tuple(
+            check for check in self.checks if check.id in self.deciding and check.verdict != ACCEPTED
+        )
 
 
 def gate(

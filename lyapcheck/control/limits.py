@@ -113,7 +113,8 @@ def _assumptions(model: RobotModel, torque: bool, viscous: bool) -> tuple[str, .
     """The arm's assumed numbers among those that are used."""
     used = [*(model.torque_limit if torque else ()), *(model.viscous if viscous else ())]
     names = zip(
-        [f"torque limit of {j}" for j in model.joints if torque] + [f"friction of {j}" for j in model.joints if viscous],
+        [f"torque limit of {j}" for j in model.joints if torque]
+        + [f"friction of {j}" for j in model.joints if viscous],
         used,
         strict=True,
     )
@@ -122,7 +123,9 @@ def _assumptions(model: RobotModel, torque: bool, viscous: bool) -> tuple[str, .
 
 def _without_arm(gain_file: GainFile) -> InputError:
     rule = "is missing and [bounds] does not give viscous_min, torque and gravity"
-    return InputError(Problem(gain_file.path, None, "robot", "", rule, 'name an arm, for instance robot = "buap3"'))
+    return InputError(
+        Problem(gain_file.path, None, "robot", "", rule, 'name an arm, for instance robot = "buap3"')
+    )
 
 
 def _wrong_arm(gain_file: GainFile, name: str, n: int) -> InputError:

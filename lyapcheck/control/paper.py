@@ -9,7 +9,7 @@ from lyapcheck.errors import argument_error
 
 
 def proofs_folder() -> Path:
-    """Where the proof scripts and the paper's gains are: inside an installed package, or at a checkout's top."""
+    """Where the proof scripts and the paper's gains are: in an installed package, or at a checkout's top."""
     package = Path(str(resources.files("lyapcheck")))
     inside = package / "proofs"
     return inside if inside.is_dir() else package.parent / "proofs"

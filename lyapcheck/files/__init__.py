@@ -1,7 +1,8 @@
-"""Reading what users write: TOML with every decimal exact, every key's place known, every problem told at once."""
+"""Reading what users write: exact decimals, the place of every key, every problem told at once."""
 
 from lyapcheck.files.decimals import NotFinite, Written, decimal_text, round_down
-from lyapcheck.files.fields import Fields, KeyPath, Notes
+from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.places import KeyPath
 from lyapcheck.files.toml import Document, open_document
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""Reading one table of a file: each getter returns a checked value, or notes what is wrong and returns nothing."""
+"""Reading one table of a file: each getter returns a checked value, or notes what is wrong."""
 
 from __future__ import annotations
 
@@ -114,12 +114,16 @@ class Fields:
         for key in self.data:
             if key not in known:
                 near = get_close_matches(key, known, 1)
-                repair = f"did you mean {near[0]}?" if near else f"remove it, or use one of: {', '.join(known)}"
+                repair = (
+                    f"did you mean {near[0]}?" if near else f"remove it, or use one of: {', '.join(known)}"
+                )
                 self.fail(key, "is not a known key here", repair)
 
     def _number(self, path: KeyPath, value: object, positive: bool) -> Fraction | None:
         if not isinstance(value, int | Fraction) or isinstance(value, bool):
-            self.notes.fail(path, value, "must be a finite decimal number", "write a plain decimal like 0.223")
+            self.notes.fail(
+                path, value, "must be a finite decimal number", "write a plain decimal like 0.223"
+            )
             return None
         if value < 0 or (positive and value == 0):
             rule = "must be positive" if positive else "must not be negative"

@@ -72,7 +72,9 @@ class _Walk:
 
     def _is(self, mark: str, ahead: int = 0) -> bool:
         index = self.at + ahead
-        return index < len(self.tokens) and self.tokens[index].kind == "mark" and self.tokens[index].text == mark
+        return (
+            index < len(self.tokens) and self.tokens[index].kind == "mark" and self.tokens[index].text == mark
+        )
 
     def _header(self) -> KeyPath:
         place, array = self.tokens[self.at].place, self._is("[", 1)
@@ -95,7 +97,11 @@ class _Walk:
         keys: list[str] = []
         while not self._is(end):
             token = self.tokens[self.at]
-            keys += [token.text[1:-1]] if token.kind == "text" else [part for part in token.text.split(".") if part]
+            keys += (
+                [token.text[1:-1]]
+                if token.kind == "text"
+                else [part for part in token.text.split(".") if part]
+            )
             self.at += 1
         return keys
 

@@ -1,0 +1,35 @@
+"""The gate as GitHub annotations, at the line and column of the gain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.control.conditions import Check
+from lyapcheck.control.gate import GateResult
+from lyapcheck.control.gate_formats.words import KEYS, advice
+
+
+def render(results: Sequence[GateResult]) -> str:
+    """``::error …`` for each rejected check, ``::warning …`` for each undecided one, a notice if all pass."""
+    lines = [_annotation(result, check) for result in results for check in result.failures]
+    passed = sum(result.verdict == "accepted" for result in results)
+    return (
+        "\n".join([*lines, f"::notice title=lyapcheck gate::{passed} of {len(results)} gain sets accepted"])
+        + "\n"
+    )
+
+
+def _annotation(result: GateResult, check: Check) -> str:
+    level = "error" if check.verdict == "rejected" else "warning"
+    place = result.file.place(result.gains, KEYS[check.id], check.joint)
+    where = "" if place is None else f",line={place.line},col={place.column}"
+    file, title = _property(result.file.path), _property(f"{result.name}: {check.verdict}")
+    return f"::{level} file={file}{where},title={title}::{_message(advice(result, check))}"
+
+
+def _message(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _message(text).replace(":", "%3A").replace(",", "%2C")

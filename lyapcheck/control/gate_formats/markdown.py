@@ -1,0 +1,51 @@
+"""The gate as Markdown, for a pull request or a step summary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.control.conditions import Check
+from lyapcheck.control.gate import GateResult
+from lyapcheck.control.gate_formats.words import (
+    RULES,
+    SYMBOLS,
+    advice,
+    joint_name,
+    largest_text,
+    limit_text,
+    margin_text,
+)
+from lyapcheck.files import decimal_text
+
+
+def render(results: Sequence[GateResult]) -> str:
+    """A table a gain set, and what to change."""
+    return "\n".join(_section(result) for result in results)
+
+
+def _section(result: GateResult) -> str:
+    about = f"m = {result.m}" if result.m is not None else result.gains.family
+    lines = [
+        f"### {SYMBOLS[result.verdict]} {result.name} ({about}): {result.verdict}",
+        "",
+        "| | condition | joint | value | limit | margin | largest admissible |",
+        "|---|---|---|---:|---:|---:|---:|",
+        *(_row(result, check) for check in result.checks),
+        "",
+        *(f"- {advice(result, check)}" for check in result.failures),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _row(result: GateResult, check: Check) -> str:
+    note = "" if check.id in result.deciding else " (does not decide)"
+    cells = (
+        SYMBOLS[check.verdict],
+        f"({check.id}) {RULES[check.id].replace('‖', '&#8214;')}{note}",
+        joint_name(result, check),
+        decimal_text(check.value),
+        limit_text(check),
+        margin_text(check),
+        largest_text(check),
+    )
+    return f"| {' | '.join(cells)} |"

@@ -1,0 +1,54 @@
+"""Comparisons between gain sets: performance indices and the four ε₀."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lyapcheck.report.figures.style import COLOURS, panels, styled, svg
+
+MARKERS = ("o", "s", "D", "X")
+
+
+def indices_figure(names: Sequence[str], bars: Mapping[str, Sequence[float | None]]) -> str:
+    """The L2 index in degrees of each gain set, one bar a source (simulated, printed).
+
+    References: (20) and Fig. 11 of reyes2019family.
+    """
+    with styled():
+        figure, axes = panels(1, 1, height=2.8)
+        axis, width = axes[0, 0], 0.8 / len(bars)
+        for index, (source, values) in enumerate(bars.items()):
+            places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
+            drawn = axis.bar(
+                places, [value or 0.0 for value in values], width, label=source, color=COLOURS[index]
+            )
+            axis.bar_label(
+                drawn, ["" if value is None else f"{value:.2f}" for value in values], fontsize=8, padding=2
+            )
+        axis.set_xticks(range(len(names)), names)
+        axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
+        axis.grid(axis="x", visible=False)
+        axis.margins(y=0.15)
+        axis.legend(ncols=len(bars), loc="upper right", bbox_to_anchor=(1.0, 1.16))
+        return svg(figure)
+
+
+def epsilon_figure(names: Sequence[str], epsilons: Mapping[str, Sequence[float | None]]) -> str:
+    """The four ε₀ of each gain set on one logarithmic axis; an ε₀ that does not exist has no mark."""
+    with styled():
+        figure, axes = panels(1, 1, height=0.8 + 0.45 * len(names))
+        axis = axes[0, 0]
+        for index, (kind, values) in enumerate(epsilons.items()):
+            known = [(value, place) for place, value in enumerate(values) if value is not None]
+            if known:
+                across, up = zip(*known, strict=True)
+                axis.scatter(
+                    across, up, label=kind, color=COLOURS[index], marker=MARKERS[index], s=42, zorder=3
+                )
+        axis.set_xscale("log")
+        axis.set_yticks(range(len(names)), names)
+        axis.invert_yaxis()
+        axis.margins(y=0.3)
+        axis.set(xlabel="ε₀", title="ε₀: what is published, proved and refuted")
+        axis.legend(ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.35))
+        return svg(figure)

@@ -1,0 +1,29 @@
+"""V and dV/dt along a simulated run."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.report.figures.style import COLOURS, panels, styled, svg
+
+Array = NDArray[np.float64]
+
+
+def lyapunov_figure(title: str, t: Array, V: Array, dV: Array) -> str:
+    """V in J and −dV/dt in W over time on logarithmic axes; a rising V shows as a gap in the right panel.
+
+    References: (12) and (15) of reyes2019family.
+    """
+    with styled():
+        figure, axes = panels(1, 2, height=2.6)
+        axes[0, 0].semilogy(t, _positive(V), color=COLOURS[0])
+        axes[0, 0].set(xlabel="t [s]", ylabel="V [J]", title=title, xlim=(t[0], t[-1]))
+        axes[0, 1].semilogy(t, _positive(-dV), color=COLOURS[1])
+        axes[0, 1].set(xlabel="t [s]", ylabel="−dV/dt [W]", title="rate of decrease", xlim=(t[0], t[-1]))
+        return svg(figure)
+
+
+def _positive(values: Array) -> Array:
+    """The values where they can be drawn on a logarithmic axis, gaps elsewhere."""
+    return np.where(values > 0.0, values, np.nan)
