@@ -31,7 +31,7 @@ def limit_text(check: Check, digits: int = 6) -> str:
 
 
 def largest_text(check: Check) -> str:
-    """The largest value that passes, with the decimal places that the user wrote; ``none`` if there is none."""
+    """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
     largest = check.largest_admissible
     return "none" if largest is None else decimal_text(largest, check.places)
 
