@@ -15,7 +15,7 @@ from lyapcheck import family
 from lyapcheck.check import balls
 from lyapcheck.check.constants import hyperbolic_constants
 
-MEMBERS = (1, 2, 3, 5, 10, 50, 100, 317, 1000)
+MEMBERS = (1, 2, 3, 5, 10, 50, 100, 317, 513, 1000)
 FORMS = {"h": balls.h, "dh": balls.dh, "potential": balls.potential, "secant": balls.secant}
 BORDER = 0.8813735870195430
 LIMIT = 4.0

@@ -111,16 +111,22 @@ class Powers:
 
     def __init__(self, base: Pair, largest: int) -> None:
         self._squares = [base]
-        for _ in range(max(largest, 1).bit_length() - 1):
+        for _ in range(largest.bit_length() - 2):
             self._squares.append(square(self._squares[-1]))
 
     def times(self, start: Pair, exponent: int) -> Pair:
-        """``start · base**exponent``; large factors belong into ``start``: an underflow then comes last."""
-        result = start
-        for k, squared in enumerate(self._squares):
+        """``start · base**exponent``; large factors belong into ``start``: an underflow then comes last.
+
+        The highest power goes in as two halves: by itself it may underflow where the product does not.
+        """
+        top = exponent.bit_length() - 1
+        if top < 1:
+            return multiply(start, self._squares[0]) if exponent else start
+        result, half = start, self._squares[top - 1]
+        for k in range(top):
             if exponent >> k & 1:
-                result = multiply(result, squared)
-        return result
+                result = multiply(result, self._squares[k])
+        return multiply(multiply(result, half), half)
 
 
 @contextmanager
