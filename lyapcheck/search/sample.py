@@ -19,6 +19,9 @@ import numpy as np
 
 from lyapcheck.search.setting import Array, Setting
 
+_LARGE_ERROR = 0.3
+"""rad; for m >= 2 h' has its peak beyond, and hardly anything happens below."""
+
 
 @dataclass(frozen=True)
 class States:
@@ -94,7 +97,10 @@ def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Arr
 
 
 def sample(setting: Setting, count: int, seed: int) -> States:
-    """Random states: q on the torus, |e_i| and ‖w‖ log-uniform, half of the w in the fastest direction.
+    """Random states: q on the torus, ‖w‖ log-uniform, half of the w in the fastest direction.
+
+    In every other pair of states |e_i| is uniform up to 2.5 rad, where h and h' do all they do; in the rest it is
+    log-uniform from 0.001 to 10 rad.
 
     Args:
         setting: gains and arm.
@@ -103,20 +109,45 @@ def sample(setting: Setting, count: int, seed: int) -> States:
     """
     random = np.random.default_rng(seed)
     shape = (count, setting.n)
+    order = np.arange(count)[:, None]
     q = random.uniform(-np.pi, np.pi, shape)
-    e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 1, shape)
-    _, directions = fastest_directions(setting, q, e)
+    e = np.where(order % 4 < 2, random.uniform(0, 2.5, shape), 10 ** random.uniform(-3, 1, shape))
+    e *= random.choice([-1.0, 1.0], shape)
+    directions = fastest_directions(setting, q, e)[1] * random.choice([-1.0, 1.0], (count, 1))
     free = random.normal(size=shape)
     free /= np.linalg.norm(free, axis=1, keepdims=True)
-    directions *= random.choice([-1.0, 1.0], (count, 1))
-    chosen = np.where(np.arange(count)[:, None] % 2 == 0, directions, free)
+    chosen = np.where(order % 2 == 0, directions, free)
     return States(q, e, chosen * 10 ** random.uniform(-2, 5, (count, 1)))
 
 
-def size(setting: Setting, states: States) -> Array:
-    """‖h(e)‖² + ‖w‖², by which dV/dt is made comparable between slow and fast states."""
+def spread(states: States, merit: Array, count: int) -> Array:
+    """Indices of ``count`` promising states from different corners of the state space.
+
+    A corner is a pattern of large positive, small and large negative e_i (up to the sign of e) and of the signs
+    of sin q and cos q. The best state of every corner comes before the second best of any, so that many good
+    states in one valley do not hide another valley.
+    """
+    corners = _corners(states)
+    order = np.argsort(-merit, kind="stable")
+    grouped = order[np.argsort(corners[order], kind="stable")]
+    _, first, members = np.unique(corners[grouped], return_index=True, return_counts=True)
+    rank = np.arange(len(grouped)) - np.repeat(first, members)
+    return np.asarray(grouped[np.lexsort((-merit[grouped], rank))][:count])
+
+
+def _corners(states: States) -> Array:
+    """A number for the corner that each state lies in."""
+    size = np.where(np.abs(states.e) > _LARGE_ERROR, np.sign(states.e), 0).astype(int)
+    errors = np.abs(size @ 3 ** np.arange(size.shape[1]))
+    turned = states.q[:, 1:]
+    quarters = (np.sin(turned) > 0) + 2 * (np.cos(turned) > 0)
+    return np.asarray(errors * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
+
+
+def size(setting: Setting, eps0: float, states: States) -> Array:
+    """‖z‖² = ε‖h(e)‖² + ‖w‖², by which dV/dt is made comparable between slow and fast states."""
     h = setting.family.h(states.e)
-    return _dot(h, h) + _dot(states.w, states.w)
+    return eps0 * _nearness(states.e)[0] * _dot(h, h) + _dot(states.w, states.w)
 
 
 def _nearness(e: Array) -> tuple[Array, Array]:

@@ -6,7 +6,7 @@ Three programs, all smooth, all started from the best of many sampled states:
     level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
     finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
 
-and, for a given ε₀, ``steepest``: max of dV/dt / (‖h(e)‖² + ‖w‖²).
+and, for a given ε₀, ``steepest``: max of dV/dt / ‖z‖², ‖z‖² = ε‖h(e)‖² + ‖w‖².
 
 Soundness: none; what is found is a candidate for `lyapcheck.check.states`.
 """
@@ -62,6 +62,8 @@ class Expressions:
     q: Any
     e: Any
     w: Any
+    near: Any
+    """1/(1 + ‖e‖)"""
     h: Any
     a0: Any
     a1: Any
@@ -84,7 +86,7 @@ def expressions(setting: Setting) -> Expressions:
     fast = s * (ca.dot(dh * w, mw) - s * ew * ca.dot(h, mw) - ca.dot(w, cw))
     slow = s * (ca.dot(h, damping) - ca.dot(h, ca.DM(setting.kp) * h))
     last = s * s * (ca.dot(h, cw) + s * ew * ca.dot(h, mh) - ca.dot(mh, dh * w))
-    return Expressions(q, e, w, h, ca.dot(w, damping), fast + slow, last, fast)
+    return Expressions(q, e, w, s, h, ca.dot(w, damping), fast + slow, last, fast)
 
 
 def fast_states(setting: Setting, starts: States) -> States:
@@ -125,10 +127,10 @@ def finite_states(setting: Setting, starts: States) -> States:
 
 
 def steepest_states(setting: Setting, eps0: float, starts: States) -> States:
-    """Where max dV/dt / (‖h(e)‖² + ‖w‖²) ends from each start, for one ε₀."""
+    """Where max dV/dt / ‖z‖² ends from each start, for one ε₀."""
     x = expressions(setting)
     rate = -x.a0 + eps0 * (x.a1 + eps0 * x.a2)
-    objective = rate / (ca.dot(x.h, x.h) + ca.dot(x.w, x.w))
+    objective = rate / (eps0 * x.near * ca.dot(x.h, x.h) + ca.dot(x.w, x.w))
     program = Program(ca.vertcat(x.q, x.e, x.w), objective, _bound(setting.n, _FASTEST))
     return States(*_parts(program.climb(_stack(starts)), setting.n))
 
@@ -151,6 +153,7 @@ def _unit(setting: Setting, states: States) -> States:
 
 
 def steepness(setting: Setting, eps0: float, states: States) -> Array:
-    """dV/dt / (‖h(e)‖² + ‖w‖²) at each state."""
+    """dV/dt / ‖z‖² at each state; −∞ at the origin, where it has no value."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(quadratic(setting, states).at(eps0) / size(setting, states))
+        found = quadratic(setting, states).at(eps0) / size(setting, eps0, states)
+    return np.where(np.isnan(found), -np.inf, found)

@@ -1,0 +1,200 @@
+"""The smallest ε₀ that an explicit state refutes: sampled, optimised, then confirmed in balls.
+
+References: ``reyes2019family`` (12), (15).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.states import State, confirms_positive, rate
+from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, spread
+from lyapcheck.search.setting import Array, Setting
+from lyapcheck.search.worst_states import (
+    fast_states,
+    finite_states,
+    level_states,
+    steepest_states,
+    steepness,
+)
+
+Progress = Callable[[float, str], None]
+
+SAMPLES = 20_000
+STARTS = 30
+SEED = 20190301
+
+_DIGITS = 9
+"""Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
+_EPS_DIGITS = 7
+_SCALES = tuple(sign * 10.0 ** (k / 2) for k in range(-2, 17) for sign in (1, -1))
+"""Factors tried on the rates of a candidate: fast states need ‖w‖ large enough for K_v h(w) not to matter."""
+_SLACKS = (Fraction(0), Fraction(1, 10**6), Fraction(1, 10**5), Fraction(1, 10**4), Fraction(1, 10**3))
+
+
+@dataclass(frozen=True)
+class WorstState:
+    """A state with its dV/dt, W, at ``eps0``, and that over ‖z‖²; floating point, for a reader."""
+
+    kind: str
+    eps0: float
+    q: tuple[float, ...]
+    e: tuple[float, ...]
+    w: tuple[float, ...]
+    rate: float
+    relative: float
+
+
+@dataclass(frozen=True)
+class Witness:
+    """An exact state at which dV/dt > 0 was proved for ``eps0``; ``rate`` encloses it, W."""
+
+    eps0: Fraction
+    state: State
+    rate: Enclosure
+    kind: str
+
+
+def falsify(
+    setting: Setting,
+    starts: int = STARTS,
+    samples: int = SAMPLES,
+    seed: int = SEED,
+    on_progress: Progress | None = None,
+) -> Witness | None:
+    """The smallest ε₀ for which a state with dV/dt > 0 was found and confirmed, with that state.
+
+    Args:
+        setting: gains and arm.
+        starts: how many starts for each of the optimised programs.
+        samples: how many random states they are chosen from.
+        seed: of the random numbers.
+        on_progress: told how far the search is.
+
+    Returns:
+        the witness; ``None`` when no state was confirmed, which proves nothing.
+
+    Soundness: the witness is proved by `lyapcheck.check.states` from exact data; nothing says that no smaller ε₀
+        fails.
+    """
+    tell = on_progress or (lambda fraction, note: None)
+    found: list[tuple[float, str, State]] = []
+    for share, (kind, states) in enumerate(_candidates(setting, starts, samples, seed), start=1):
+        tell(share / 5, f"{kind} states")
+        found += _best(setting, kind, states)
+    for reciprocal, kind, state in sorted(found, key=lambda entry: -entry[0]):
+        witness = _confirm(setting, reciprocal, kind, state)
+        if witness is not None:
+            return witness
+    return None
+
+
+def worst_states(
+    setting: Setting,
+    eps0: float,
+    starts: int = STARTS,
+    samples: int = SAMPLES,
+    seed: int = SEED,
+    keep: int = 3,
+) -> tuple[WorstState, ...]:
+    """The states of largest dV/dt / ‖z‖² at one ε₀: the worst of those sampled, and of those optimised.
+
+    Soundness: none; evidence for a reader.
+    """
+    states = sample(setting, samples, seed)
+    merit = steepness(setting, eps0, states)
+    chosen = spread(states, merit, starts)
+    climbed = steepest_states(setting, eps0, states.take(chosen))
+    return _described(setting, eps0, "sampled", states, keep) + _described(
+        setting, eps0, "optimised", climbed, keep
+    )
+
+
+def _described(setting: Setting, eps0: float, kind: str, states: States, keep: int) -> tuple[WorstState, ...]:
+    relative = steepness(setting, eps0, states)
+    rates = quadratic(setting, states).at(eps0)
+    order = np.argsort(-relative, kind="stable")[:keep]
+    return tuple(
+        WorstState(
+            kind,
+            eps0,
+            _plain(states.q[i]),
+            _plain(states.e[i]),
+            _plain(states.w[i]),
+            float(rates[i]),
+            float(relative[i]),
+        )
+        for i in order
+    )
+
+
+def _plain(row: Array) -> tuple[float, ...]:
+    return tuple(float(x) for x in row)
+
+
+def _candidates(setting: Setting, starts: int, samples: int, seed: int) -> Iterator[tuple[str, States]]:
+    """States that refute a small ε₀, from plain sampling to the optimised programs."""
+    states = sample(setting, samples, seed)
+    reciprocal = quadratic(setting, states).reciprocal()
+    chosen = states.take(spread(states, reciprocal, starts))
+    yield "sampled", chosen
+    speed, directions = fastest_directions(setting, states.q, states.e)
+    picked = spread(states, speed, starts)
+    fast = fast_states(setting, States(states.q[picked], states.e[picked], directions[picked]))
+    yield "fast", fast
+    yield "level", level_states(setting, States(states.q[picked], states.e[picked], directions[picked]))
+    yield "finite", finite_states(setting, chosen)
+    yield "finite", finite_states(setting, _leaving(setting, fast, starts))
+
+
+def _leaving(setting: Setting, fast: States, starts: int) -> States:
+    """Fast states at moderate rates, both ways, from which the finite program starts."""
+    speed, _ = fastest_directions(setting, fast.q, fast.e)
+    best = fast.take(spread(fast, speed, max(1, starts // 6)))
+    scales = [sign * t for t in (3.0, 30.0, 300.0) for sign in (1, -1)]
+    parts = [best.scaled(scale) for scale in scales]
+    return States(*(np.vstack([getattr(part, name) for part in parts]) for name in "qew"))
+
+
+def _best(setting: Setting, kind: str, states: States) -> list[tuple[float, str, State]]:
+    """The three best of the states, each with the smallest rates that are as good as any."""
+    reciprocals = np.array([_rounded_reciprocals(setting, states, scale) for scale in _SCALES])
+    best = reciprocals.max(axis=0)
+    found = []
+    for i in np.argsort(-best, kind="stable")[:3]:
+        if best[i] > 0:
+            enough = int(np.argmax(reciprocals[:, i] >= best[i] * (1 - 1e-6)))
+            q, e, w = (_exact(part[i]) for part in (states.q, states.e, states.w * _SCALES[enough]))
+            found.append((float(reciprocals[enough, i]), kind, State(q, e, w)))
+    return found
+
+
+def _rounded_reciprocals(setting: Setting, states: States, scale: float) -> Array:
+    return quadratic(setting, states.scaled(scale)).reciprocal()
+
+
+def _exact(row: Array) -> tuple[Fraction, ...]:
+    """Short decimals close to the doubles; what is rounding noise around 0 becomes 0."""
+    return tuple(Fraction(0) if abs(x) < 1e-12 else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
+
+
+def _confirm(setting: Setting, reciprocal: float, kind: str, state: State) -> Witness | None:
+    """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
+    for slack in _SLACKS:
+        eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
+        if confirms_positive(setting.arm, setting.controller, eps0, state):
+            shown = Enclosure.from_arb(rate(setting.arm, setting.controller, eps0, state, 256))
+            return Witness(eps0, state, shown, kind)
+    return None
+
+
+def round_up(value: Fraction, digits: int) -> Fraction:
+    """The smallest decimal of so many significant digits that is not below a positive number."""
+    places = digits - 1 - math.floor(math.log10(value))
+    return Fraction(math.ceil(value * Fraction(10) ** places)) / Fraction(10) ** places
