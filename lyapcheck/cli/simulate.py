@@ -94,8 +94,8 @@ def _task(model: RobotModel, target: str | None, start: str | None, time: float,
     from lyapcheck.simulate.task import task_for
 
     problems: list[Problem] = []
-    q_d = _angles("--target", target or _paper_target(model), model, problems)
-    q0 = _angles("--start", start or ",".join(["0"] * model.n), model, problems)
+    q_d = _angles("--target", _goal(target, model, problems), model, problems)
+    q0 = _angles("--start", _home(model) if start is None else start, model, problems)
     try:
         task = task_for(model.n, q_d, q0, None, time, eps0=eps0)
     except InputError as error:
@@ -116,9 +116,18 @@ def _angles(option: str, text: str, model: RobotModel, problems: list[Problem]) 
         return (0.0,) * model.n
 
 
-def _paper_target(model: RobotModel) -> str:
-    """The published goal on an arm of three joints; elsewhere nothing, which is then refused."""
-    return "45,45,90" if model.n == 3 else ""
+def _goal(target: str | None, model: RobotModel, problems: list[Problem]) -> str:
+    """What was asked for, or the published goal, which only an arm of three joints has."""
+    if target is None and model.n != 3:
+        rule = f"is missing, and the paper's goal is for 3 joints where {model.name} has {model.n}"
+        repair = f"write --target {','.join(['45'] * model.n)}"
+        problems.append(Problem("argument", None, "--target", "", rule, repair))
+        return _home(model)
+    return "45,45,90" if target is None else target
+
+
+def _home(model: RobotModel) -> str:
+    return ",".join(["0"] * model.n)
 
 
 def _check_places(csv: str | None, plot: Path | None) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
-from lyapcheck.simulate.integrate import Trajectory, integrate
+from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory, integrate
 from lyapcheck.simulate.results import Motion, run_of
 from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
@@ -40,6 +40,7 @@ def simulate(
     eps0: float | None = None,
     points: int = POINTS,
     tolerance: float = TOLERANCE,
+    max_steps: int = MAX_STEPS,
     on_progress: Progress | None = None,
 ) -> Run:
     """Move an arm under (6), or under PD with gravity compensation, along the closed loop (11).
@@ -57,6 +58,7 @@ def simulate(
         eps0: the ε₀ of V; 0 if missing, and then V is the energy.
         points: samples handed back, evenly spaced, both ends included.
         tolerance: relative tolerance of the first integration.
+        max_steps: a budget for each integration.
         on_progress: told the fraction done.
 
     Raises:
@@ -69,7 +71,9 @@ def simulate(
     """
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
     loop = closed_loop(setup.gains, model)
-    rough, fine = _twice(loop, setup, points, tolerance, on_progress or _silent)
+    rough, fine = _twice(
+        loop, setup, points, tolerance, max_steps=max_steps, on_progress=on_progress or _silent
+    )
     failure = fine.failure or rough.failure
     run = _reference(loop, setup, fine, math.nan if failure else _difference(rough, fine, model.n))
     if failure is not None:
@@ -78,7 +82,7 @@ def simulate(
 
 
 def _twice(
-    loop: ClosedLoop, setup: Setup, points: int, tolerance: float, on_progress: Progress
+    loop: ClosedLoop, setup: Setup, points: int, tolerance: float, *, max_steps: int, on_progress: Progress
 ) -> tuple[Trajectory, Trajectory]:
     rate, jacobian, task = loop.compiled_rate(), loop.compiled_jacobian(), setup.task
     goal, t = np.array(task.q_d), np.linspace(0.0, task.T, points)
@@ -91,6 +95,7 @@ def _twice(
             y0,
             t,
             tolerance,
+            max_steps=max_steps,
             on_time=lambda time: on_progress(done + 0.5 * time / task.T, ""),
         )
 

@@ -26,6 +26,9 @@ Progress = Callable[[float, str], None]
 BENCH = Bench()
 """The settings of the published experiment."""
 
+RUNAWAY = 1e6
+"""rad/s: a joint faster than this means that the sampled loop is unstable."""
+
 
 def experiment(
     gain_set: GainSet,
@@ -61,7 +64,7 @@ def experiment(
 
     Raises:
         InputError: a task the arm cannot be given.
-        SimulationFailed: the motion does not stay finite; carries what was reached.
+        SimulationFailed: the sampled loop runs away; carries what was reached.
 
     Soundness: floating point throughout; dry friction is regularised, so a joint that should stick creeps,
     and most friction torques are assumptions of the model, which the run lists in ``notes``.
@@ -95,7 +98,7 @@ def _motion(setup: Setup, bench: Bench, periods: int, substeps: int) -> Motion:
 
 
 def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:
-    reached = min(_finite(rough), _finite(fine))
+    reached = min(_credible(rough), _credible(fine))
     complete = reached == fine.t.size
     kept = Motion(fine.kind, fine.t[:reached], fine.q[:reached], fine.w[:reached], fine.tau[:reached])
     run = run_of(
@@ -109,15 +112,14 @@ def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:
         notes=_notes(setup, bench),
     )
     if not complete:
-        raise SimulationFailed(
-            f"{setup.title}: the state is no longer finite after t = {kept.t[-1]:.6g} s", run
-        )
+        raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {kept.t[-1]:.6g} s", run)
     return run
 
 
-def _finite(motion: Motion) -> int:
-    """How many samples from the start are finite."""
-    good = np.all(np.isfinite(np.hstack((motion.q, motion.w, motion.tau))), axis=1)
+def _credible(motion: Motion) -> int:
+    """How many samples from the start are finite and no faster than any arm could be."""
+    signals = np.hstack((motion.q, motion.w, motion.tau))
+    good = np.all(np.isfinite(signals), axis=1) & np.all(np.abs(motion.w) < RUNAWAY, axis=1)
     return int(good.size if good.all() else max(1, int(np.argmin(good))))
 
 

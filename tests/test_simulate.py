@@ -1,0 +1,249 @@
+"""The reference simulation against closed forms, an independent integrator, and its own promises."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck import robots
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.simulate import PAPER_TASK, SimulationFailed, simulate
+from lyapcheck.simulate.closed_loop import _imbalance
+from lyapcheck.simulate.csv import run_csv
+from lyapcheck.simulate.dynamics import closed_loop
+from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.integrate import integrate
+from lyapcheck.simulate.monitor import observe
+
+TABLE2 = (
+    *read_gain_file(paper_gain_file("table2")).gains,
+    *read_gain_file(paper_gain_file("table2_pd")).gains,
+)
+ARMS = ("buap3", "pelican2", "pendulum1", "reyes-kelly2")
+
+
+def gains(n: int, m: int = 2, kp: int = 10, kv: int = 2, family: str = "hyperbolic") -> GainSet:
+    member = m if family == "hyperbolic" else None
+    return GainSet("set", member, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
+
+
+def paper_run(gain_set: GainSet, eps0: float | None = None):
+    task = PAPER_TASK
+    return simulate(gain_set, robots.load("buap3"), task.q_d, task.q0, task.w0, task.T, eps0=eps0)
+
+
+@pytest.mark.parametrize("kv", [1, 5])
+def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
+    """M ë + (k_v + b) ė + k_p e = 0 with M = 1/4, b = 1/2: under- and overdamped, solved by hand."""
+    run = simulate(gains(1, kp=10, kv=kv, family="linear"), robots.load("pendulum1"), [1.0], T=3.0)
+    roots = np.roots([0.25, kv + 0.5, 10.0]).astype(complex)
+    weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([1.0, 0.0]))
+    exact = np.real(np.exp(np.outer(run.t, roots)) @ weights)
+    np.testing.assert_allclose(run.e[:, 0], exact, atol=1e-8)
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_another_integrator_finds_the_same_motion(gain_set):
+    """CVODES, with its own step control and its own source, on the same equations."""
+    import casadi as ca
+
+    model = robots.load("buap3")
+    run = paper_run(gain_set)
+    loop = closed_loop(gains_for(gain_set, 3), model)
+    options = {"abstol": 1e-13, "reltol": 1e-11, "max_num_steps": 100_000}
+    problem = {"x": loop.state, "p": loop.goal, "ode": loop.rate}
+    cvodes = ca.integrator("cvodes", "cvodes", problem, 0.0, run.t, options)
+    states = np.array(cvodes(x0=np.zeros(8), p=np.array(PAPER_TASK.q_d))["xf"]).T
+    np.testing.assert_allclose(states[:, :3], run.q, atol=1e-6)
+    np.testing.assert_allclose(states[:, 3:6], run.w, atol=1e-6)
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_the_paper_task_is_accurate_and_conserves_energy(gain_set):
+    run = paper_run(gain_set)
+    assert run.complete
+    assert run.accuracy < 1e-8
+    assert run.energy_balance < 1e-9
+    assert run.promises.V_decreases
+    assert run.tau.shape == run.q.shape == (2001, 3)
+
+
+def test_the_torque_at_the_start_is_that_of_the_gains():
+    """At rest at home g = 0, so τ = K_p h(e(0)); PD gains are per degree: 0.8 · 45, 2.5 · 45, 0.133 · 90."""
+    run = paper_run(TABLE2[0])
+    np.testing.assert_allclose(run.tau[0], np.array([28, 60, 5]) * np.tanh(PAPER_TASK.q_d), rtol=1e-14)
+    pd = paper_run(TABLE2[3])
+    np.testing.assert_allclose(pd.tau[0], [36.0, 112.5, 11.97], rtol=1e-14)
+
+
+@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("family", ["hyperbolic", "tanh", "arctan", "algebraic", "linear"])
+def test_every_arm_and_family_balances_its_energy(name, family):
+    model = robots.load(name)
+    run = simulate(
+        gains(model.n, family=family), model, [1.0] * model.n, w0=[2.0] * model.n, T=1.0, points=201
+    )
+    assert run.energy_balance < 1e-9
+    assert run.accuracy < 1e-7
+
+
+def test_a_wrong_energy_account_would_be_seen():
+    energy = np.array([2.0, 1.5, 1.0])
+    assert _imbalance(energy, np.array([0.0, 0.5, 1.0])) == 0.0
+    assert _imbalance(energy, np.array([0.0, 0.505, 1.01])) == pytest.approx(0.005)
+
+
+@pytest.mark.parametrize("eps0", [0.0, 0.3])
+def test_dV_is_the_derivative_of_V_along_the_motion(eps0):
+    """By automatic differentiation of V of (12) along the graph of (11), not by the formula that is used."""
+    import casadi as ca
+
+    from lyapcheck.robots import graph
+
+    model, gain_set = robots.load("buap3"), TABLE2[2]
+    run = paper_run(gain_set, eps0)
+    held = gains_for(gain_set, 3)
+    loop = closed_loop(held, model)
+    q, w, e = loop.state[:3], loop.state[3:6], loop.goal - loop.state[:3]
+    cross = ca.dot(held.family.casadi(e).h, graph.mass(model, q) @ w) / (1 + ca.norm_2(e))
+    V = loop.energy - eps0 * cross
+    both = ca.Function("V", [loop.state, loop.goal], [V, ca.jtimes(V, loop.state, loop.rate)])
+    states = np.hstack((run.q, run.w, np.zeros((run.t.size, 2)))).T
+    known_V, known_dV = (np.array(x)[0] for x in both.map(run.t.size)(states, np.array(PAPER_TASK.q_d)))
+    np.testing.assert_allclose(run.V, known_V, atol=1e-12)
+    np.testing.assert_allclose(run.dV, known_dV, atol=1e-11)
+
+
+def test_a_V_that_is_no_lyapunov_function_is_seen_to_rise():
+    run = paper_run(TABLE2[0], eps0=50.0)
+    assert not run.promises.V_decreases
+    assert 0.0 < run.promises.V_rises_at < 5.0
+
+
+def test_at_the_goal_nothing_moves():
+    model = robots.load("buap3")
+    run = simulate(TABLE2[0], model, [0.3, -0.2, 1.0], q0=[0.3, -0.2, 1.0], T=2.0, eps0=0.1)
+    assert np.all(run.e == 0.0)
+    assert np.all(run.V == 0.0)
+    assert np.all(run.dV == 0.0)
+    assert run.L2 == 0.0
+    assert run.promises.V_decreases
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    start=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4),
+    m=st.integers(1, 6),
+)
+def test_no_motion_leaves_the_torque_bound_or_gains_energy(start, m):
+    model = robots.load("reyes-kelly2")
+    run = simulate(gains(2, m=m), model, [0.0, 0.0], q0=start[:2], w0=start[2:], T=1.0, points=101)
+    assert run.promises.inside_bound
+    assert run.promises.torque_norm <= run.promises.torque_bound
+    assert run.promises.V_decreases
+    assert run.energy_balance < 1e-8
+
+
+def test_a_torque_beyond_its_bounds_is_reported():
+    model, held = robots.load("buap3"), gains_for(TABLE2[0], 3)
+    t, V = np.array([0.0, 1.0]), np.array([1.0, 0.5])
+    tau = np.array([[0.0, 151.0, 14.0], [0.0, 0.0, 0.0]])
+    seen = observe(t, V, tau, held, model, noise=1e-9)
+    assert seen.inside_bound is False
+    assert seen.inside_limits == (True, False, True)
+
+
+def test_large_m_and_gains_are_integrated():
+    """h_m is flat near 0 and steep near ln(1 + √2) for large m."""
+    run = simulate(
+        gains(2, m=200, kp=500, kv=100), robots.load("reyes-kelly2"), [1.5, 1.5], T=1.0, points=101
+    )
+    assert run.complete
+    assert run.energy_balance < 1e-8
+
+
+def test_the_same_request_gives_the_same_bytes():
+    first, second = paper_run(TABLE2[1], 0.01), paper_run(TABLE2[1], 0.01)
+    assert run_csv(first) == run_csv(second)
+
+
+def test_csv_reads_back_exactly():
+    run = simulate(gains(1), robots.load("pendulum1"), [1.0], T=1.0, points=11)
+    lines = run_csv(run).splitlines()
+    assert lines[0] == "gains,complete,t [s],q1 [rad],w1 [rad/s],e1 [rad],tau1 [N.m],V [J],dV [W]"
+    values = np.array([[float(x) for x in line.split(",")[2:]] for line in lines[1:]])
+    expected = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
+    assert np.array_equal(values, expected)
+
+
+def test_a_spent_budget_keeps_what_was_reached_and_marks_it():
+    with pytest.raises(SimulationFailed, match="steps were not enough") as failure:
+        simulate(gains(2), robots.load("reyes-kelly2"), [1.0, 1.0], T=5.0, max_steps=40)
+    partial = failure.value.partial
+    assert not partial.complete
+    assert 1 < partial.t.size < 2001
+    assert partial.t[-1] < 5.0
+    assert math.isnan(partial.accuracy)
+    assert ",no," in run_csv(partial)
+
+
+def test_a_solution_that_ends_in_finite_time_is_cut_short():
+    """ẏ = y² from 1 is 1/(1 − t): it does not reach t = 2."""
+    t = np.linspace(0.0, 2.0, 201)
+    path = integrate(lambda _, y: y * y, lambda _, y: np.diag(2 * y), np.array([1.0]), t, 1e-9)
+    assert path.failure is not None
+    assert path.t[-1] <= 1.0
+    np.testing.assert_allclose(path.y[:90, 0], 1 / (1 - path.t[:90]), rtol=1e-6)
+
+
+BAD = [
+    ({"q_d": [1.0]}, "q_d"),
+    ({"q_d": [math.nan, 0.0]}, "q_d"),
+    ({"q_d": [1e9, 0.0]}, "q_d"),
+    ({"q0": [0.0, 0.0, 0.0]}, "q0"),
+    ({"q0": [0.0, math.inf]}, "q0"),
+    ({"w0": [math.nan, 0.0]}, "w0"),
+    ({"w0": [1e4, 0.0]}, "w0"),
+    ({"T": 0.0}, "T"),
+    ({"T": -1.0}, "T"),
+    ({"T": math.nan}, "T"),
+    ({"T": math.inf}, "T"),
+    ({"eps0": -0.1}, "eps0"),
+    ({"eps0": math.nan}, "eps0"),
+    ({"points": 1}, "points"),
+    ({"points": 10**9}, "points"),
+]
+
+
+@pytest.mark.parametrize(("change", "key"), BAD, ids=[f"{key}-{i}" for i, (_, key) in enumerate(BAD)])
+def test_impossible_requests_are_refused_by_name(change, key):
+    request = {"q_d": [1.0, 1.0], **change}
+    with pytest.raises(InputError) as refused:
+        simulate(gains(2), robots.load("reyes-kelly2"), **request)
+    assert [problem.key for problem in refused.value.problems] == [key]
+
+
+def test_all_that_is_wrong_is_said_at_once():
+    with pytest.raises(InputError) as refused:
+        simulate(gains(2), robots.load("reyes-kelly2"), [math.nan, 1.0], q0=[1.0], T=-1.0)
+    assert [problem.key for problem in refused.value.problems] == ["T", "q0", "q_d"]
+
+
+def test_gains_for_another_arm_are_refused():
+    with pytest.raises(InputError, match="gains for 3 joints, but the arm has 2"):
+        simulate(gains(3), robots.load("reyes-kelly2"), [1.0, 1.0])
+
+
+def test_progress_rises_to_the_end():
+    told: list[float] = []
+    simulate(
+        gains(1), robots.load("pendulum1"), [1.0], on_progress=lambda fraction, note: told.append(fraction)
+    )
+    assert told == sorted(told)
+    assert 0.0 <= told[0] <= told[-1] <= 1.0

@@ -1,0 +1,159 @@
+"""The simulate command: what it prints, writes and refuses."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import xml.etree.ElementTree as ET
+from typing import NamedTuple
+
+import pytest
+
+from lyapcheck.cli.main import main
+from lyapcheck.control import paper_gain_file
+
+TABLE2 = str(paper_gain_file("table2"))
+PD = str(paper_gain_file("table2_pd"))
+
+
+class Done(NamedTuple):
+    """What a command left behind."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def lyapcheck(monkeypatch, capsys):
+    """Runs the command in this process, which saves a second of imports each time."""
+
+    def run(*arguments: str) -> Done:
+        monkeypatch.setattr(sys, "argv", ["lyapcheck", "simulate", *arguments])
+        with pytest.raises(SystemExit) as left:
+            main()
+        return Done(int(left.value.code or 0), *capsys.readouterr())
+
+    return run
+
+
+def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
+    done = lyapcheck(TABLE2)
+    assert done.returncode == 0
+    for name in ("tau_m1 (m = 1)", "tau_m2 (m = 2)", "tau_m3 (m = 3)"):
+        assert name in done.stdout
+    assert done.stdout.count("\n  shoulder ") == 3
+    assert "is assumed" in done.stdout
+    assert "simulate:" not in done.stdout
+
+
+def test_json_follows_its_schema(lyapcheck):
+    done = lyapcheck(PD, "--format", "json", "--eps0", "0.01")
+    data = json.loads(done.stdout)
+    assert data["schema"] == "lyapcheck/simulate/1"
+    (result,) = data["results"]
+    assert result["name"] == "tau_pd"
+    assert result["m"] is None
+    assert result["target"] == [45.0, 45.0, 90.0]
+    assert result["torque_bound"] is None
+    assert result["eps0"] == 0.01
+    assert len(result["settling"]) == len(result["joints"]) == 3
+    assert lyapcheck(PD, "--format", "json", "--eps0", "0.01").stdout == done.stdout
+
+
+def test_joints_that_do_not_settle_have_no_settling_time(lyapcheck):
+    (_, second, _) = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
+    assert None in second["settling"]
+
+
+def test_experiment_and_markdown(lyapcheck):
+    done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
+    assert done.returncode == 0
+    assert "## tau_pd on buap3, experiment" in done.stdout
+    assert "| shoulder |" in done.stdout
+
+
+def test_csv_to_a_file_and_to_standard_output(lyapcheck, tmp_path):
+    place = tmp_path / "run.csv"
+    assert lyapcheck(PD, "--csv", str(place), "--time", "1").returncode == 0
+    text = place.read_text()
+    assert text.startswith("gains,complete,t [s],q1 [rad]")
+    assert text.count("\n") == 2002
+    assert lyapcheck(PD, "--csv", "-", "--time", "1").stdout == text
+    assert os.listdir(tmp_path) == ["run.csv"]
+
+
+def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
+    for _ in range(2):
+        assert lyapcheck(PD, "--plot", str(tmp_path)).returncode == 0
+        figures = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+        assert sorted(figures) == ["tau_pd-errors.svg", "tau_pd-torques.svg"]
+        for text in figures.values():
+            ET.fromstring(text)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == figures
+
+
+def test_another_arm_and_another_task(lyapcheck):
+    gains = str(paper_gain_file("table2_shoulder_elbow"))
+    done = lyapcheck(gains, "--target", "-30,60", "--start", "10,-20", "--time", "1", "--format", "json")
+    result = json.loads(done.stdout)["results"][0]
+    assert result["robot"] == "reyes-kelly2"
+    assert result["start"] == [10.0, -20.0]
+    assert result["target"] == [-30.0, 60.0]
+
+
+BAD = [
+    (["--target", "1,2"], "--target"),
+    (["--target", "1,2,x"], "--target"),
+    (["--target", "nan,0,0"], "--target"),
+    (["--target", "1e9,0,0"], "--target"),
+    (["--start", "0"], "--start"),
+    (["--start", ""], "--start"),
+    (["--time", "0"], "--time"),
+    (["--time", "-5"], "--time"),
+    (["--time", "nan"], "--time"),
+    (["--time", "1e9"], "--time"),
+    (["--eps0", "-1"], "--eps0"),
+    (["--robot", "no-such-arm"], "robot"),
+    (["--csv", "/no/such/directory/run.csv"], "--csv"),
+    (["--csv", "/"], "--csv"),
+    (["--plot", "/no/such/directory"], "--plot"),
+    (["--robot", "pelican2"], "--target"),
+    (["--robot", "pelican2", "--target", "10,20"], "gains"),
+    (["--experiment", "--time", "0.001"], "T"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "named"), BAD, ids=[" ".join(a) for a, _ in BAD])
+def test_bad_arguments_get_one_line_and_exit_code_2(lyapcheck, arguments, named):
+    done = lyapcheck(TABLE2, *arguments)
+    errors = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert len(errors) == 1
+    assert named in errors[0]
+
+
+def test_all_bad_arguments_are_named_at_once(lyapcheck):
+    done = lyapcheck(TABLE2, "--target", "1", "--start", "a,b,c", "--time", "-1", "--eps0", "nan")
+    assert done.returncode == 2
+    for option in ("--target", "--start", "--time", "--eps0"):
+        assert f"{option} = " in done.stderr
+
+
+def test_a_file_that_cannot_be_read_is_said(lyapcheck):
+    assert lyapcheck("no-such-file.toml").returncode == 2
+
+
+def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(lyapcheck, tmp_path):
+    wild = tmp_path / "wild.toml"
+    wild.write_text(
+        'robot = "pelican2"\n[[gains]]\nname = "wild"\nfamily = "linear"\nkp = [1, 1]\nkv = [1e6, 1e6]\n'
+    )
+    done = lyapcheck(str(wild), "--experiment", "--target", "10,20", "--format", "json")
+    assert done.returncode == 3
+    assert "not finished: wild on pelican2: the sampled loop runs away" in done.stderr
+    (result,) = json.loads(done.stdout)["results"]
+    assert result["complete"] is False
+    assert result["reached"] < 5.0

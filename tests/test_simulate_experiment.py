@@ -1,0 +1,132 @@
+"""The bench: encoders, hold, limits and dry friction, each against what it must do."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.robots import Number
+from lyapcheck.simulate import PAPER_TASK, Bench, SimulationFailed, experiment, simulate
+from lyapcheck.simulate.bench import enough_substeps, read_encoders
+from lyapcheck.simulate.csv import run_csv
+
+TABLE2 = (
+    *read_gain_file(paper_gain_file("table2")).gains,
+    *read_gain_file(paper_gain_file("table2_pd")).gains,
+)
+
+
+def number(value: str) -> Number:
+    return Number(Fraction(value))
+
+
+def frictionless(name: str, **changes):
+    """The arm without dry friction and with perfect encoders."""
+    model = robots.load(name)
+    return replace(model, coulomb=(None,) * model.n, encoder=(None,) * model.n, **changes)
+
+
+def table_run(gain_set: GainSet, **options):
+    task = PAPER_TASK
+    return experiment(gain_set, robots.load("buap3"), task.q_d, task.q0, task.w0, task.T, **options)
+
+
+@pytest.mark.parametrize("gain_set", [TABLE2[0], TABLE2[3]], ids=lambda g: g.name)
+def test_a_fast_perfect_bench_is_the_reference(gain_set):
+    """Without friction and quantisation, the motion goes to that of (11) in proportion to the period."""
+    model = frictionless("buap3")
+    reference = simulate(gain_set, model, PAPER_TASK.q_d, T=1.0, points=101)
+    gaps = []
+    for period in (2e-3, 1e-3, 5e-4):
+        run = experiment(gain_set, model, PAPER_TASK.q_d, T=1.0, bench=Bench(period=period))
+        gaps.append(np.max(np.abs(run.q[:: round(0.01 / period)] - reference.q)))
+    assert gaps[-1] < 5e-3
+    assert gaps[0] / gaps[1] == pytest.approx(2.0, rel=0.2)
+    assert gaps[1] / gaps[2] == pytest.approx(2.0, rel=0.2)
+
+
+def test_encoders_read_the_nearest_line():
+    angles = ca.DM([0.1234567, -0.1234567, 0.7])
+    read = np.array(read_encoders(angles, (1000, 1000, None)))[:, 0]
+    line = 2 * math.pi / 1000
+    assert read[0] == pytest.approx(round(0.1234567 / line) * line)
+    assert read[1] == -read[0]
+    assert read[2] == 0.7
+
+
+def test_a_coarse_encoder_shows():
+    coarse = replace(frictionless("buap3"), encoder=(200, 200, 200))
+    rough = experiment(TABLE2[3], coarse, PAPER_TASK.q_d, T=1.0)
+    fine = experiment(TABLE2[3], frictionless("buap3"), PAPER_TASK.q_d, T=1.0)
+    assert np.max(np.abs(rough.tau - fine.tau)) > 1.0
+
+
+def test_torques_are_cut_at_the_limits_and_said_to_be():
+    model = frictionless("buap3", torque_limit=(number("10"), number("150"), None))
+    run = experiment(TABLE2[0], model, PAPER_TASK.q_d, T=1.0)
+    assert run.peak_torque[0] == 10.0
+    assert run.promises.inside_limits == (False, True, None)
+
+
+def test_dry_friction_holds_a_joint_that_is_pushed_too_little():
+    """Coulomb 7 N·m against a spring of 2 N·m at most: the joint stays, but for creep."""
+    model = replace(robots.load("pendulum1"), coulomb=(number("7"),))
+    gain_set = GainSet("weak", 1, (Fraction(2),), (Fraction(1),))
+    run = experiment(gain_set, model, [1.0], T=2.0)
+    assert np.max(np.abs(run.q)) < 2.0 * 1e-3 * math.atanh(2 / 7)
+    free = experiment(gain_set, replace(model, coulomb=(None,)), [1.0], T=2.0)
+    assert np.max(np.abs(free.q)) > 0.5
+
+
+def test_friction_leaves_an_error_in_steady_state():
+    still = experiment(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d)
+    assert np.all(np.abs(still.w[-1]) < 5e-3)
+    assert np.max(np.abs(still.indices.final_error)) > 0.5
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_the_published_experiment_is_resolved(gain_set):
+    run = table_run(gain_set)
+    assert run.complete
+    assert run.t.size == 2001
+    assert run.t[-1] == pytest.approx(5.0)
+    assert run.accuracy < 0.02
+    assert math.isnan(run.energy_balance)
+    assert any("2.5 ms" in note for note in run.notes)
+
+
+def test_the_substeps_resolve_the_friction():
+    """The fastest rate of the arm times the step stays below what Runge–Kutta can take (2.78)."""
+    model, bench = robots.load("buap3"), Bench()
+    elbow = float(model.coulomb[2].value) / 0.1 / bench.creep
+    assert bench.period / enough_substeps(model, bench) * elbow < 2.7
+
+
+def test_the_same_request_gives_the_same_bytes():
+    first, second = table_run(TABLE2[2]), table_run(TABLE2[2])
+    assert run_csv(first) == run_csv(second)
+
+
+def test_an_unstable_hold_is_cut_short_and_marked():
+    """A damping gain far too large for the hold shakes the arm faster and faster."""
+    wild = GainSet("wild", None, (Fraction(1),), (Fraction(10**6),), "linear")
+    model = frictionless("pendulum1", torque_limit=(None,))
+    with pytest.raises(SimulationFailed, match="runs away") as failure:
+        experiment(wild, model, [1.0], T=5.0)
+    partial = failure.value.partial
+    assert not partial.complete
+    assert np.all(np.isfinite(partial.q))
+    assert 1 <= partial.t.size < 2001
+
+
+def test_a_time_shorter_than_a_period_is_refused():
+    with pytest.raises(InputError, match="shorter than one period"):
+        experiment(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, T=1e-3)

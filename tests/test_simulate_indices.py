@@ -1,0 +1,97 @@
+"""Performance indices on signals whose indices are known in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck import robots
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.simulate import PAPER_TASK, simulate
+from lyapcheck.simulate.indices import final_errors, l2_index, overshoots, peak_torques, settling_times
+
+T = np.linspace(0.0, 5.0, 2001)
+
+
+def exponential(rates, starts):
+    return np.asarray(starts) * np.exp(-np.outer(T, rates))
+
+
+@settings(max_examples=30, deadline=None)
+@given(rate=st.floats(0.5, 8.0), start=st.floats(0.1, 3.0))
+def test_l2_of_an_exponential(rate, start):
+    """(1/T)∫ a² e^(−2rt) dt = a² (1 − e^(−2rT)) / (2rT)."""
+    exact = math.degrees(start * math.sqrt((1 - math.exp(-10 * rate)) / (10 * rate)))
+    assert l2_index(T, exponential([rate], [start])) == pytest.approx(exact, rel=1e-3)
+
+
+def test_l2_adds_joints_in_squares_and_is_in_degrees():
+    constant = np.tile(np.radians([3.0, 4.0]), (T.size, 1))
+    assert l2_index(T, constant) == pytest.approx(5.0)
+
+
+def test_l2_of_uneven_samples_is_an_integral_not_a_mean():
+    t = np.array([0.0, 0.1, 0.2, 10.0])
+    assert l2_index(t, np.radians(np.full((4, 1), 2.0))) == pytest.approx(2.0)
+
+
+def test_the_index_of_a_run_is_that_of_its_samples():
+    gain_set = read_gain_file(paper_gain_file("table2")).gains[0]
+    run = simulate(gain_set, robots.load("buap3"), PAPER_TASK.q_d, T=5.0)
+    assert pytest.approx(l2_index(run.t, run.e), rel=1e-5) == run.L2
+
+
+@settings(max_examples=30, deadline=None)
+@given(rate=st.floats(1.5, 8.0), start=st.floats(-3.0, -0.1))
+def test_settling_of_an_exponential(rate, start):
+    """|e| falls to 2 % of its start at t = ln 50 / r."""
+    assert settling_times(T, exponential([rate], [start]))[0] == pytest.approx(math.log(50) / rate, abs=1e-4)
+
+
+def test_settling_counts_the_last_entry_into_the_band():
+    e = np.exp(-T) * np.cos(8 * T)
+    last = settling_times(T, e[:, None])[0]
+    after = np.abs(e[last + 0.003 <= T])
+    assert np.all(after <= 0.02)
+    assert np.max(np.abs(e[last - 0.003 <= T])) > 0.02
+
+
+def test_a_signal_that_leaves_the_band_at_the_end_is_not_settled():
+    e = np.where(T < 4.9, 0.0, 1.0)
+    e[0] = 1.0
+    assert math.isnan(settling_times(T, e[:, None])[0])
+
+
+def test_a_joint_without_a_step_is_measured_by_the_largest_step():
+    e = np.column_stack((exponential([3.0], [1.0])[:, 0], 0.5 * np.exp(-3 * T) * (1 - np.exp(-5 * T))))
+    bare = settling_times(T, e)
+    assert 0.0 < bare[1] < bare[0]
+    assert np.all(settling_times(T, np.zeros((T.size, 2))) == 0.0)
+
+
+@pytest.mark.parametrize("damping", [0.2, 0.5, 0.7])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_overshoot_of_the_second_order_system(damping, sign):
+    """100 exp(−πζ/√(1 − ζ²)) per cent, the textbook formula."""
+    omega = 4.0
+    rate = omega * math.sqrt(1 - damping**2)
+    e = np.exp(-damping * omega * T) * (np.cos(rate * T) + damping * omega / rate * np.sin(rate * T))
+    exact = 100 * math.exp(-math.pi * damping / math.sqrt(1 - damping**2))
+    assert overshoots(sign * e[:, None])[0] == pytest.approx(exact, rel=1e-3)
+
+
+def test_no_overshoot_and_no_step():
+    e = np.column_stack((np.exp(-T), 0.1 * np.sin(T)))
+    found = overshoots(e)
+    assert found[0] == 0.0
+    assert math.isnan(found[1])
+
+
+def test_peaks_and_final_errors():
+    tau = np.array([[1.0, -5.0], [-3.0, 2.0]])
+    assert peak_torques(tau).tolist() == [3.0, 5.0]
+    assert final_errors(np.array([[1.0, 1.0], [0.0, math.pi]])).tolist() == [0.0, 180.0]
