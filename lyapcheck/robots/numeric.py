@@ -76,7 +76,7 @@ class NumericModel:
             for place, column in table.places.items():
                 index: Any = (block, *place)
                 result[index] = columns[column]
-        return result.reshape(*angles.shape[:-1], *shape)
+        return result.reshape((*angles.shape[:-1], *shape))
 
 
 class _Table:

@@ -1,0 +1,93 @@
+"""Random arms, states and arithmetics that the tests of the robots share."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq
+from hypothesis import strategies as st
+
+from lyapcheck import robots
+from lyapcheck.robots import trig
+from lyapcheck.robots.links import Link, chain
+from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.number import Number
+
+BUILT_IN = robots.names()
+
+small = st.fractions(min_value=-2, max_value=2, max_denominator=20)
+positive = st.fractions(min_value=Fraction(1, 20), max_value=3, max_denominator=20)
+axes = st.sampled_from(
+    [
+        (1, 0, 0),
+        (0, 1, 0),
+        (0, 0, 1),
+        (0, 0, -1),
+        (Fraction(3, 5), Fraction(4, 5), 0),
+        (Fraction(-2, 3), Fraction(1, 3), Fraction(2, 3)),
+    ]
+)
+
+
+def angles(n: int) -> st.SearchStrategy[list[tuple[Fraction, Fraction]]]:
+    """n points (sin, cos) on the unit circle with rational coordinates."""
+    half = st.fractions(min_value=-8, max_value=8, max_denominator=12)
+    return st.lists(half.map(circle), min_size=n, max_size=n)
+
+
+def circle(t: Fraction) -> tuple[Fraction, Fraction]:
+    return 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
+
+
+def rates(n: int) -> st.SearchStrategy[list[Fraction]]:
+    return st.lists(small, min_size=n, max_size=n)
+
+
+@st.composite
+def plain_links(draw: st.DrawFn, most: int = 3) -> list[dict[str, object]]:
+    """Links with rational numbers; every inertia belongs to a real body (second moments ⪰ 0)."""
+    count = draw(st.integers(1, most))
+    vector = st.tuples(small, small, small)
+    links = []
+    for _ in range(count):
+        rows = [draw(vector) for _ in range(3)]
+        second = [[sum(r[i] * r[k] for r in rows) + (i == k) for k in range(3)] for i in range(3)]
+        trace = sum(second[i][i] for i in range(3))
+        inertia = [[trace * (i == k) - second[i][k] for k in range(3)] for i in range(3)]
+        link = {
+            "axis": draw(axes),
+            "origin": draw(vector),
+            "mass": draw(positive),
+            "com": draw(vector),
+            "inertia": inertia,
+        }
+        links.append(link)
+    return links
+
+
+def model_of(
+    links: list[dict[str, object]], gravity: tuple[object, ...] = (0, 0, Fraction(-981, 100))
+) -> RobotModel:
+    n = len(links)
+    ring = trig.trig_ring(n)
+
+    def lifted(value: object) -> object:
+        return (
+            [lifted(item) for item in value]
+            if isinstance(value, list | tuple)
+            else trig.constant(ring, value)
+        )
+
+    mass, potential = chain(
+        ring, [Link(**{key: lifted(value) for key, value in link.items()}) for link in links], lifted(gravity)
+    )
+    names = tuple(f"joint{i}" for i in range(n))
+    nothing = (None,) * n
+    friction = (Number(Fraction(1)),) * n
+    return RobotModel(
+        "random", "", names, ring, mass, potential, friction, nothing, nothing, nothing, nothing, {}
+    )
+
+
+def exact(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
