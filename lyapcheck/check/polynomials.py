@@ -1,0 +1,138 @@
+"""Signs of one polynomial with rational coefficients on an interval, decided exactly by Sturm's theorem.
+
+A polynomial is a ``fmpq_poly``; an end of ``None`` stands for infinity on that side.
+
+References: ``sturm1829``; ``basu2006algorithms``, section 2.2.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq, fmpq_poly
+
+End = Fraction | None
+
+
+def rational(value: Fraction | int) -> fmpq:
+    """The same number for flint."""
+    return fmpq(value.numerator, value.denominator)
+
+
+def sign_at(poly: fmpq_poly, point: Fraction) -> int:
+    """The sign of a polynomial at a rational point."""
+    return _sign(poly(rational(point)))
+
+
+def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
+    """The number of distinct real roots in the half-open interval (low, high]; all roots above ``low`` for None.
+
+    Raises:
+        ValueError: for the zero polynomial.
+    """
+    if not poly:
+        raise ValueError("the zero polynomial vanishes everywhere")
+    chain = sturm_chain(poly)
+    return _changes(chain, low, -1) - _changes(chain, high, 1)
+
+
+def sturm_chain(poly: fmpq_poly) -> list[fmpq_poly]:
+    """Sturm's sequence of the square-free part, every member scaled by a positive number only."""
+    free = squarefree(poly)
+    chain = [free, free.derivative()]
+    while chain[-1].degree() > 0:
+        remainder = chain[-2] % chain[-1]
+        chain.append(-_scaled(remainder))
+    return [member for member in chain if member]
+
+
+def squarefree(poly: fmpq_poly) -> fmpq_poly:
+    """The polynomial with the same distinct roots, each once."""
+    common = poly.gcd(poly.derivative()) if poly.degree() > 0 else fmpq_poly([1])
+    return _scaled(poly // common)
+
+
+def odd_part(poly: fmpq_poly) -> fmpq_poly:
+    """The product of the square-free factors of odd multiplicity: it changes sign where ``poly`` does."""
+    result = fmpq_poly([1])
+    for factor, multiplicity in poly.factor_squarefree()[1]:
+        if multiplicity % 2:
+            result *= factor
+    return result
+
+
+def nonnegative_on(poly: fmpq_poly, low: End, high: End) -> bool:
+    """Whether ``poly >= 0`` on the closed interval from low to high; never undecided."""
+    if not poly or _positive_by_coefficients(poly, low, high):
+        return True
+    point = inner_point(poly, low, high)
+    return sign_at(poly, point) >= 0 and _inside(odd_part(poly), low, high) == 0
+
+
+def positive_on(
+    poly: fmpq_poly, low: End, high: End, open_low: bool = False, open_high: bool = False
+) -> bool:
+    """Whether ``poly > 0`` on the interval, with open ends where said; never undecided."""
+    if not poly:
+        return False
+    ends = [end for end, is_open in ((low, open_low), (high, open_high)) if end is not None and not is_open]
+    if any(sign_at(poly, end) <= 0 for end in ends):
+        return False
+    if _positive_by_coefficients(poly, low, high):
+        return True
+    return sign_at(poly, inner_point(poly, low, high)) > 0 and _inside(poly, low, high) == 0
+
+
+def inner_point(poly: fmpq_poly, low: End, high: End) -> Fraction:
+    """A rational point strictly inside the interval at which a non-zero polynomial is not zero."""
+    for step in range(1, poly.degree() + 3):
+        point = _point(low, high, step)
+        if sign_at(poly, point):
+            return point
+    raise ArithmeticError("a non-zero polynomial has more roots than its degree")
+
+
+def _point(low: End, high: End, step: int) -> Fraction:
+    if low is not None and high is not None:
+        return low + (high - low) * Fraction(1, step + 1)
+    if low is not None:
+        return low + step
+    return high - step if high is not None else Fraction(step)
+
+
+def _inside(poly: fmpq_poly, low: End, high: End) -> int:
+    """The number of distinct roots strictly between low and high."""
+    if poly.degree() <= 0:
+        return 0
+    at_high = 1 if high is not None and sign_at(poly, high) == 0 else 0
+    return count_roots(poly, low, high) - at_high
+
+
+def _positive_by_coefficients(poly: fmpq_poly, low: End, high: End) -> bool:
+    """A quick sufficient test on [low, ∞): in powers of (x - low) no coefficient is negative, nor all are zero.
+
+    It means >= 0 on the closed half-line and > 0 on the open one.
+    """
+    if low is None or high is not None:
+        return False
+    return all(c >= 0 for c in poly(fmpq_poly([rational(low), 1])).coeffs())
+
+
+def _changes(chain: list[fmpq_poly], end: End, side: int) -> int:
+    if end is None:
+        signs = [_sign(member.leading_coefficient()) * (side ** member.degree()) for member in chain]
+    else:
+        signs = [sign_at(member, end) for member in chain]
+    signs = [sign for sign in signs if sign]
+    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+
+
+def _scaled(poly: fmpq_poly) -> fmpq_poly:
+    """The polynomial divided by the positive size of its content, to keep coefficients short."""
+    if not poly:
+        return poly
+    return poly / fmpq(abs(poly.numer().content()), poly.denom())
+
+
+def _sign(value: fmpq) -> int:
+    return (value > 0) - (value < 0)

@@ -1,0 +1,203 @@
+"""Writing expressions and relations in a proof script with the usual operators."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+
+from lyapcheck.check.functions import Tree, derivative
+
+Operand = "Expr | Fraction | int | str | Decimal"
+
+
+@dataclass(frozen=True, eq=False)
+class Expr:
+    """An expression: a tree of plain data under the arithmetic operators.
+
+    A Python ``float`` is refused: write 1.05 as ``"1.05"`` and it is read exactly.
+    """
+
+    tree: Tree
+
+    def __add__(self, other: object) -> Expr:
+        return Expr(("add", self.tree, expr(other).tree))
+
+    def __radd__(self, other: object) -> Expr:
+        return expr(other) + self
+
+    def __sub__(self, other: object) -> Expr:
+        return Expr(("add", self.tree, ("neg", expr(other).tree)))
+
+    def __rsub__(self, other: object) -> Expr:
+        return expr(other) - self
+
+    def __mul__(self, other: object) -> Expr:
+        return Expr(("mul", self.tree, expr(other).tree))
+
+    def __rmul__(self, other: object) -> Expr:
+        return expr(other) * self
+
+    def __truediv__(self, other: object) -> Expr:
+        return Expr(("div", self.tree, expr(other).tree))
+
+    def __rtruediv__(self, other: object) -> Expr:
+        return expr(other) / self
+
+    def __pow__(self, exponent: int) -> Expr:
+        if exponent < 0:
+            return Expr(("div", ("num", "1"), ("pow", self.tree, -exponent)))
+        return Expr(("pow", self.tree, exponent))
+
+    def __neg__(self) -> Expr:
+        return Expr(("neg", self.tree))
+
+    def __abs__(self) -> Expr:
+        return Expr(("abs", self.tree))
+
+    def __le__(self, other: object) -> Relation:
+        return Relation(self.tree, "<=", expr(other).tree)
+
+    def __lt__(self, other: object) -> Relation:
+        return Relation(self.tree, "<", expr(other).tree)
+
+    def __ge__(self, other: object) -> Relation:
+        return expr(other) <= self
+
+    def __gt__(self, other: object) -> Relation:
+        return expr(other) < self
+
+
+@dataclass(frozen=True)
+class Relation:
+    """``left <= right`` or ``left < right``."""
+
+    left: Tree
+    operator: str
+    right: Tree
+
+    @property
+    def strict(self) -> bool:
+        """Whether equality is excluded."""
+        return self.operator == "<"
+
+    @property
+    def gap(self) -> Tree:
+        """``right - left``, which the relation says is not negative (positive, if strict)."""
+        return ("add", self.right, ("neg", self.left))
+
+    def __bool__(self) -> bool:
+        raise TypeError(
+            "a relation is a statement to decide, it has no truth value; write a < b and b < c as two"
+        )
+
+
+def expr(value: object) -> Expr:
+    """An expression from an expression or an exact number (int, Fraction, Decimal or decimal text)."""
+    if isinstance(value, Expr):
+        return value
+    if isinstance(value, bool) or not isinstance(value, (int, str, Fraction, Decimal)):
+        raise TypeError(f"{value!r} is not exact; write it as text ('1.05'), an int or a Fraction")
+    return Expr(("num", str(Fraction(value))))
+
+
+def var(name: str) -> Expr:
+    """A variable."""
+    return Expr(("var", name))
+
+
+def function(name: str, argument: object) -> Expr:
+    """An elementary function of an expression."""
+    return Expr((name, expr(argument).tree))
+
+
+def sinh(x: object) -> Expr:
+    """The hyperbolic sine."""
+    return function("sinh", x)
+
+
+def cosh(x: object) -> Expr:
+    """The hyperbolic cosine."""
+    return function("cosh", x)
+
+
+def tanh(x: object) -> Expr:
+    """The hyperbolic tangent."""
+    return function("tanh", x)
+
+
+def exp(x: object) -> Expr:
+    """The exponential."""
+    return function("exp", x)
+
+
+def log(x: object) -> Expr:
+    """The natural logarithm."""
+    return function("log", x)
+
+
+def sqrt(x: object) -> Expr:
+    """The square root."""
+    return function("sqrt", x)
+
+
+def sin(x: object) -> Expr:
+    """The sine."""
+    return function("sin", x)
+
+
+def cos(x: object) -> Expr:
+    """The cosine."""
+    return function("cos", x)
+
+
+def atan(x: object) -> Expr:
+    """The arc tangent."""
+    return function("atan", x)
+
+
+def h(m: int, x: object) -> Expr:
+    """h_m of an expression."""
+    return Expr(("h", m, expr(x).tree))
+
+
+def dh(m: int, x: object) -> Expr:
+    """h_m' of an expression, by the formula printed in (8)."""
+    return Expr(("dh", m, expr(x).tree))
+
+
+def potential(m: int, x: object) -> Expr:
+    """U_m = ln(1 + sinh^{2m})/(2m) of an expression."""
+    return Expr(("potential", m, expr(x).tree))
+
+
+def gamma(m: int) -> Expr:
+    """γ_m = sup h_m, as certified."""
+    return Expr(("gamma", m))
+
+
+def rho(m: int) -> Expr:
+    """ρ_m = sup |h_m'|, as certified."""
+    return Expr(("rho", m))
+
+
+def secant_bound(m: int) -> Expr:
+    """L_m = sup h_m(x)/x over x > 0, as certified."""
+    return Expr(("L", m))
+
+
+def diff(of: Expr, by: str) -> Expr:
+    """The derivative of an expression with respect to a variable."""
+    return Expr(derivative(of.tree, by))
+
+
+pi = Expr(("pi",))
+
+
+def total(parts: Iterable[Expr]) -> Expr:
+    """The sum of expressions; 0 for none."""
+    trees = [part.tree for part in parts]
+    if not trees:
+        return expr(0)
+    return Expr(("add", *trees)) if len(trees) > 1 else Expr(trees[0])

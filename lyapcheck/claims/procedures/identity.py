@@ -1,0 +1,53 @@
+"""Identities, proved by normal forms over ℚ and refuted by a point where both sides differ.
+
+References: ``geddes1992algorithms``, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from lyapcheck.check.functions import Unsupported, variables
+from lyapcheck.check.normal_form import is_zero
+from lyapcheck.claims.decision import Decision, proved, refuted, undecided
+from lyapcheck.claims.expressions import Relation
+from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data
+from lyapcheck.claims.statements import Identity
+from lyapcheck.verdicts import Grade
+
+METHOD = "identity"
+TRIES = 12
+
+
+def decide_identity(statement: Identity) -> Decision:
+    """Decide ``left = right`` for all values of the variables.
+
+    Soundness: equal normal forms are equal functions; a difference is shown by disjoint balls at one point.
+    """
+    relation = Relation(statement.left, "=", statement.right)
+    found = first_refutation(relation, points(statement))
+    if found is not None:
+        return refuted(Grade.ENCLOSURE, f"{METHOD}: a point where the sides differ", witness_data(*found))
+    try:
+        if is_zero(relation.gap):
+            return proved(Grade.EXACT, f"{METHOD}: equal normal forms over the rationals")
+    except Unsupported as problem:
+        return undecided(f"{problem}; rewrite both sides in polynomials, exp, sinh, cosh, sin, cos", METHOD)
+    return undecided(
+        "the normal forms differ but no point tells the sides apart; apply the laws of log or atan by hand",
+        METHOD,
+    )
+
+
+def points(statement: Identity) -> Iterator[Point]:
+    """Rational points without symmetry: different variables get different values, of both signs."""
+    names = sorted(variables(statement.left) | variables(statement.right))
+    for k in range(TRIES):
+        yield {name: _spread(k, i) for i, name in enumerate(names)}
+
+
+def _spread(k: int, i: int) -> Fraction:
+    """A fixed low-discrepancy rational in (-2, 2), never 0, positive for k = 0."""
+    value = Fraction((37 * (i + 1) + 101 * k) % 997 + 1, 499)
+    return value if k == 0 else value * (-1) ** (i * k)

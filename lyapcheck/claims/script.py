@@ -1,0 +1,77 @@
+"""Finding and loading proof scripts."""
+
+from __future__ import annotations
+
+import runpy
+import traceback
+from difflib import get_close_matches
+from pathlib import Path
+
+import lyapcheck
+from lyapcheck.claims.claim import Proof
+from lyapcheck.errors import InputError, Problem
+
+
+def find_script(name: str) -> Path:
+    """The proof script of that path, or the one that comes with lyapcheck under that name.
+
+    Raises:
+        InputError: there is no such file.
+    """
+    given = Path(name)
+    if given.is_file():
+        return given
+    package = Path(lyapcheck.__file__).parent
+    shipped = [folder / given.name for folder in (package.parent / "proofs", package / "proofs")]
+    if given.parent in (Path(), Path("proofs")):
+        for path in shipped:
+            if path.is_file():
+                return path
+    repair = "give the path of a proof script, or published.py for the paper's own proof"
+    raise InputError(Problem(name, None, "PROOF", name, "no such proof script", repair))
+
+
+def load_proof(path: Path, shown: str | None = None) -> Proof:
+    """The one proof that a script defines.
+
+    Raises:
+        InputError: the script has a syntax error, raises, or does not define exactly one proof.
+    """
+    name = shown or str(path)
+    try:
+        names = runpy.run_path(str(path))
+    except SyntaxError as error:
+        raise InputError(
+            Problem(name, error.lineno, "script", "", f"is not Python: {error.msg}", "correct the syntax")
+        ) from error
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(_raised(name, path, error)) from error
+    proofs = {id(value): value for value in names.values() if isinstance(value, Proof)}
+    if len(proofs) != 1:
+        rule = f"a script defines exactly one Proof, this one has {len(proofs)}"
+        raise InputError(Problem(name, None, "script", "", rule, 'write proof = Proof("name", "title") once'))
+    return next(iter(proofs.values()))
+
+
+def _raised(name: str, path: Path, error: Exception) -> Problem:
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    line = frames[-1].lineno if frames else None
+    return Problem(name, line, "script", "", f"raises {type(error).__name__}: {error}", "correct the script")
+
+
+def check_ids(proof: Proof, ids: tuple[str, ...], file: str) -> None:
+    """Complain about every id that the proof does not have, with the nearest ones it has.
+
+    Raises:
+        InputError: some id is unknown.
+    """
+    problems = []
+    for wanted in ids:
+        if wanted not in proof.claims:
+            near = get_close_matches(wanted, proof.claims, n=3, cutoff=0.4)
+            repair = f"did you mean {', '.join(near)}?" if near else "run lyapcheck check to see all ids"
+            problems.append(Problem(file, None, "id", wanted, "no claim has this id", repair))
+    if problems:
+        raise InputError(problems)

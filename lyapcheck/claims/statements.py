@@ -1,0 +1,163 @@
+"""The kinds of statement that a claim can make, as data; the kind chooses the procedure that decides it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.check.functions import Tree
+from lyapcheck.claims.expressions import Expr, Relation, expr
+
+
+class Statement:
+    """Something that is true or false, as plain data."""
+
+
+@dataclass(frozen=True)
+class Identity(Statement):
+    """``left = right`` for all values of the variables."""
+
+    left: Tree
+    right: Tree
+
+
+@dataclass(frozen=True)
+class ForAll(Statement):
+    """A relation for every value of one variable in the interval from low to high (None: unbounded)."""
+
+    relation: Relation
+    low: Fraction | None = None
+    high: Fraction | None = None
+    open_low: bool = False
+    open_high: bool = False
+    variable: str = "x"
+
+
+@dataclass(frozen=True)
+class Constant(Statement):
+    """A relation between numbers."""
+
+    relation: Relation
+
+
+@dataclass(frozen=True)
+class NormBound(Statement):
+    """``‖(f(x_1), …, f(x_n))‖ <= bound · ‖x‖^power`` for every x in Rⁿ; f an expression in the variable x."""
+
+    component: Tree
+    n: int
+    bound: Tree
+    power: int = 0
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A real variable of an implication; ``low`` bounds it from below, strictly when ``strict``."""
+
+    name: str
+    low: Fraction | None = None
+    strict: bool = True
+
+
+@dataclass(frozen=True)
+class Implies(Statement):
+    """For all values of the variables: if every hypothesis holds, so does the conclusion."""
+
+    variables: tuple[Variable, ...]
+    hypotheses: tuple[Relation, ...]
+    conclusion: Relation
+
+
+@dataclass(frozen=True)
+class ForSmall(Statement):
+    """If the hypotheses hold, the relation holds for every small enough positive value of one variable.
+
+    Every other variable that is written in ``bounded`` runs over (0, 1], and the threshold serves all of them.
+    """
+
+    small: str
+    variables: tuple[Variable, ...]
+    hypotheses: tuple[Relation, ...]
+    conclusion: Relation
+    bounded: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Agrees(Statement):
+    """A printed number agrees with a formula in printed numbers, to half a unit in each last printed place."""
+
+    formula: Tree
+    inputs: tuple[tuple[str, str], ...]
+    printed: str
+
+
+@dataclass(frozen=True)
+class AllOf(Statement):
+    """Every part holds; each part has a name for the report."""
+
+    parts: tuple[tuple[str, Statement], ...]
+
+
+@dataclass(frozen=True)
+class Missing(Statement):
+    """A statement that this case cannot give: a gain set or a robot is lacking."""
+
+    reason: str
+
+
+def identity(left: object, right: object) -> Identity:
+    """``left = right`` for all values of the variables."""
+    return Identity(expr(left).tree, expr(right).tree)
+
+
+def for_all(
+    relation: Relation,
+    low: object | None = None,
+    high: object | None = None,
+    open_low: bool = False,
+    open_high: bool = False,
+    variable: str = "x",
+) -> ForAll:
+    """A relation for every x from low to high, both ends included unless said to be open; None is infinity."""
+    return ForAll(relation, _end(low), _end(high), open_low, open_high, variable)
+
+
+def norm_bound(component: Expr, n: int, bound: object, power: int = 0) -> NormBound:
+    """``‖(f(x_i))_i‖ <= bound · ‖x‖^power`` for every x in Rⁿ."""
+    return NormBound(component.tree, n, expr(bound).tree, power)
+
+
+def positive(*names: str) -> tuple[Variable, ...]:
+    """Variables that run over all positive reals."""
+    return tuple(Variable(name, Fraction(0)) for name in names)
+
+
+def nonnegative(*names: str) -> tuple[Variable, ...]:
+    """Variables that run over all reals >= 0."""
+    return tuple(Variable(name, Fraction(0), strict=False) for name in names)
+
+
+def reals(*names: str) -> tuple[Variable, ...]:
+    """Variables that run over all reals."""
+    return tuple(Variable(name) for name in names)
+
+
+def implies(
+    variables: tuple[Variable, ...], hypotheses: tuple[Relation, ...], conclusion: Relation
+) -> Implies:
+    """For all values of the variables: the hypotheses together give the conclusion."""
+    return Implies(variables, hypotheses, conclusion)
+
+
+def all_of(**parts: Statement) -> AllOf:
+    """Every part holds; the keywords name them (underscores read as spaces)."""
+    return AllOf(tuple((name.replace("_", " "), part) for name, part in parts.items()))
+
+
+def agrees(formula: Expr, printed: str, **inputs: str) -> Agrees:
+    """A printed number agrees with a formula whose variables are the printed numbers ``inputs``."""
+    return Agrees(formula.tree, tuple(sorted(inputs.items())), printed)
+
+
+def _end(value: object | None) -> Fraction | None:
+    return None if value is None else Fraction(value)  # type: ignore[arg-type]

@@ -1,0 +1,52 @@
+"""``lyapcheck check``."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+
+class CheckFormat(StrEnum):
+    """How the result is written."""
+
+    TEXT = "text"
+    JSON = "json"
+    MARKDOWN = "markdown"
+
+
+def command(
+    proof: Annotated[
+        str, typer.Argument(help="A proof script; published.py is the paper's.", metavar="PROOF.py")
+    ],
+    m: Annotated[str, typer.Option("--m", help="Members of the family: 3, 1,2,5 or 1:12.")] = "1:3",
+    robot: Annotated[str | None, typer.Option(help="A robot name or file. Default: the paper's arm.")] = None,
+    n: Annotated[int | None, typer.Option("--n", help="Number of joints, in place of a robot.")] = None,
+    gains: Annotated[str | None, typer.Option(help="A gain file. Default: the paper's Table 2.")] = None,
+    only: Annotated[list[str] | None, typer.Option(help="Report this claim only; may be repeated.")] = None,
+    format: Annotated[CheckFormat, typer.Option(help="How to write it.")] = CheckFormat.TEXT,  # noqa: A002
+    timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each claim took.")] = False,
+) -> None:
+    """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
+
+    Exit code 0: all proved, 1: something refuted, 2: the script or an input cannot be used, 3: something
+    undecided and nothing refuted.
+    """
+    from lyapcheck.claims import run_proof
+    from lyapcheck.claims.render import renderer
+    from lyapcheck.cli.m_range import parse_m
+    from lyapcheck.cli.progress import progress
+    from lyapcheck.errors import argument_error
+
+    if n is not None and robot is not None:
+        raise argument_error(
+            "--n", n, "a robot already says how many joints there are", "give --robot or --n"
+        )
+    if n is not None and n < 1:
+        raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
+    with progress("check") as advance:
+        result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
+    sys.stdout.write(renderer(format.value)(result, timings))
+    raise typer.Exit(int(result.exit_code))
