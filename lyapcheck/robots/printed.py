@@ -22,6 +22,7 @@ from lyapcheck.robots.fields import ArmFields
 _FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9]))?")
 _ANGLE = re.compile(r"[sc][0-9]+")
 _MOST_FACTORS = 12
+_MOST_ANGLES = 16
 _MOST_TERMS = 1000
 
 Terms = tuple[tuple[Fraction, tuple[tuple[str, int], ...]], ...]
@@ -90,7 +91,7 @@ def _read_term(
         return None
     coefficient = fields.decimal((*path, 0), term[0])
     factors = [_FACTOR.fullmatch(word) for word in term[1].split()]
-    rule = _broken_rule(term[1], [match and match[1] for match in factors], n, numbers)
+    rule = _broken_rule(term[1], factors, n, numbers)
     if rule:
         known = ", ".join(["s1", "c1", *numbers])
         fields.notes.fail((*path, 1), term[1], rule, f"use factors like {known}, separated by spaces")
@@ -99,17 +100,20 @@ def _read_term(
     return coefficient, tuple((match[1], int(match[2] or 1)) for match in factors if match)
 
 
-def _broken_rule(text: str, names: list[str | None], n: int, numbers: Collection[str]) -> str:
-    if len(names) > _MOST_FACTORS:
+def _broken_rule(text: str, factors: list[re.Match[str] | None], n: int, numbers: Collection[str]) -> str:
+    if len(factors) > _MOST_FACTORS:
         return f"has more than {_MOST_FACTORS} factors"
-    for name, word in zip(names, text.split(), strict=True):
-        if name is None:
+    angles = 0
+    for factor, word in zip(factors, text.split(), strict=True):
+        if factor is None:
             return f"{word!r} is no factor"
+        name, power = factor[1], int(factor[2] or 1)
+        angles += power * len(name[1:]) if is_angle(name) else 0
         if is_angle(name) and not all(1 <= int(digit) <= n for digit in name[1:]):
             return f"{word!r} speaks of a joint that this arm of {n} does not have"
         if not is_angle(name) and name not in numbers:
             return f"{word!r} is neither a sine, a cosine nor an entry of [numbers]"
-    return ""
+    return f"adds up more than {_MOST_ANGLES} angles" if angles > _MOST_ANGLES else ""
 
 
 def _polynomial(terms: Terms, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
