@@ -143,6 +143,17 @@ def test_automatic_differentiation_agrees(f, forms):
 
 
 @every_family
+def test_a_function_called_on_symbols_stays_right_to_plain_precision(f):
+    inner, outer = ca.SX.sym("x"), ca.SX.sym("y")
+    forms = f.casadi(inner)
+    copied = ca.Function("h", [inner], [forms.h, forms.dh])(outer)
+    h, dh = ca.Function("copy", [outer], list(copied))(GRID.reshape(1, -1))
+    scale = 1e-15 * (f.m or 1)
+    assert np.allclose(h.full().ravel(), f.h(GRID), rtol=20 * scale, atol=0)
+    assert np.allclose(dh.full().ravel(), f.dh(GRID), rtol=50 * scale, atol=50 * scale)
+
+
+@every_family
 def test_second_derivatives_are_finite_everywhere(f):
     x = np.concatenate([GRID, [0.0, 1.0, 1e10, -1e300]])
     symbol = ca.SX.sym("x")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from lyapcheck.errors import InputError, Problem
 
-LARGEST = 100_000
-
 
 def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
     """The members named by a list of whole numbers and ranges ``low:high``, ascending, each once.
@@ -29,14 +27,16 @@ def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
 
 def _complaint(part: str) -> tuple[str, str]:
     """What is wrong with one part, and the repair; two empty strings if nothing is."""
+    from lyapcheck.family.registry import LARGEST_M
+
     ends = [end.strip() for end in part.split(":")]
     if len(ends) > 2 or not all(_is_whole(end) for end in ends):
         return "is not a whole number or a range of them", "write 3, 1,2,5 or 1:12"
     low, high = int(ends[0]), int(ends[-1])
     if low < 1:
         return "m must be at least 1", "the family starts at m = 1"
-    if high > LARGEST:
-        return f"m must be at most {LARGEST}", f"stay within 1:{LARGEST}"
+    if high > LARGEST_M:
+        return f"m must be at most {LARGEST_M}", f"stay within 1:{LARGEST_M}"
     if low > high:
         return "the range is empty", f"write {high}:{low}"
     return "", ""

@@ -84,7 +84,11 @@ class Family(ABC):
 
     @abstractmethod
     def casadi(self, x: Any) -> CasadiForms:
-        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms."""
+        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms.
+
+        Put the result into a ``casadi.Function`` and evaluate that on numbers. Where such a function is called
+        on symbols, CasADi simplifies its copy: the values stay right, but to plain double precision only.
+        """
 
     def casadi_smooth(self, x: Any) -> CasadiForms:
         """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""

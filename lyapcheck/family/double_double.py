@@ -55,13 +55,13 @@ def _split(a: Any) -> Pair:
 
 
 def add(x: Pair, y: Pair) -> Pair:
-    """X + y."""
+    """x + y."""
     s, e = exact_sum(x[0], y[0])
     return quick_sum(s, e + (x[1] + y[1]))
 
 
 def multiply(x: Pair, y: Pair) -> Pair:
-    """X · y."""
+    """x · y."""
     p, e = exact_product(x[0], y[0])
     return quick_sum(p, e + (x[0] * y[1] + x[1] * y[0]))
 
@@ -74,7 +74,7 @@ def square(x: Pair) -> Pair:
 
 
 def divide(x: Pair, y: Pair) -> Pair:
-    """X / y, by one step of long division."""
+    """x / y, by one step of long division."""
     q = x[0] / y[0]
     p, e = exact_product(q, y[0])
     rest = (x[0] - p) - e + (x[1] - q * y[1])
@@ -87,7 +87,7 @@ def negative(x: Pair) -> Pair:
 
 
 def scale(x: Pair, factor: Any) -> Pair:
-    """X times a power of two."""
+    """x times a power of two."""
     return x[0] * factor, x[1] * factor
 
 

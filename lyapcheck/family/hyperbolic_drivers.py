@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from math import copysign, isnan
 from typing import TYPE_CHECKING, Any
 
@@ -66,21 +67,33 @@ def _on_block(m: int, a: Doubles, form: Form) -> Doubles:
 
 
 def as_graph(m: int, x: Any) -> CasadiForms:
-    """The four forms as CasADi SX expressions.
+    """The four forms, elementwise, at a CasADi SX expression of any shape."""
+    import casadi as ca
+
+    with exact_graph():
+        elements = [_scalar_graph(m)(element) for element in ca.vertsplit(ca.vec(x))]
+        columns = zip(*elements, strict=True)
+        return CasadiForms(*(ca.reshape(ca.vertcat(*column), *x.shape) for column in columns))
+
+
+@lru_cache(maxsize=64)
+def _scalar_graph(m: int) -> Any:
+    """The four forms of one number as a CasADi function, which is quicker to copy than to build.
 
     Each branch sees its argument clamped to just beyond where it is used, so that the derivative of a branch
     in use is never that of a clamp.
     """
     import casadi as ca
 
-    of = graphs()
+    of, x = graphs(), ca.SX.sym("x")
     with exact_graph():
         near = Near(of, m, of.smaller(of.larger(x, -_SLACK * BORDER), _SLACK * BORDER))
         far = Far(of, m, of.larger(of.fabs(x), BORDER / _SLACK))
         inside = of.fabs(x) <= BORDER
-        return CasadiForms(
-            h=of.where(inside, near.h()[0], ca.sign(x) * far.h()[0]),
-            dh=of.where(inside, near.dh()[0], far.dh()[0]),
-            potential=of.where(inside, near.potential()[0], far.potential()[0]),
-            secant=of.where(inside, near.secant()[0], far.secant()[0]),
+        pairs = (
+            (near.h(), (ca.sign(x) * far.h()[0],)),
+            (near.dh(), far.dh()),
+            (near.potential(), far.potential()),
+            (near.secant(), far.secant()),
         )
+        return ca.Function("hyperbolic", [x], [of.where(inside, a[0], b[0]) for a, b in pairs])

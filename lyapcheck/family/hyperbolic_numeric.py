@@ -80,7 +80,7 @@ class Near:
         return self.powers.times(start, self.m - 1)
 
     def h(self) -> Pair:
-        """X times the secant."""
+        """x times the secant."""
         return multiply(self.secant(), (self.x, 0.0))
 
     def dh(self) -> Pair:
@@ -108,7 +108,7 @@ class Far:
         self.of, self.m, self.a = of, m, a
 
     def h(self) -> Pair:
-        """Coth a / (1 + r^(2m))."""
+        """coth a / (1 + r^(2m))."""
         return divide(self.above, multiply(self.below, add(ONE, self.q)))
 
     def secant(self) -> Pair:
@@ -125,7 +125,7 @@ class Far:
         return dh_at_peak(self.of, m, self.a, value[0]), 0.0
 
     def potential(self) -> Pair:
-        """Ln sinh a + ln(1 + r^(2m)) / (2m), where ln sinh a is a - ln 2 for large a."""
+        """ln sinh a + ln(1 + r^(2m)) / (2m), where ln sinh a is a - ln 2 for large a."""
         log_sinh = -self.of.log(self.r[0]) - self.r[1] / self.r[0]
         near = log_sinh + log1p(self.of, self.q) / (2.0 * self.m)
         return self.of.where(self.a > 40.0, (self.a - _LN2_HIGH) - _LN2_LOW, near), 0.0

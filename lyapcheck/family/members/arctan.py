@@ -48,7 +48,7 @@ class Arctan(ElementaryFamily):
         return SymbolicForms(sp.atan(x), 1 / (1 + x**2), x * sp.atan(x) - sp.log(1 + x**2) / 2)
 
     def ball_h(self, x: arb) -> arb:
-        """Arctan, rising."""
+        """arctan x, rising."""
         return odd_range(arb.atan, (), x)
 
     def ball_dh(self, x: arb) -> arb:

@@ -22,7 +22,7 @@ class Linear(Family):
     """h = x, h' = 1, U = x²/2: unbounded, so γ does not exist; ρ = L = 1 everywhere."""
 
     def h(self, x: ArrayLike) -> Doubles:
-        """X itself."""
+        """x itself."""
         return _array(x).copy()
 
     def dh(self, x: ArrayLike) -> Doubles:
@@ -42,20 +42,20 @@ class Linear(Family):
         return _one(x)
 
     def sympy(self, x: Any) -> SymbolicForms:
-        """X, 1, x²/2."""
+        """x, 1, x²/2."""
         import sympy as sp
 
         return SymbolicForms(x, sp.Integer(1), x**2 / 2)
 
     def casadi(self, x: Any) -> CasadiForms:
-        """X, 1, x²/2, 1."""
+        """x, 1, x²/2, 1."""
         import casadi as ca
 
         one = ca.SX.ones(*x.shape)
         return CasadiForms(x, one, 0.5 * x * x, one)
 
     def ball_h(self, x: arb) -> arb:
-        """X itself."""
+        """x itself."""
         return x
 
     def ball_dh(self, x: arb) -> arb:
