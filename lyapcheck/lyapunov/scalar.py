@@ -1,0 +1,130 @@
+"""Two scalar forms that bound dV/dt: the paper's Θ of (16), and Θ' in ‖h(e)‖ instead of ‖e‖.
+
+Θ' term by term, from dV/dt = −ε hᵀK_p h − wᵀ(B + K_v D)w − ε wᵀS w + ε hᵀ(B + K_v D)w + ε² hᵀS w
+(``lyapcheck.lyapunov.quadratic``), with a = ‖h(e)‖, b = ‖w‖, r = ‖e‖:
+
+- ε hᵀK_p h ≥ ε λmin(K_p) a², and wᵀ(B + K_v D)w ≥ λmin(B) b² as D ⪰ 0;
+- hᵀ(B + K_v D)w ≤ (λmax(B) + L λmax(K_v)) a b as D ⪯ L;
+- ‖S‖ ≤ c with S = C(q,h) + (M h) êᵀ/(1+r) − M H': ‖C(q,h)‖ ≤ k_c a ≤ k_c √n γ, ‖M H'‖ ≤ β_M ρ, and
+  ‖M h‖/(1+r) ≤ β_M G because a ≤ min(L r, √n γ) and min(L r, √n γ)/(1+r) is largest where both agree,
+  at r = √n γ/L, with the value G = √n γ L/(L + √n γ).
+
+So c = β_M (ρ + G) + √n γ k_c, d = λmax(B) + L λmax(K_v), and dV/dt ≤ −[a b] Θ' [a b]ᵀ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+from typing import Protocol
+
+from flint import arb
+
+from lyapcheck.check.balls import precision, to_arb
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.scalar import ScalarForm
+
+
+class Constants(Protocol):
+    """γ, ρ and L of a family."""
+
+    @property
+    def gamma(self) -> Enclosure | None:
+        """sup h."""
+
+    @property
+    def rho(self) -> Enclosure:
+        """sup |h'|."""
+
+    @property
+    def L(self) -> Enclosure:
+        """sup h(x)/x."""
+
+
+class Gains(Protocol):
+    """Diagonal gains."""
+
+    @property
+    def kp(self) -> tuple[Fraction, ...]:
+        """Diagonal of K_p."""
+
+    @property
+    def kv(self) -> tuple[Fraction, ...]:
+        """Diagonal of K_v."""
+
+
+@dataclass(frozen=True)
+class RobotBounds:
+    """Proved bounds of one arm.
+
+    Args:
+        beta_M: at least ‖M(q)‖ for all q, kg·m².
+        k_c: at least ‖C(q,x)y‖ for all q and unit x, y, kg·m².
+        viscous_min: λmin(B), N·m·s/rad.
+        viscous_max: λmax(B), N·m·s/rad.
+        lambda_min_M: at most λmin(M(q)) for all q, kg·m².
+    """
+
+    beta_M: Fraction
+    k_c: Fraction
+    viscous_min: Fraction
+    viscous_max: Fraction
+    lambda_min_M: Fraction | None = None
+
+
+def root_above(n: int) -> Fraction:
+    """A rational not below √n, within 10⁻¹²."""
+    scale = 10**12
+    root = isqrt(n * scale * scale)
+    return Fraction(root if root * root == n * scale * scale else root + 1, scale)
+
+
+def scalar_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> ScalarForm | None:
+    """Θ' with every irrational constant replaced by a rational on the safe side; ``None`` if h is unbounded.
+
+    Soundness: c and d enter det Θ' with a minus sign, so each is rounded up; G grows with √n γ and with L.
+    """
+    if constants.gamma is None:
+        return None
+    reach = root_above(len(gains.kp)) * _up(constants.gamma)
+    rho, L = _up(constants.rho), _up(constants.L)
+    G = reach * L / (L + reach)
+    return ScalarForm(
+        stiffness=min(gains.kp),
+        friction=bounds.viscous_min,
+        drift=_short(bounds.beta_M * (rho + G) + reach * bounds.k_c),
+        cross=_short(bounds.viscous_max + L * max(gains.kv)),
+    )
+
+
+def published_limit(gains: Gains, constants: Constants, bounds: RobotBounds) -> Enclosure | None:
+    """The end of the interval (18) for ε₀, or ``None`` where (19) fails and the interval is empty.
+
+    N [λmin(B) − √n γ λmax(K_v)] / (N [β_M (ρ+γ) + γ k_c] + ¼ [√n γ λmax(B) + n ρ γ λmax(K_v)]²) with
+    N = n γ² λmin(K_p), read with ε ≤ ε₀.
+
+    References: (18), (19) of reyes2019family.
+    """
+    if constants.gamma is None:
+        return None
+    with precision(160):
+        root, gamma, rho = arb(len(gains.kp)).sqrt(), constants.gamma.to_arb(), constants.rho.to_arb()
+        kp, kv = to_arb(min(gains.kp)), to_arb(max(gains.kv))
+        beta, k_c = to_arb(bounds.beta_M), to_arb(bounds.k_c)
+        slack = to_arb(bounds.viscous_min) - root * gamma * kv
+        if not slack > 0:
+            return None
+        N = (root * gamma) ** 2 * kp
+        bracket = root * gamma * to_arb(bounds.viscous_max) + root**2 * rho * gamma * kv
+        return Enclosure.from_arb(N * slack / (N * (beta * (rho + gamma) + gamma * k_c) + bracket**2 / 4))
+
+
+def _up(enclosure: Enclosure) -> Fraction:
+    return _short(enclosure.upper)
+
+
+def _short(value: Fraction) -> Fraction:
+    """A decimal of twelve places that is not below a value: short numbers keep certificates readable."""
+    scale = 10**12
+    return Fraction(-((-value.numerator * scale) // value.denominator), scale)
