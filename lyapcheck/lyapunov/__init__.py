@@ -1,1 +1,1 @@
-"""The Lyapunov function of the paper: V, dV/dt, its quadratic form Q and scalar bounds, in several arithmetics."""
+"""The Lyapunov function: V, dV/dt, the quadratic form Q and its scalar bounds, in several arithmetics."""
