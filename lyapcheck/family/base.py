@@ -86,8 +86,8 @@ class Family(ABC):
     def casadi(self, x: Any) -> CasadiForms:
         """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms.
 
-        Put the result into a ``casadi.Function`` and evaluate that on numbers. Where such a function is called
-        on symbols, CasADi simplifies its copy: the values stay right, but to plain double precision only.
+        Put the result into a ``casadi.Function`` and evaluate that on numbers. Called on symbols, such a
+        function is copied and simplified by CasADi: its values stay right, but in plain double precision.
         """
 
     def casadi_smooth(self, x: Any) -> CasadiForms:
