@@ -44,7 +44,22 @@ def at_rest(n: int) -> tuple[list[Fraction], list[Fraction]]:
 
 
 def test_the_built_in_arms() -> None:
-    assert {"buap3", "reyes-kelly2", "pelican2", "pendulum1"} <= set(robots.names())
+    assert {"buap3", "reyes-kelly2", "pelican2", "buap3-small", "pendulum1"} <= set(robots.names())
+
+
+def test_small_arm_gravity_is_the_print() -> None:
+    """g = (0, 14.28 sin q2 + 1.14 sin(q2+q3), 1.14 sin(q2+q3)), limits 15, 50, 4 N·m."""
+    arm = robots.load("buap3-small")
+    assert arm.gravity_at([F(0), F(1), F(0)], [F(1), F(0), F(1)], Fraction) == [0, F("15.42"), F("1.14")]
+    assert [limit.value for limit in arm.torque_limit] == [15, 50, 4]
+    assert all(key.split("_", 1)[1] == "inertia" for key in arm.parameters)
+
+
+def test_every_assumption_about_the_inertia_has_a_range() -> None:
+    for name in BUILT_IN:
+        arm = robots.load(name)
+        assumed = [key for key, number in arm.numbers.items() if number.assumed and "torque" not in key]
+        assert all(arm.numbers[key].ranged for key in assumed)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)

@@ -9,7 +9,7 @@ from itertools import product
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from robot_cases import BUILT_IN, angles, exact, model_of, plain_links, rates
+from robot_cases import BUILT_IN, angles, circle, exact, model_of, plain_links, rates
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
@@ -107,6 +107,38 @@ def test_chain_agrees_with_jacobians(links: list[dict], data: st.DataObject) -> 
     model = model_of(links, gravity)
     sin, cos = zip(*data.draw(angles(model.n)), strict=True)
     mass, potential = by_jacobians(links, gravity, sin, cos)
+    assert model.mass_at(sin, cos, Fraction) == mass
+    assert model.potential_at(sin, cos, Fraction) == potential
+
+
+def test_seven_joints_agree_with_jacobians() -> None:
+    """A chain of seven with axes in all directions, at one state."""
+    axes = [
+        (0, 0, 1),
+        (0, 1, 0),
+        (0, 0, 1),
+        (0, -1, 0),
+        (1, 0, 0),
+        (0, Fraction(3, 5), Fraction(4, 5)),
+        (0, 0, 1),
+    ]
+    links = [
+        {
+            "axis": axis,
+            "origin": (Fraction(i, 50), 0, Fraction(3, 10)),
+            "mass": Fraction(9 - i, 2),
+            "com": (Fraction(1, 20), Fraction(-i, 100), Fraction(1, 7)),
+            "inertia": [
+                [Fraction(1, 5), Fraction(1, 90), 0],
+                [Fraction(1, 90), Fraction(1, 6), 0],
+                [0, 0, Fraction(1, 8)],
+            ],
+        }
+        for i, axis in enumerate(axes)
+    ]
+    sin, cos = zip(*[circle(Fraction(i - 3, 2)) for i in range(7)], strict=True)
+    model = model_of(links)
+    mass, potential = by_jacobians(links, (0, 0, Fraction(-981, 100)), sin, cos)
     assert model.mass_at(sin, cos, Fraction) == mass
     assert model.potential_at(sin, cos, Fraction) == potential
 
