@@ -80,8 +80,8 @@ def falsify(
     Returns:
         the witness; ``None`` when no state was confirmed, which proves nothing.
 
-    Soundness: the witness is proved by `lyapcheck.check.states` from exact data; nothing says that no smaller ε₀
-        fails.
+    Soundness: the witness is proved by `lyapcheck.check.states` from exact data; nothing says that no
+        smaller ε₀ fails.
     """
     tell = on_progress or (lambda fraction, note: None)
     found: list[tuple[float, str, State]] = []
@@ -180,8 +180,9 @@ def _rounded_reciprocals(setting: Setting, states: States, scale: float) -> Arra
 
 
 def _exact(row: Array) -> tuple[Fraction, ...]:
-    """Short decimals close to the doubles; what is rounding noise around 0 becomes 0."""
-    return tuple(Fraction(0) if abs(x) < 1e-12 else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
+    """Short decimals close to the doubles; what is rounding noise beside the others becomes 0."""
+    noise = 1e-8 * max(1.0, float(np.max(np.abs(row))))
+    return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
 
 
 def _confirm(setting: Setting, reciprocal: float, kind: str, state: State) -> Witness | None:

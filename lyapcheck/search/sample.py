@@ -99,8 +99,8 @@ def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Arr
 def sample(setting: Setting, count: int, seed: int) -> States:
     """Random states: q on the torus, ‖w‖ log-uniform, half of the w in the fastest direction.
 
-    In every other pair of states |e_i| is uniform up to 2.5 rad, where h and h' do all they do; in the rest it is
-    log-uniform from 0.001 to 10 rad.
+    In every other pair of states |e_i| is uniform up to 2.5 rad, where h and h' do all they do; in the rest
+    it is log-uniform from 0.001 to 10 rad.
 
     Args:
         setting: gains and arm.
@@ -123,9 +123,9 @@ def sample(setting: Setting, count: int, seed: int) -> States:
 def spread(states: States, merit: Array, count: int) -> Array:
     """Indices of ``count`` promising states from different corners of the state space.
 
-    A corner is a pattern of large positive, small and large negative e_i (up to the sign of e) and of the signs
-    of sin q and cos q. The best state of every corner comes before the second best of any, so that many good
-    states in one valley do not hide another valley.
+    A corner is a pattern of large positive, small and large negative e_i and of the signs of sin q and cos q,
+    and its mirror image counts as the same. The best state of every corner comes before the second best of
+    any, so that many good states in one valley do not hide another valley.
     """
     corners = _corners(states)
     order = np.argsort(-merit, kind="stable")
@@ -138,10 +138,11 @@ def spread(states: States, merit: Array, count: int) -> Array:
 def _corners(states: States) -> Array:
     """A number for the corner that each state lies in."""
     size = np.where(np.abs(states.e) > _LARGE_ERROR, np.sign(states.e), 0).astype(int)
-    errors = np.abs(size @ 3 ** np.arange(size.shape[1]))
+    errors = size @ 3 ** np.arange(size.shape[1])
     turned = states.q[:, 1:]
-    quarters = (np.sin(turned) > 0) + 2 * (np.cos(turned) > 0)
-    return np.asarray(errors * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
+    mirror = np.where(errors < 0, -1, 1)[:, None]
+    quarters = (mirror * np.sin(turned) > 0) + 2 * (np.cos(turned) > 0)
+    return np.asarray(np.abs(errors) * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
 
 
 def size(setting: Setting, eps0: float, states: States) -> Array:
