@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -26,11 +26,17 @@ class Body:
     inertia: dict[str, Number]
 
     def numbers(self, name: str) -> dict[str, Number]:
-        """The numbers of the link under the names that reports use; axes are exact and not listed."""
+        """The numbers of the link under the names that reports use; axes and plain zeros are not listed."""
         found = {f"{name}_mass": self.mass}
         for key, vector in (("origin", self.origin), ("com", self.com)):
-            found |= {f"{name}_{key}_{letter}": x for letter, x in zip("xyz", vector, strict=True)}
+            found |= components(f"{name}_{key}", vector)
         return found | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
+
+
+def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:
+    """The components of a vector as ``name_x`` and so on, without those that are exactly zero."""
+    named = {f"{name}_{letter}": x for letter, x in zip("xyz", vector, strict=True)}
+    return {key: x for key, x in named.items() if x.value or x.ranged or x.assumed}
 
 
 def read_bodies(tables: list[ArmFields]) -> list[Body | None]:

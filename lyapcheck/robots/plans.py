@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.robots import trig
-from lyapcheck.robots.bodies import Body, read_bodies
+from lyapcheck.robots.bodies import Body, components, read_bodies
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
 from lyapcheck.robots.links import Link, chain
@@ -53,7 +53,7 @@ class ChainPlan:
 
     def numbers(self) -> dict[str, Number]:
         """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
-        found = {f"gravity_{letter}": x for letter, x in zip("xyz", self.gravity, strict=True)}
+        found = components("gravity", self.gravity)
         for joint, body in zip(self.joints, self.bodies, strict=True):
             found |= body.numbers(joint.name)
         return found
@@ -68,7 +68,8 @@ class ChainPlan:
             _link(ring, joint.name, body, numbers)
             for joint, body in zip(self.joints, self.bodies, strict=True)
         ]
-        return chain(ring, links, [numbers[f"gravity_{letter}"] for letter in "xyz"])
+        zero = trig.constant(ring, 0)
+        return chain(ring, links, [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"])
 
 
 @dataclass(frozen=True)
