@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.csv import run_csv
+    from lyapcheck.simulate.printed import Printed, printed_for
     from lyapcheck.simulate.run import Indices, Promises, Run, SimulationFailed
     from lyapcheck.simulate.task import PAPER_TASK, Task
     from lyapcheck.simulate.trial import experiment
@@ -17,11 +18,13 @@ _HOME = {
     "PAPER_TASK": "task",
     "Bench": "bench",
     "Indices": "run",
+    "Printed": "printed",
     "Promises": "run",
     "Run": "run",
     "SimulationFailed": "run",
     "Task": "task",
     "experiment": "trial",
+    "printed_for": "printed",
     "run_csv": "csv",
     "simulate": "closed_loop",
 }
@@ -30,11 +33,13 @@ __all__ = [
     "PAPER_TASK",
     "Bench",
     "Indices",
+    "Printed",
     "Promises",
     "Run",
     "SimulationFailed",
     "Task",
     "experiment",
+    "printed_for",
     "run_csv",
     "simulate",
 ]

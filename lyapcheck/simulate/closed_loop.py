@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory, integrate
-from lyapcheck.simulate.results import Motion, run_of
+from lyapcheck.simulate.results import LEAST_ENERGY, Motion, run_of
 from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
 
@@ -122,8 +122,8 @@ def _reference(loop: ClosedLoop, setup: Setup, path: Trajectory, accuracy: float
 
 def _imbalance(energy: Array, dissipated: Array) -> float:
     """The largest |E(t) + D(t) − E(0)|, relative to the largest energy of the run."""
-    scale = max(float(np.max(np.abs(energy))), float(np.max(np.abs(dissipated))))
-    return float(np.max(np.abs(energy + dissipated - energy[0]))) / scale if scale > 0 else 0.0
+    scale = max(float(np.max(np.abs(energy))), float(np.max(np.abs(dissipated))), LEAST_ENERGY)
+    return float(np.max(np.abs(energy + dissipated - energy[0]))) / scale
 
 
 def _silent(fraction: float, note: str) -> None:

@@ -22,6 +22,8 @@ class Gains:
     kp: tuple[float, ...]
     """N·m (per rad where h is linear)."""
     kv: tuple[float, ...]
+    written: tuple[tuple[float, ...], tuple[float, ...]]
+    """(kp, kv) in the unit of the gain file."""
 
 
 def gains_for(gain_set: GainSet, n: int) -> Gains:
@@ -34,10 +36,11 @@ def gains_for(gain_set: GainSet, n: int) -> Gains:
         rule = f"has gains for {len(gain_set.kp)} joints, but the arm has {n}"
         raise argument_error("gains", gain_set.name, rule, "choose the arm the gains were made for")
     scale = math.degrees(1.0) if gain_set.angle_unit == "deg" else 1.0
-    family = named(gain_set.family, gain_set.m)
+    kp, kv = (tuple(map(float, diagonal)) for diagonal in (gain_set.kp, gain_set.kv))
     return Gains(
-        gain_set.name,
-        family,
-        tuple(float(k) * scale for k in gain_set.kp),
-        tuple(float(k) * scale for k in gain_set.kv),
+        name=gain_set.name,
+        family=named(gain_set.family, gain_set.m),
+        kp=tuple(k * scale for k in kp),
+        kv=tuple(k * scale for k in kv),
+        written=(kp, kv),
     )

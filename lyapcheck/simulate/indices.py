@@ -12,6 +12,9 @@ Array = NDArray[np.float64]
 SETTLING_BAND = 0.02
 """Settled means within 2 % of the step; the paper prints settling times but not its band."""
 
+LEAST_STEP = 1e-9
+"""rad: a smaller initial error is no step, and nothing is measured by it."""
+
 
 def l2_index(t: Array, e: Array) -> float:
     """The root-mean-square position error L2 = √((1/T) ∫₀ᵀ ‖e‖² dt) in degrees, by the trapezoidal rule.
@@ -41,7 +44,7 @@ def settling_times(t: Array, e: Array, band: float = SETTLING_BAND) -> Array:
         (n,) times in s.
     """
     start = np.abs(e[0])
-    width = band * np.where(start > 0.0, start, start.max())
+    width = band * np.where(start > LEAST_STEP, start, start.max())
     return np.array([_settled(t, np.abs(e[:, i]), float(width[i])) for i in range(e.shape[1])])
 
 
@@ -63,9 +66,10 @@ def overshoots(e: Array) -> Array:
         e: (N, n) position errors in rad.
     """
     start = e[0]
-    beyond = np.max(-np.sign(start) * e, axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.where(start != 0.0, 100.0 * np.maximum(beyond, 0.0) / np.abs(start), np.nan))
+    beyond = np.maximum(np.max(-np.sign(start) * e, axis=0), 0.0)
+    size = np.abs(start)
+    share = np.divide(beyond, size, out=np.full_like(size, np.nan), where=size > LEAST_STEP)
+    return np.asarray(100.0 * share)
 
 
 def peak_torques(tau: Array) -> Array:

@@ -28,12 +28,12 @@ def observe(
         tau: (N, n) N·m.
         gains: the controller.
         model: the arm.
-        noise: how far V may rise by the run's own error, relative to the largest V.
+        noise: J, how far V may rise by the run's own error.
         saturated: the torque was cut at the motors' limits, so reaching a limit is leaving it.
 
     Soundness: samples and doubles; a rise between two samples, or one below ``noise``, is not seen.
     """
-    rises = np.flatnonzero(np.diff(V) > noise * np.max(np.abs(V)))
+    rises = np.flatnonzero(np.diff(V) > noise)
     norm = float(np.max(np.linalg.norm(tau, axis=1)))
     bound = torque_bound(gains, model)
     return Promises(

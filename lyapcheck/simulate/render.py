@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.simulate.indices import SETTLING_BAND
+from lyapcheck.simulate.printed import printed_for
 from lyapcheck.simulate.run import Run
 
 SCHEMA = "lyapcheck/simulate/1"
@@ -59,6 +60,19 @@ def _facts(run: Run) -> list[str]:
         f"L2 {run.L2:.4f}°, V(0) = {run.V[0]:.5g} J, V {_fall(run)} (ε₀ = {run.eps0:g})",
         f"largest ‖τ‖ {run.promises.torque_norm:.4g} N·m, {_bound(run)}",
         _checks(run),
+        *_beside(run),
+    ]
+
+
+def _beside(run: Run) -> list[str]:
+    """What the paper measured on its bench, where it ran the same."""
+    paper = printed_for(run)
+    if paper is None:
+        return []
+    error = ", ".join(f"{x:g}" for x in paper.final_error)
+    when = "below 1.4" if paper.settling is None else ", ".join(f"{x:g}" for x in paper.settling)
+    return [
+        f"the paper measured: L2 {paper.L2:.4f}°, settling {when} s (band not printed), final error {error}°"
     ]
 
 
@@ -158,7 +172,16 @@ def _result(run: Run) -> dict[str, Any]:
         "V_rises_at": seen.V_rises_at,
         "accuracy": _plain(run.accuracy),
         "energy_balance": _plain(run.energy_balance),
+        "printed": _paper(run),
     }
+
+
+def _paper(run: Run) -> dict[str, Any] | None:
+    paper = printed_for(run)
+    if paper is None:
+        return None
+    settling = None if paper.settling is None else list(paper.settling)
+    return {"L2": paper.L2, "settling": settling, "final_error": list(paper.final_error)}
 
 
 def _plain(value: float) -> float | None:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate import indices
-from lyapcheck.simulate.along import lyapunov_along
 from lyapcheck.simulate.monitor import observe, torque_limits
 from lyapcheck.simulate.run import Indices, Run
 from lyapcheck.simulate.setup import Setup
@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 
 V_NOISE = 1e-9
 """How far V may rise between samples, relative to its largest value, before it counts as a rise."""
+
+LEAST_ENERGY = 1e-9
+"""J: below this, energies are the integrator's absolute tolerance and not the arm's."""
 
 
 @dataclass(frozen=True)
@@ -44,10 +47,11 @@ def run_of(
     """The run of a motion: everything that can be computed from its samples."""
     gains, model = setup.gains, setup.model
     e = np.array(setup.task.q_d) - motion.q
-    V, dV = lyapunov_along(gains, model, q=motion.q, e=e, w=motion.w, eps0=setup.eps0)
+    certificate = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, setup.eps0)
+    V, dV = certificate.V(motion.q, e, motion.w), certificate.rate(motion.q, e, motion.w)
+    noise = V_NOISE * max(float(np.max(np.abs(V))), LEAST_ENERGY)
     return Run(
-        name=gains.name,
-        m=gains.family.m,
+        gains=gains,
         robot=model.name,
         joints=model.joints,
         kind=motion.kind,
@@ -61,7 +65,7 @@ def run_of(
         V=V,
         dV=dV,
         indices=_indices(motion, e, L2),
-        promises=observe(motion.t, V, motion.tau, gains, model, noise=V_NOISE, saturated=saturated),
+        promises=observe(motion.t, V, motion.tau, gains, model, noise=noise, saturated=saturated),
         accuracy=accuracy,
         energy_balance=energy_balance,
         torque_limit=torque_limits(model),

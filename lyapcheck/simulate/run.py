@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.task import Task
 
 Array = NDArray[np.float64]
@@ -53,8 +54,7 @@ class Run:
     ``tau`` in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along (11) in W, both for ``eps0``.
     """
 
-    name: str
-    m: int | None
+    gains: Gains
     robot: str
     joints: tuple[str, ...]
     kind: str
@@ -73,12 +73,25 @@ class Run:
     accuracy: float
     """The largest change of q (rad) or w (rad/s) at a ten times tighter tolerance; NaN if cut short."""
     energy_balance: float
-    """The largest |E(t) + dissipated(t) − E(0)| relative to the largest of these; NaN for an experiment."""
+    """The largest |E(t) + dissipated(t) − E(0)| relative to the largest of these; NaN for an experiment.
+
+    Energies below a nanojoule are compared with a nanojoule.
+    """
     torque_limit: tuple[float | None, ...]
     """N·m, what the motors can give."""
     complete: bool = True
     notes: tuple[str, ...] = ()
     """What the reader must know: assumptions and the settings of the bench."""
+
+    @property
+    def name(self) -> str:
+        """The name of the gain set."""
+        return self.gains.name
+
+    @property
+    def m(self) -> int | None:
+        """The member of the hyperbolic family; none for another family."""
+        return self.gains.family.m
 
     @property
     def L2(self) -> float:
