@@ -16,7 +16,7 @@ def parse_angles(option: str, text: str, joints: tuple[str, ...]) -> tuple[float
     Raises:
         InputError: something that is not a number of degrees, or another number of angles than joints.
     """
-    words = [word.strip() for word in text.split(",")]
+    words = [word.strip() for word in text.split(",")] if text.strip() else []
     example = f"write {option} {','.join(['45'] * len(joints))}"
     if len(words) != len(joints):
         rule = f"has {len(words)} angles, but the arm has {len(joints)} joints ({', '.join(joints)})"

@@ -171,9 +171,11 @@ def _draw(runs: Sequence[Run], place: Path) -> None:
     """Two figures a run, as in Figs. 3 to 10 of the paper."""
     from lyapcheck.report.figures.motion import errors_figure, torques_figure
 
-    for run in runs:
+    for number, run in enumerate(runs):
         title = f"{run.name} on {run.robot}, {run.kind}"
         stem = re.sub(r"[^\w.-]+", "_", run.name)
+        if stem != run.name:  # two names must not become one file
+            stem = f"{stem}-{number + 1}"
         write_whole(place / f"{stem}-errors.svg", errors_figure(title, run.t, run.e, run.joints))
         write_whole(
             place / f"{stem}-torques.svg", torques_figure(title, run.t, run.tau, run.joints, run.torque_limit)
