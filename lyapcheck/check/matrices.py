@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import TypeAlias
 
 from flint import arb, fmpq, fmpq_mat
 
-Rows = Sequence[Sequence[Fraction | int]] | fmpq_mat
+Rows: TypeAlias = Sequence[Sequence[Fraction | int]] | fmpq_mat
 
 
 def pivots(rows: Rows) -> list[Fraction] | None:
