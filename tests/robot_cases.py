@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from flint import fmpq
+from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -12,6 +13,9 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
+
+relaxed = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+"""Hypothesis without a clock: a loaded machine is no reason to fail."""
 
 BUILT_IN = robots.names()
 

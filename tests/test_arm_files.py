@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import textwrap
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from robot_cases import relaxed
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
+from lyapcheck.robots import armfile
 
 CHAIN = """\
 title = "two joints"
@@ -117,6 +120,14 @@ def test_an_assumption_is_told_in_a_sentence(tmp_path: Path) -> None:
     assert arm.assumptions == (
         "arm_viscous = 0.25 N·m·s/rad is assumed, between 0.2 and 0.3 N·m·s/rad: a guess",
     )
+
+
+def test_the_documented_examples_are_arm_files(tmp_path: Path) -> None:
+    blocks = [block.split("\n\nA ")[0] for block in (armfile.__doc__ or "").split("::\n\n")[1:]]
+    number, chain, printed = (textwrap.dedent(block.split("\n\nAn assumed")[0]) for block in blocks)
+    assert load(tmp_path, chain).n == 1
+    assert load(tmp_path, printed).n == 2
+    assert load(tmp_path, chain.replace("mass = 23.902", number.strip())).parameters
 
 
 # Each row: the text, what to replace in it, by what, and what the message must say (with its line).
@@ -317,7 +328,7 @@ pieces = st.sampled_from(
 )
 
 
-@settings(max_examples=300, deadline=None)
+@settings(relaxed, max_examples=300)
 @given(st.sampled_from([CHAIN, PRINTED]), st.data())
 def test_a_garbled_file_never_ends_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, text: str, data: st.DataObject

@@ -2,46 +2,55 @@
 
 Every number is a plain decimal, read exactly, or a table that says more about it::
 
-    mass = 23.902
     mass = { value = 23.902, unit = "kg", source = "…", assumed = true, low = 23, high = 25, note = "why" }
 
-An assumed number needs a reason (``note`` or ``source``); one with ``low`` and ``high`` may have any value
-between them. Units are SI and fixed by the key. At the top of a file stand::
+An assumed number needs a reason (``note`` or ``source``). One with ``low`` and ``high`` may have any value
+between them: it becomes a parameter of the model. Units are SI and fixed by the key. The number of an arm's
+``links`` or ``joints`` tables is its number of joints, at most nine.
 
-    title = "…"             one line for reports
-    source = "…"            optional: where the plain numbers are printed
-    remarks = ["…"]         optional: what else is taken for granted, one sentence each
+A **chain of links** gives M and the potential by derivation. All frames are parallel to the base frame at
+q = 0, lengths in m. An inertia about the centre of mass is one number when all axes are parallel, else a
+table of ixx, iyy, izz and, where they are not zero, ixy, ixz, iyz::
 
-Then comes one of two kinds of model. **Links**: a serial chain of revolute joints, from which M and the
-potential are derived. All frames are parallel to the base frame at q = 0; lengths in m::
+    title = "Pendulum"                  # one line for reports
+    source = "a textbook"               # optional: where the plain numbers are printed
+    remarks = ["The rod is rigid."]     # optional: what else is taken for granted, in sentences
+    gravity = [0, 0, -9.81]             # m/s², in the base frame
 
-    gravity = [0, 0, -9.81]           m/s², in the base frame
+    [[links]]                           # one for each joint with the link that it moves, base first
+    name = "pivot"
+    axis = [0, 1, 0]                    # of length exactly 1
+    origin = [0, 0, 0]                  # of the joint, from the joint before (or the base)
+    mass = 23.902                       # kg
+    com = [0, 0, -0.091]                # centre of mass, from the joint
+    inertia = 1.266                     # kg·m²
+    viscous = 2.288                     # N·m·s/rad
+    coulomb = 7.17                      # N·m; this and the following are optional
+    torque_limit = 150                  # N·m
+    encoder = 1024000                   # counts per turn
+    gravity_bound = 40.28               # N·m, k_gi where a source prints it
 
-    [[links]]                         one for each joint with the link that it moves, base first
-    name = "shoulder"
-    axis = [0, 0, 1]                  of length exactly 1
-    origin = [0, 0, 0]                of the joint, from the joint before (or the base)
-    mass = 23.902                     kg
-    com = [0, -0.091, 0]              centre of mass, from the joint
-    inertia = 1.266                   kg·m² about the centre of mass: one number when all axes are
-                                      parallel, else a table of ixx, iyy, izz (ixy, ixz, iyz)
-    viscous = 2.288                   N·m·s/rad
-    coulomb = 7.17                    N·m, optional, as are the following
-    torque_limit = 150                N·m
-    encoder = 1024000                 counts per turn
-    gravity_bound = 40.28             N·m, k_gi where a source prints it
+A **printed model** gives M on and above the diagonal (kg·m²) and the potential energy (J) as terms, see
+`lyapcheck.robots.printed`, and the motors in ``[[joints]]``::
 
-**Printed**: M and the potential energy as a source prints them, as terms (`lyapcheck.robots.printed`), with
-the motors in ``[[joints]]`` (the keys of a link from ``viscous`` on, and ``name``)::
+    title = "Two-joint arm as printed"
 
-    [numbers]
+    [numbers]                           # optional: numbers that the terms name
     b = 0.084
 
     [model]
     M11 = [[2.351, ""], [2, "b c2"]]
-    M12 = [[0.102, ""], [1, "b c2"]]  on and above the diagonal
+    M12 = [[0.102, ""], [1, "b c2"]]
     M22 = [[0.102, ""]]
-    potential = [[-38.46501, "c1"], [-1.82466, "c12"]]     J
+    potential = [[-38.46501, "c1"], [-1.82466, "c12"]]
+
+    [[joints]]                          # name, viscous and the optional keys of a link after it
+    name = "shoulder"
+    viscous = 2.288
+
+    [[joints]]
+    name = "elbow"
+    viscous = 0.175
 """
 
 from __future__ import annotations
