@@ -115,7 +115,7 @@ def _reference(loop: ClosedLoop, setup: Setup, path: Trajectory, accuracy: float
         Motion("reference", path.t, y[:, :n], y[:, n : 2 * n], tau.T),
         accuracy=accuracy,
         energy_balance=_imbalance(energy[0], y[:, 2 * n]),
-        L2=math.degrees(math.sqrt(y[-1, -1] / path.t[-1])) if path.t[-1] > 0 else math.nan,
+        L2=math.degrees(math.sqrt(max(y[-1, -1], 0.0) / path.t[-1])) if path.t[-1] > 0 else math.nan,
         complete=path.failure is None,
     )
 
