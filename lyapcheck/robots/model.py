@@ -169,6 +169,8 @@ class RobotModel:
                 raise argument_error(
                     "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
                 )
+        if not self.parameters:
+            return self
         values = {
             name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
         }
