@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck.check.balls import precision
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.states import State, confirms_positive, rate
 from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, spread
@@ -33,6 +34,7 @@ SEED = 20190301
 _DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
 _EPS_DIGITS = 7
+_SHOWN_BITS = 256
 _SCALES = tuple(sign * 10.0 ** (k / 2) for k in range(-2, 17) for sign in (1, -1))
 """Factors tried on the rates of a candidate: fast states need ‖w‖ large enough for K_v h(w) not to matter."""
 _SLACKS = (Fraction(0), Fraction(1, 10**6), Fraction(1, 10**5), Fraction(1, 10**4), Fraction(1, 10**3))
@@ -190,8 +192,9 @@ def _confirm(setting: Setting, reciprocal: float, kind: str, state: State) -> Wi
     for slack in _SLACKS:
         eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
         if confirms_positive(setting.arm, setting.controller, eps0, state):
-            shown = Enclosure.from_arb(rate(setting.arm, setting.controller, eps0, state, 256))
-            return Witness(eps0, state, shown, kind)
+            with precision(_SHOWN_BITS):
+                shown = rate(setting.arm, setting.controller, eps0, state, _SHOWN_BITS)
+                return Witness(eps0, state, Enclosure.from_arb(shown), kind)
     return None
 
 

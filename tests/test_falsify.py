@@ -1,0 +1,193 @@
+"""Sampled and optimised worst states: they agree with the balls, and they reach what is known by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.states import State, confirms_positive, rate
+from lyapcheck.control import GainSet
+from lyapcheck.errors import InputError
+from lyapcheck.robots import load
+from lyapcheck.search.falsify import Witness, falsify, round_up, worst_states
+from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
+from lyapcheck.search.setting import Setting
+from lyapcheck.search.worst_states import expressions, fast_states, finite_states, level_states
+
+F = Fraction
+FEW = {"starts": 6, "samples": 2000}
+
+
+def gains(m: int | None, kp: str, kv: str, **other: str) -> GainSet:
+    return GainSet("set", m, tuple(map(F, kp.split())), tuple(map(F, kv.split())), **other)
+
+
+def two_joints(m: int) -> Setting:
+    return Setting(gains(m, "60 5", "0.233 0.233"), load("reyes-kelly2"))
+
+
+SETTINGS = [
+    two_joints(1),
+    two_joints(3),
+    Setting(gains(2, "27 50 5", "0.223 0.223 0.223"), load("buap3")),
+    Setting(gains(1, "4", "0.5"), load("pendulum1")),
+    Setting(gains(None, "60 5", "2 1", family="linear"), load("reyes-kelly2")),
+    Setting(gains(None, "1 0.1", "0.2 0.1", family="linear", angle_unit="deg"), load("pelican2")),
+    Setting(gains(None, "60 5", "2 1", family="arctan"), load("pelican2")),
+]
+
+
+def exact_state(states: States, k: int) -> State:
+    return State(*(tuple(F(float(x)) for x in part[k]) for part in (states.q, states.e, states.w)))
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_quadratic_in_eps0_agrees_with_the_balls(setting: Setting) -> None:
+    states = sample(setting, 40, 1)
+    for eps0 in (0.0, 0.3, 2.0):
+        found = quadratic(setting, states).at(eps0)
+        scale = size(setting, 1.0, states)
+        for k in range(40):
+            proved = rate(setting.arm, setting.controller, F(eps0), exact_state(states, k))
+            assert abs(float(proved.mid()) - found[k]) <= 1e-11 * (abs(found[k]) + scale[k])
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_graph_agrees_with_numpy(setting: Setting) -> None:
+    import casadi as ca
+
+    x = expressions(setting)
+    call = ca.Function("a", [x.q, x.e, x.w], [x.a0, x.a1, x.a2])
+    states = sample(setting, 50, 2)
+    found = quadratic(setting, states)
+    for k in range(50):
+        values = [float(v) for v in call(states.q[k], states.e[k], states.w[k])]
+        # fast states cancel, so each coefficient is compared on the scale of what it is a sum of
+        scale = size(setting, 1.0, states.take(np.array([k])))[0] * 10
+        expected = (found.a0[k], found.a1[k], found.a2[k])
+        assert np.allclose(values, expected, rtol=1e-9, atol=1e-11 * scale)
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_fast_states_approach_their_limit(setting: Setting) -> None:
+    states = sample(setting, 200, 3)
+    limit, directions = fastest_directions(setting, states.q, states.e)
+    reached = quadratic(setting, States(states.q, states.e, directions * 1e9)).reciprocal()
+    assert np.all(np.abs(reached - np.maximum(limit, 0))[limit > 1e-3] < 1e-5 * limit[limit > 1e-3] + 1e-5)
+
+
+def test_samples_repeat_with_their_seed() -> None:
+    first, again, other = (sample(two_joints(1), 100, seed) for seed in (1, 1, 2))
+    assert all(np.array_equal(getattr(first, part), getattr(again, part)) for part in "qew")
+    assert not np.array_equal(first.q, other.q)
+
+
+def test_reciprocal_is_where_the_rate_changes_sign() -> None:
+    setting = two_joints(2)
+    found = quadratic(setting, sample(setting, 3000, 4))
+    failing = found.reciprocal() > 1e-3
+    eps0 = 1 / np.where(failing, found.reciprocal(), 1.0)
+    rates = -found.a0 + eps0 * (found.a1 + eps0 * found.a2)
+    scale = found.a0 + np.abs(eps0 * found.a1) + np.abs(eps0**2 * found.a2)
+    assert failing.sum() > 100
+    assert np.all(np.abs(rates)[failing] < 1e-9 * scale[failing])
+
+
+def test_one_joint_by_hand() -> None:
+    """M = ¼ kg·m², b = ½, m = 1: the worst state is fast at e = 0, where ε₀ = b/M = 2."""
+    witness = falsify(SETTINGS[3], **FEW)
+    assert witness is not None
+    assert 2 < witness.eps0 < 2 * (1 + F(1, 10**4))
+
+
+def test_two_joints_at_zero_error_by_hand() -> None:
+    """m = 1: 1/ε₀ = λmax(B^(−½)M(0)B^(−½)), because M is largest with the arm stretched."""
+    scale = np.diag(1 / np.sqrt([2.288, 0.175]))
+    largest = np.linalg.eigvalsh(scale @ np.array([[2.519, 0.186], [0.186, 0.102]]) @ scale)[-1]
+    witness = falsify(two_joints(1), **FEW)
+    assert witness is not None
+    assert 1 / largest < float(witness.eps0) < (1 + 1e-5) / largest
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_witness_replays_and_a_tampered_one_does_not(setting: Setting) -> None:
+    witness = falsify(setting, **FEW)
+    assert witness is not None
+    replay = setting.arm, setting.controller, witness.eps0
+    assert confirms_positive(*replay, witness.state)
+    assert witness.rate.lower > 0
+    assert not confirms_positive(*replay, replace(witness.state, w=(F(0),) * setting.n))
+    assert not confirms_positive(*replay, replace(witness.state, e=(F(20),) * setting.n))
+    assert not confirms_positive(setting.arm, setting.controller, witness.eps0 * F(9, 10), witness.state)
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
+    setting = two_joints(m)
+    states = sample(setting, 2000, 5)
+    speed, directions = fastest_directions(setting, states.q, states.e)
+    chosen = spread(states, speed, 6)
+    starts = States(states.q[chosen], states.e[chosen], directions[chosen])
+    fast = fast_states(setting, starts)
+    level = level_states(setting, starts)
+    reached = max(fastest_directions(setting, s.q, s.e)[0].max() for s in (fast, level))
+    assert reached >= speed.max() * (1 - 1e-9)
+    near = quadratic(setting, states).reciprocal()
+    picked = states.take(spread(states, near, 6))
+    assert quadratic(setting, finite_states(setting, picked)).reciprocal().max() >= (
+        0.999 * quadratic(setting, picked).reciprocal().max() if m > 1 else 0.0
+    )
+
+
+def test_worst_states_for_a_given_eps0_change_sign_at_the_falsified_one() -> None:
+    setting = two_joints(2)
+    witness = falsify(setting, **FEW)
+    assert witness is not None
+    below = worst_states(setting, 0.9 * float(witness.eps0), **FEW)
+    above = worst_states(setting, 1.1 * float(witness.eps0), **FEW)
+    assert {state.kind for state in below} == {"sampled", "optimised"}
+    assert all(state.rate < 0 for state in below)
+    assert any(state.rate > 0 for state in above)
+    best = {kind: max(s.relative for s in above if s.kind == kind) for kind in ("sampled", "optimised")}
+    assert best["optimised"] >= best["sampled"]
+
+
+def test_falsify_repeats_itself() -> None:
+    first, again = (falsify(two_joints(3), **FEW) for _ in range(2))
+    assert isinstance(first, Witness)
+    assert first == again
+
+
+def test_other_valleys_are_found() -> None:
+    """m = 3: the worst state has both joints at the peak of h', the best sampled ones have only one there."""
+    witness = falsify(two_joints(3))
+    assert witness is not None
+    assert float(witness.eps0) == pytest.approx(0.6362, rel=1e-4)
+    assert all(abs(x) > F(7, 10) for x in witness.state.e)
+
+
+def test_wrong_number_of_joints_is_an_input_error() -> None:
+    with pytest.raises(InputError, match="3 joints"):
+        Setting(gains(1, "28 60 5", "0.2 0.2 0.2"), load("reyes-kelly2"))
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "expected"),
+    [
+        ("0.12345671", 7, "0.1234568"),
+        ("2", 7, "2"),
+        ("1234567.1", 7, "1234568"),
+        ("0.00100000001", 3, "0.00101"),
+    ],
+)
+def test_round_up(value: str, digits: int, expected: str) -> None:
+    assert round_up(F(value), digits) == F(expected)
+
+
+def test_ball_of_the_witness_is_narrow() -> None:
+    witness = falsify(two_joints(2), **FEW)
+    assert witness is not None
+    assert witness.rate.width < F(1, 10**40)
