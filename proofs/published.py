@@ -4,26 +4,49 @@ Every claim says what the paper says and states it as data; what comes of it is 
 Ids follow the numbers of the paper's equations.
 """
 
+from fractions import Fraction
+
 from lyapcheck.claims import (
     Constant,
+    ForSmall,
     Proof,
     agrees,
     all_of,
-    cosh,
+    apply,
+    bounded,
+    coriolis_matrix,
     dh,
     diff,
+    dot,
     expr,
     for_all,
+    form,
     gamma,
+    gravity_vector,
     h,
     identity,
+    implies,
+    majorant,
+    mass_matrix,
+    matrix,
+    nonnegative,
     norm_bound,
+    norm_chain,
     pi,
+    plus,
+    positive,
+    potential,
+    rate_of,
+    reals,
     rho,
+    scaled,
+    secant_bound,
     sinh,
     sqrt,
     total,
+    transpose,
     var,
+    vector,
 )
 
 proof = Proof(
@@ -33,7 +56,78 @@ proof = Proof(
 )
 
 x = var("x")
-JOINTS = ("base", "shoulder", "elbow")
+
+# Section 2: the robot -------------------------------------------------------------------------------------
+
+ROBOT = "Section 2: the robot"
+
+
+@proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", place="Property 2.2, (2)", section=ROBOT)
+def _(case):
+    return bounded(entry for row in mass_matrix(case.robot.fixed()) for entry in row)
+
+
+@proof.claim("2.3", "C(q, 0) = 0", place="Property 2.3", section=ROBOT)
+def _(case):
+    n = case.n
+    rest = coriolis_matrix(case.robot, [expr(0)] * n)
+    return identity(form(vector("x", n), rest, vector("y", n)), 0)
+
+
+@proof.claim(
+    "2.4", "Ṁ(q) = C(q,q̇)ᵀ + C(q,q̇), and both are symmetric", place="Property 2.4, (3)", section=ROBOT
+)
+def _(case):
+    a, b, w = (vector(name, case.n) for name in "xyw")
+    mass, coriolis = mass_matrix(case.robot), coriolis_matrix(case.robot, w)
+    rate = rate_of(mass, w)
+    return all_of(
+        sum=identity(form(a, rate, b), form(a, plus(coriolis, transpose(coriolis)), b)),
+        symmetric=identity(form(a, rate, b), form(b, rate, a)),
+    )
+
+
+@proof.claim(
+    "2.5", "½ q̇ᵀ[Ṁ − 2C]q̇ = 0, and Ṁ − 2C is skew-symmetric", place="Property 2.5, (4)", section=ROBOT
+)
+def _(case):
+    a, b, w = (vector(name, case.n) for name in "xyw")
+    mass, coriolis = mass_matrix(case.robot), coriolis_matrix(case.robot, w)
+    rate = rate_of(mass, w)
+
+    def skew(left, right):
+        return form(left, rate, right) - 2 * form(left, coriolis, right)
+
+    return all_of(no_power=identity(skew(w, w), 0), skew_symmetric=identity(skew(a, b), -skew(b, a)))
+
+
+@proof.claim("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", place="Property 2.6, (5)", section=ROBOT)
+def _(case):
+    n, robot = case.n, case.robot.fixed()
+    units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
+    return bounded(entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row)
+
+
+@proof.claim("2.7", "0 < λmin(B)‖q̇‖² ≤ q̇ᵀBq̇ ≤ λmax(B)‖q̇‖² for q̇ ≠ 0", place="Property 2.7", section=ROBOT)
+def _(case):
+    friction = [number.value for number in case.robot.viscous]
+    names = [f"w{i + 1}" for i in range(case.n)]
+    power = total(b * var(w) ** 2 for b, w in zip(friction, names, strict=True))
+    size = total(var(w) ** 2 for w in names)
+    return all_of(
+        positive=Constant(expr(0) < min(friction)),
+        from_below=implies(reals(*names), (), min(friction) * size <= power),
+        from_above=implies(reals(*names), (), power <= max(friction) * size),
+    )
+
+
+@proof.claim("2.8", "|g_i(q)| ≤ k_gi, so ‖g(q)‖ is bounded", place="Property 2.8", section=ROBOT)
+def _(case):
+    robot = case.robot.fixed()
+    printed = [None if number is None else number.value for number in robot.gravity_bound]
+    gravity = gravity_vector(robot)
+    return bounded(gravity) if None in printed else bounded(gravity, printed)
+
 
 # Section 3: the family ------------------------------------------------------------------------------------
 
@@ -63,3 +157,693 @@ def _(case):
 )
 def _(case):
     return norm_bound(h(case.m, x), case.n, sqrt(case.n) * gamma(case.m), power=1)
+
+
+for m, value in PRINTED_GAMMA.items():
+    proof.add(
+        f"7g.m{m}",
+        f"h_{m}(x) ≤ {value} for all x: the printed γ_{m} is an upper bound",
+        for_all(h(m, x) <= value),
+        place="Table 2",
+        section=FAMILY,
+    )
+
+
+@proof.claim("7i", "γ_m < γ_{m+1}: the peak increases with m", place="after (7); Section 4", section=FAMILY)
+def _(case):
+    return Constant(gamma(case.m) < gamma(case.m + 1))
+
+
+@proof.claim("8", "the printed derivative is the derivative of h_m", place="(8)", section=FAMILY)
+def _(case):
+    return identity(diff(h(case.m, x), "x"), dh(case.m, x))
+
+
+@proof.claim("8a", "‖(h_m'(x_i))_i‖ ≤ √n ρ_m", place="(8), first line", section=FAMILY, uses=["8"])
+def _(case):
+    return norm_bound(dh(case.m, x), case.n, sqrt(case.n) * rho(case.m))
+
+
+@proof.claim("8b", "‖(h_m'(x_i))_i‖ ≤ √n ρ_m ‖x‖", place="(8), second line", section=FAMILY, uses=["8"])
+def _(case):
+    return norm_bound(dh(case.m, x), case.n, sqrt(case.n) * rho(case.m), power=1)
+
+
+# Section 3: torque bounds ---------------------------------------------------------------------------------
+
+TORQUE = "Section 3: torque bounds"
+g, kp, kv, kg, limit, size = (var(name) for name in ("gamma", "kp", "kv", "kg", "limit", "tau"))
+
+
+@proof.claim(
+    "9",
+    "‖τ‖ ≤ √n γ λmax(K_p) + √n γ λmax(K_v) + k_g",
+    place="(9)",
+    section=TORQUE,
+    uses=["7a", "2.8"],
+)
+def _(case):
+    root = sqrt(case.n)
+    ph, vh = var("norm_h_e"), var("norm_h_w")
+    triangle = size <= kp * ph + kv * vh + kg
+    return implies(
+        positive("gamma", "kp", "kv") + nonnegative("kg", "norm_h_e", "norm_h_w", "tau"),
+        (triangle, ph <= root * g, vh <= root * g),
+        size <= root * g * kp + root * g * kv + kg,
+    )
+
+
+@proof.claim(
+    "10",
+    "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ) implies ‖τ‖ ≤ ‖τmax‖",
+    place="(10)",
+    section=TORQUE,
+    uses=["9"],
+)
+def _(case):
+    root = sqrt(case.n)
+    return implies(
+        positive("gamma", "kp", "kv", "limit") + nonnegative("kg", "tau"),
+        (size <= root * g * kp + root * g * kv + kg, kp + kv <= (limit - kg) / (root * g)),
+        size <= limit,
+    )
+
+
+@proof.claim(
+    "10j",
+    "condition (10) keeps every joint's torque inside its own limit",
+    place="after (10); Remark I",
+    section=TORQUE,
+)
+def _(case):
+    limits = [number.value for number in case.robot.torque_limit if number is not None]
+    gravity = gravity_vector(case.robot.fixed())
+    norm = sqrt(total(expr(value) ** 2 for value in limits))
+    bound = sqrt(total(expr(number.value) ** 2 for number in case.robot.gravity_bound))
+    last = case.n
+    torque = var(f"kp{last}") * h(case.m, var(f"e{last}")) + gravity[-1]
+    gains = [f"k{kind}{i + 1}" for kind in "pv" for i in range(last)]
+    budget = (norm - bound) / (sqrt(last) * gamma(case.m))
+    return implies(
+        positive(*gains) + reals(f"e{last}", *(f"q{i + 1}" for i in range(last))),
+        tuple(var(f"kp{i + 1}") + var(f"kv{j + 1}") <= budget for i in range(last) for j in range(last)),
+        torque <= limits[-1],
+    )
+
+
+@proof.claim(
+    "10p",
+    "k_pi + k_vi < (τmax_i − k_gi)/(√n γ) implies |τ_i| ≤ τmax_i",
+    place="Section 4, tuning rule",
+    section=TORQUE,
+    uses=["7a", "2.8"],
+)
+def _(case):
+    ph, vh, own = var("abs_h_e"), var("abs_h_w"), var("abs_g")
+    return implies(
+        positive("gamma", "kp", "kv", "limit") + nonnegative("kg", "abs_h_e", "abs_h_w", "abs_g", "tau"),
+        (
+            size <= kp * ph + kv * vh + own,
+            ph <= g,
+            vh <= g,
+            own <= kg,
+            kp + kv < (limit - kg) / (sqrt(case.n) * g),
+        ),
+        size <= limit,
+    )
+
+
+# Section 3: equilibrium and Lyapunov function -------------------------------------------------------------
+
+LYAPUNOV = "Section 3: the Lyapunov function"
+
+
+@proof.claim(
+    "11", "the origin is the only equilibrium", place="after (11)", section=LYAPUNOV, uses=["2.3", "6"]
+)
+def _(case):
+    """At rest M ẇ = K_p h(e): each entry k_pi h(e_i) vanishes only with e_i."""
+    m, gain = case.m, var("kp")
+    w = [expr(0)] * case.n
+    at_rest = [
+        gain * h(m, x) - b * v - var("kv") * h(m, v) for b, v in zip(vector("b", case.n), w, strict=True)
+    ]
+    return all_of(
+        at_rest_only_the_proportional_term=identity(total(at_rest), case.n * gain * h(m, x)),
+        no_zero_right_of_0=for_all(expr(0) < h(m, x), 0, open_low=True),
+        no_zero_left_of_0=for_all(h(m, x) < 0, None, 0, open_high=True),
+        zero_at_0=identity(h(m, 0), 0),
+    )
+
+
+def symbols(n):
+    """The letters of (12)–(15) for any robot: h = h(e), d = h'(e), hw = h(w), U the potential, r = ‖e‖."""
+    names = ("w", "a", "h", "d", "U", "hw", "kp", "kv", "e")
+    return {name: vector(name, n) for name in names} | {
+        "M": matrix("M", n, symmetric=True),
+        "C": matrix("C", n),
+        "r": var("r"),
+        "eps0": var("eps0"),
+    }
+
+
+def lyapunov_12(s):
+    """V as (12) prints it."""
+    eps = s["eps0"] / (1 + s["r"])
+    kinetic = form(s["w"], s["M"], s["w"]) / 2
+    cross = eps * form(s["h"], s["M"], s["w"])
+    return kinetic + dot(s["kp"], s["U"]) - cross + eps**2 * form(s["h"], s["M"], s["h"]) / 2
+
+
+def lyapunov_13(s):
+    """V as (13) prints it."""
+    eps = s["eps0"] / (1 + s["r"])
+    y = [w - eps * h_i for w, h_i in zip(s["w"], s["h"], strict=True)]
+    return form(y, s["M"], y) / 2 + dot(s["kp"], s["U"])
+
+
+def along_11(s, function):
+    """dV/dt by the chain rule, with ẇ = a; the friction that makes M a the right side of (11)."""
+    n = len(s["w"])
+    w, mass, c = s["w"], s["M"], s["C"]
+    rates = {f"w{i + 1}": s["a"][i] for i in range(n)}
+    rates |= {f"h{i + 1}": -s["d"][i] * w[i] for i in range(n)}
+    rates |= {f"U{i + 1}": -s["h"][i] * w[i] for i in range(n)}
+    rates |= {f"M{i + 1}{j + 1}": c[i][j] + c[j][i] for i in range(n) for j in range(i, n)}
+    rates["r"] = -dot(s["e"], w) / s["r"]
+    drive = scaled(s["kp"], s["h"])
+    damping, coriolis, inertia = scaled(s["kv"], s["hw"]), apply(c, w), apply(mass, s["a"])
+    friction = [(drive[i] - damping[i] - coriolis[i] - inertia[i]) / w[i] for i in range(n)]
+    return total(diff(function, name) * rate for name, rate in rates.items()), friction
+
+
+def terms_15(s, b):
+    """The eleven terms of (15), in printed order."""
+    eps = s["eps0"] / (1 + s["r"])
+    w, h_e, dw, mass, c = s["w"], s["h"], scaled(s["d"], s["w"]), s["M"], s["C"]
+    along = dot(s["e"], w) / s["r"]
+    return [
+        -dot(w, scaled(s["kv"], s["hw"])),
+        -dot(w, scaled(b, w)),
+        eps * form(dw, mass, w),
+        -s["eps0"] * along / (1 + s["r"]) ** 2 * form(h_e, mass, w),
+        -eps * form(h_e, transpose(c), w),
+        -eps * dot(h_e, scaled(s["kp"], h_e)),
+        eps * dot(h_e, scaled(b, w)),
+        eps * dot(h_e, scaled(s["kv"], s["hw"])),
+        eps**2 * form(h_e, plus(c, transpose(c)), h_e) / 2,
+        eps**2 * along / (1 + s["r"]) * form(h_e, mass, h_e),
+        -(eps**2) * form(dw, mass, h_e),
+    ]
+
+
+def terms_14(s, b):
+    """The sixteen terms of (14), in printed order; Ṁ is written C + Cᵀ where the paper does."""
+    eps = s["eps0"] / (1 + s["r"])
+    w, h_e, dw, mass, c = s["w"], s["h"], scaled(s["d"], s["w"]), s["M"], s["C"]
+    rate = plus(c, transpose(c))
+    along = dot(s["e"], w) / s["r"]
+    proportional = dot(w, scaled(s["kp"], h_e))
+    return [
+        proportional,
+        -dot(w, scaled(s["kv"], s["hw"])),
+        -dot(w, scaled(b, w)),
+        -form(w, c, w),
+        form(w, rate, w) / 2,
+        -proportional,
+        eps * form(dw, mass, w),
+        -s["eps0"] * along / (1 + s["r"]) ** 2 * form(h_e, mass, w),
+        -eps * form(h_e, rate, w),
+        -eps * dot(h_e, scaled(s["kp"], h_e)),
+        eps * dot(h_e, scaled(b, w)),
+        eps * dot(h_e, scaled(s["kv"], s["hw"])),
+        eps * form(h_e, c, w),
+        eps**2 * form(h_e, rate, h_e) / 2,
+        eps**2 * (2 * along / (1 + s["r"])) * form(h_e, mass, h_e) / 2,
+        -(eps**2) * form(dw, mass, h_e),
+    ]
+
+
+@proof.claim("12", "V of (12) equals (13)", place="(12), (13)", section=LYAPUNOV)
+def _(case):
+    s = symbols(case.n)
+    return identity(lyapunov_12(s), lyapunov_13(s))
+
+
+@proof.claim("14", "(14) is dV/dt along (11)", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"])
+def _(case):
+    s = symbols(case.n)
+    rate, friction = along_11(s, lyapunov_12(s))
+    return all_of(
+        potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
+        derivative=identity(rate, total(terms_14(s, friction))),
+    )
+
+
+@proof.claim(
+    "15",
+    "(14) becomes (15): terms 1 and 6, 4 and 5 cancel, 9 and 13 combine",
+    place="(15)",
+    section=LYAPUNOV,
+    uses=["2.4", "2.5", "14"],
+)
+def _(case):
+    s = symbols(case.n)
+    b = vector("b", case.n)
+    t = terms_14(s, b)
+    eps = s["eps0"] / (1 + s["r"])
+    return all_of(
+        terms_1_and_6=identity(t[0] + t[5], 0),
+        terms_4_and_5=identity(t[3] + t[4], 0),
+        terms_9_and_13=identity(t[8] + t[12], -eps * form(s["h"], transpose(s["C"]), s["w"])),
+        sum=identity(total(t), total(terms_15(s, b))),
+    )
+
+
+# Section 3: the bounds of (16) ----------------------------------------------------------------------------
+
+BOUNDS = "Section 3: the bounds of (16)"
+ORDER = (("eps", "eps0"),)
+
+
+def bound_factors(m, n):
+    """What is known of each factor of (15): by (7), (8), L = sup h(x)/x, and Properties 2.2, 2.6, 2.7."""
+    root = sqrt(n)
+    flat, steep = root * gamma(m), secant_bound(m)
+    return {
+        "eps": (majorant(eps=1),),
+        "eps0 over (1 + r)²": (majorant(eps=1),),
+        "unit·w": (majorant(w=1),),
+        "h(e)": (majorant(flat), majorant(steep, e=1)),
+        "h(w)": (majorant(flat), majorant(steep, w=1)),
+        "h'(e)∘w": (majorant(rho(m), w=1),),
+        "w": (majorant(w=1),),
+        "M": (majorant(beta=1),),
+        "C": (majorant(kc=1, w=1),),
+        "K_v": (majorant(kv_max=1),),
+        "B": (majorant(b_max=1),),
+    }
+
+
+def chain(case, names, bound, factor=1):
+    """A product of named factors, times a number, against a bound."""
+    known = bound_factors(case.m, case.n)
+    return norm_chain([(majorant(factor),), *(known[name] for name in names)], bound, ORDER)
+
+
+@proof.claim(
+    "16.1", "−q̇ᵀK_v h(q̇) ≤ √n γ λmax(K_v)‖q̇‖²", place="(16), term 1", section=BOUNDS, uses=["6", "15"]
+)
+def _(case):
+    """Each summand −k w h(w) is at most 0, and 0 at most the bound."""
+    return for_all(-x * h(case.m, x) <= sqrt(case.n) * gamma(case.m) * x**2)
+
+
+@proof.claim("16.2", "−q̇ᵀBq̇ ≤ −λmin(B)‖q̇‖²", place="(16), term 2", section=BOUNDS, uses=["15"])
+def _(case):
+    """With b_i = λmin(B) + c_i, c_i ≥ 0."""
+    names = [f"w{i + 1}" for i in range(case.n)]
+    over = [f"c{i + 1}" for i in range(case.n)]
+    power = total((var("b_min") + var(c)) * var(w) ** 2 for c, w in zip(over, names, strict=True))
+    return implies(
+        positive("b_min") + nonnegative(*over) + reals(*names),
+        (),
+        -power <= -var("b_min") * total(var(w) ** 2 for w in names),
+    )
+
+
+@proof.claim(
+    "16.3", "ε(h'∘q̇)ᵀMq̇ ≤ ε√n ρ β_M ‖q̇‖²", place="(16), term 3", section=BOUNDS, uses=["2.2", "8a", "15"]
+)
+def _(case):
+    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(sqrt(case.n) * rho(case.m), eps=1, beta=1, w=2))
+
+
+@proof.claim(
+    "16.4",
+    "−ε₀ q̃ᵀq̇/(‖q̃‖(1+‖q̃‖)²) hᵀMq̇ ≤ ε√n γ β_M ‖q̇‖²",
+    place="(16), term 4",
+    section=BOUNDS,
+    uses=["2.2", "7a", "15"],
+)
+def _(case):
+    names = ["eps0 over (1 + r)²", "unit·w", "h(e)", "M", "w"]
+    return chain(case, names, majorant(sqrt(case.n) * gamma(case.m), eps=1, beta=1, w=2))
+
+
+@proof.claim(
+    "16.5", "−ε hᵀCᵀq̇ ≤ ε√n γ k_c ‖q̇‖²", place="(16), term 5", section=BOUNDS, uses=["2.6", "7a", "15"]
+)
+def _(case):
+    return chain(case, ["eps", "h(e)", "C", "w"], majorant(sqrt(case.n) * gamma(case.m), eps=1, kc=1, w=2))
+
+
+def term_6(case):
+    """Both sides of the bound on term 6, for the gains of this case."""
+    e = vector("e", case.n)
+    gains = case.gains.kp
+    size = total(e_i**2 for e_i in e)
+    eps = var("eps0") / (1 + sqrt(size))
+    left = -eps * total(k * h(case.m, e_i) ** 2 for k, e_i in zip(gains, e, strict=True))
+    return left, -eps * case.n * gamma(case.m) ** 2 * min(gains) * size
+
+
+@proof.claim("16.6", "−ε hᵀK_p h ≤ −ε n γ² λmin(K_p)‖q̃‖²", place="(16), term 6", section=BOUNDS, uses=["15"])
+def _(case):
+    left, right = term_6(case)
+    return implies(positive("eps0") + reals(*(f"e{i + 1}" for i in range(case.n))), (), left <= right)
+
+
+@proof.claim(
+    "16.7", "ε hᵀBq̇ ≤ ε√n γ λmax(B)‖q̃‖‖q̇‖", place="(16), term 7", section=BOUNDS, uses=["2.7", "7b", "15"]
+)
+def _(case):
+    bound = majorant(sqrt(case.n) * gamma(case.m), eps=1, b_max=1, e=1, w=1)
+    return chain(case, ["eps", "h(e)", "B", "w"], bound)
+
+
+@proof.claim(
+    "16.8", "ε hᵀK_v h(q̇) ≤ ε n ρ γ λmax(K_v)‖q̃‖‖q̇‖", place="(16), term 8", section=BOUNDS, uses=["6", "15"]
+)
+def _(case):
+    bound = majorant(case.n * rho(case.m) * gamma(case.m), eps=1, kv_max=1, e=1, w=1)
+    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], bound)
+
+
+@proof.claim(
+    "16.9",
+    "½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖",
+    place="(16), term 9",
+    section=BOUNDS,
+    uses=["2.6", "7a", "15"],
+)
+def _(case):
+    bound = majorant(case.n * gamma(case.m) ** 2, eps=1, eps0=1, kc=1, e=1, w=1)
+    return chain(case, ["eps", "eps", "h(e)", "C", "h(e)"], bound)
+
+
+@proof.claim(
+    "16.10",
+    "ε² q̃ᵀq̇/(‖q̃‖(1+‖q̃‖)) hᵀMh ≤ ε ε₀ n γ² β_M ‖q̃‖‖q̇‖",
+    place="(16), term 10",
+    section=BOUNDS,
+    uses=["2.2", "7a", "15"],
+)
+def _(case):
+    bound = majorant(case.n * gamma(case.m) ** 2, eps=1, eps0=1, beta=1, e=1, w=1)
+    return chain(case, ["eps", "eps", "unit·w", "h(e)", "M", "h(e)"], bound)
+
+
+@proof.claim(
+    "16.11",
+    "−ε²(h'∘q̇)ᵀMh ≤ ε ε₀ n γ ρ β_M ‖q̃‖‖q̇‖",
+    place="(16), term 11",
+    section=BOUNDS,
+    uses=["2.2", "8a", "15"],
+)
+def _(case):
+    bound = majorant(case.n * gamma(case.m) * rho(case.m), eps=1, eps0=1, beta=1, e=1, w=1)
+    return chain(case, ["eps", "eps", "h'(e)∘w", "M", "h(e)"], bound)
+
+
+SIXTEEN = [f"16.{k}" for k in range(1, 12)]
+
+
+@proof.claim(
+    "16",
+    "dV/dt ≤ −[‖q̃‖ ‖q̇‖] Θ [‖q̃‖ ‖q̇‖]ᵀ",
+    place="(16)",
+    section=BOUNDS,
+    uses=["15", *SIXTEEN],
+)
+def _(case):
+    """At rest all terms but the sixth vanish; elsewhere the bounds add up to the quadratic form."""
+    left, right = term_6(case)
+    c = constants(case.n)
+    a, b = var("norm_e"), var("norm_w")
+    corner, side, low = theta(c)
+    root, n, eps, eps0 = sqrt(case.n), case.n, c["eps"], c["eps0"]
+    gam, rh, kv_max, beta, kc = c["gamma"], c["rho"], c["kv"], c["beta"], c["kc"]
+    parts = [
+        root * gam * kv_max * b**2,
+        -c["b"] * b**2,
+        eps * root * rh * beta * b**2,
+        eps * root * gam * beta * b**2,
+        eps * root * gam * kc * b**2,
+        -eps * n * gam**2 * c["kp"] * a**2,
+        eps * root * gam * c["b_max"] * a * b,
+        eps * n * rh * gam * kv_max * a * b,
+        eps * eps0 * n * gam**2 * kc * a * b,
+        eps * eps0 * n * gam**2 * beta * a * b,
+        eps * eps0 * n * gam * rh * beta * a * b,
+    ]
+    return all_of(
+        at_rest=implies(positive("eps0") + reals(*(f"e{i + 1}" for i in range(case.n))), (), left <= right),
+        the_bounds_add_up=identity(total(parts), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+    )
+
+
+# Section 3: the conditions on ε₀ --------------------------------------------------------------------------
+
+CONDITIONS = "Section 3: the conditions on ε₀"
+PARAMETERS = positive("gamma", "rho", "kp", "kv", "b", "beta", "kc", "eps0", "share") + nonnegative("more")
+
+
+def constants(n):
+    """The constants of Θ as positive reals; λmax(B) = b + more, and ε = share·ε₀ with 0 < share ≤ 1."""
+    c = {name: var(name) for name in ("gamma", "rho", "kp", "kv", "b", "beta", "kc", "eps0", "share")}
+    return c | {"n": n, "root": sqrt(n), "b_max": c["b"] + var("more"), "eps": c["eps0"] * c["share"]}
+
+
+def bracket(c):
+    """√nγλmax(B) + nργλmax(K_v), and the part with ε₀: nγ(γk_c + β_M(γ+ρ))."""
+    flat = c["root"] * c["gamma"] * c["b_max"] + c["n"] * c["rho"] * c["gamma"] * c["kv"]
+    return flat, c["n"] * c["gamma"] * (c["gamma"] * c["kc"] + c["beta"] * (c["gamma"] + c["rho"]))
+
+
+def theta(c):
+    """θ11, θ12, θ22 of (16)."""
+    flat, steep = bracket(c)
+    inner = c["beta"] * (c["rho"] + c["gamma"]) + c["gamma"] * c["kc"]
+    corner = c["eps"] * c["n"] * c["gamma"] ** 2 * c["kp"]
+    low = c["b"] - c["root"] * (c["gamma"] * c["kv"] + c["eps"] * inner)
+    return corner, -c["eps"] / 2 * (flat + c["eps0"] * steep), low
+
+
+def line_17(c, with_eps0):
+    """A line of (17): line 1 has the ε₀ term in its last bracket, line 2 has not."""
+    flat, steep = bracket(c)
+    whole = c["n"] * c["gamma"] ** 2 * c["kp"]
+    inner = c["beta"] * (c["rho"] + c["gamma"]) + c["gamma"] * c["kc"]
+    last = flat + c["eps0"] * steep if with_eps0 else flat
+    return c["eps"] * (whole * inner + last**2 / 4) < whole * (c["b"] - c["root"] * c["gamma"] * c["kv"])
+
+
+def determinant_positive(c):
+    """det Θ > 0."""
+    corner, side, low = theta(c)
+    return side**2 < corner * low
+
+
+SHARE = var("share") <= 1
+
+
+@proof.claim("17a", "the first line of (17) implies det Θ > 0", place="(17)", section=CONDITIONS)
+def _(case):
+    c = constants(case.n)
+    return implies(PARAMETERS, (SHARE, line_17(c, True)), determinant_positive(c))
+
+
+@proof.claim("17b", "det Θ > 0 implies the first line of (17)", place="(17)", section=CONDITIONS)
+def _(case):
+    c = constants(case.n)
+    return implies(PARAMETERS, (SHARE, determinant_positive(c)), line_17(c, True))
+
+
+@proof.claim("17c", "the second line of (17) implies the first", place="(17)", section=CONDITIONS)
+def _(case):
+    c = constants(case.n)
+    return implies(PARAMETERS, (SHARE, line_17(c, False)), line_17(c, True))
+
+
+@proof.claim("17d", "the first line of (17) implies the second", place="(17)", section=CONDITIONS)
+def _(case):
+    c = constants(case.n)
+    return implies(PARAMETERS, (SHARE, line_17(c, True)), line_17(c, False))
+
+
+@proof.claim("18", "every ε₀ in (18) makes Θ positive definite", place="(18)", section=CONDITIONS)
+def _(case):
+    """(18) is the second line of (17), solved for ε; Θ ≻ 0 needs det Θ > 0."""
+    c = constants(case.n)
+    return implies(PARAMETERS, (SHARE, line_17(c, False)), determinant_positive(c))
+
+
+def condition_19(c):
+    """λmax(K_v) < λmin(B)/(√n γ)."""
+    return c["kv"] < c["b"] / (c["root"] * c["gamma"])
+
+
+@proof.claim(
+    "18e", "given (19), some ε₀ > 0 makes Θ positive definite", place="(18), (19)", section=CONDITIONS
+)
+def _(case):
+    c = constants(case.n)
+    others = tuple(v for v in PARAMETERS if v.name not in ("eps0", "share"))
+    given = (condition_19(c),)
+    corner, _, _ = theta(c)
+    return all_of(
+        corner=ForSmall("eps0", others, given, expr(0) < corner, ("share",)),
+        determinant=ForSmall("eps0", others, given, determinant_positive(c), ("share",)),
+    )
+
+
+@proof.claim("19", "(18) is non-empty ⇔ λmax(K_v) < λmin(B)/(√n γ)", place="(19)", section=CONDITIONS)
+def _(case):
+    c = constants(case.n)
+    flat, _ = bracket(c)
+    whole = c["n"] * c["gamma"] ** 2 * c["kp"]
+    inner = c["beta"] * (c["rho"] + c["gamma"]) + c["gamma"] * c["kc"]
+    upper = whole * (c["b"] - c["root"] * c["gamma"] * c["kv"]) / (whole * inner + flat**2 / 4)
+    return all_of(
+        sufficient=implies(PARAMETERS, (condition_19(c),), expr(0) < upper),
+        necessary=implies(PARAMETERS, (expr(0) < upper,), condition_19(c)),
+    )
+
+
+# Section 4: tables, figures and percentages ---------------------------------------------------------------
+
+TABLES = "Section 4: Tables 1 and 2"
+ARITHMETIC = "Section 4: norms, percentages and figures"
+JOINTS = ("base", "shoulder", "elbow")
+TABLE_1 = {"base": "50", "shoulder": "150", "elbow": "15"}
+GRAVITY = {"base": "0", "shoulder": "40.28", "elbow": "1.81"}
+VISCOUS_MIN = "0.406"
+SETS = {"m1": 1, "m2": 2, "m3": 3}
+TABLE_2_TORQUE = {
+    "m1": ("50", "150", "15"),
+    "m2": ("50", "150", "150"),
+    "m3": ("50", "150", "15"),
+    "pd": ("50", "150", "50"),
+}
+TABLE_2_KP = {"m1": ("28", "60", "5"), "m2": ("27", "50", "5"), "m3": ("25", "50", "5")}
+TABLE_2_KV = {"m1": ("0.233",) * 3, "m2": ("0.223",) * 3, "m3": ("0.223",) * 3}
+PD_KP = ("0.8", "2.5", "0.133")
+PD_KV = ("0.4", "0.75", "0.01")
+PD_ALPHA = ("0.5", "0.3", "0.06")
+INITIAL_ERROR = ("45", "45", "90")  # degrees
+
+for name, printed in TABLE_2_TORQUE.items():
+    for joint, value in zip(JOINTS, printed, strict=True):
+        proof.add(
+            f"T1.torque.{name}.{joint}",
+            f"Table 2 ({name}) repeats Table 1's torque limit of the {joint}: {value} N·m",
+            identity(value, TABLE_1[joint]),
+            place="Tables 1 and 2",
+            section=TABLES,
+        )
+
+
+def meets_10p(name, bound):
+    """(10p) on every joint of the paper's arm, with a given γ."""
+    rows = zip(JOINTS, TABLE_2_KP[name], TABLE_2_KV[name], strict=True)
+    limits = {j: (expr(TABLE_1[j]) - GRAVITY[j]) / (sqrt(3) * bound) for j in JOINTS}
+    return all_of(**{j: Constant(expr(kp_i) + kv_i < limits[j]) for j, kp_i, kv_i in rows})
+
+
+for name, m in SETS.items():
+    for source, bound in (("printed", expr(PRINTED_GAMMA[m])), ("true", gamma(m))):
+        largest = max(TABLE_2_KV[name], key=Fraction)
+        proof.add(
+            f"T2.10p.{name}.{source}",
+            f"the gains of {name} meet the per-joint rule with the {source} γ_{m}",
+            meets_10p(name, bound),
+            place="Section 4, Table 2",
+            section=TABLES,
+        )
+        proof.add(
+            f"T2.19.{name}.{source}",
+            f"λmax(K_v) = {largest} of {name} meets (19) with the {source} γ_{m}",
+            Constant(expr(largest) < expr(VISCOUS_MIN) / (sqrt(3) * bound)),
+            place="(19), Table 2",
+            section=TABLES,
+        )
+
+for joint, k, error in zip(JOINTS, PD_KP, INITIAL_ERROR, strict=True):
+    proof.add(
+        f"T2.pd.{joint}",
+        f"the PD gain of the {joint} meets k_p = {k} < (τmax − k_g)/{error}°",
+        Constant(expr(k) < (expr(TABLE_1[joint]) - GRAVITY[joint]) / error),
+        place="Section 4, Table 2",
+        section=TABLES,
+    )
+
+for joint, k, v, share in zip(JOINTS, PD_KP, PD_KV, PD_ALPHA, strict=True):
+    proof.add(
+        f"T2.pdkv.{joint}",
+        f"the PD damping of the {joint} is k_v = α k_p: {v} = {share}·{k}",
+        agrees(var("alpha") * var("kp"), v, alpha=share, kp=k),
+        place="Table 2",
+        section=TABLES,
+    )
+
+STEADY = {
+    "m1": (("-0.5774", "0.1272", "-0.051"), "0.5934"),
+    "m2": (("-0.1849", "0.4876", "0.1867"), "0.5539"),
+    "m3": (("-0.3717", "0.3009", "0.2024"), "0.5193"),
+    "pd": (("-0.2566", "-0.7238", "-0.8646"), "1.1564"),
+}
+for name, (components, norm) in STEADY.items():
+    proof.add(
+        f"S4.norm.{name}",
+        f"the steady-state error of {name} has norm {norm}°",
+        agrees(
+            sqrt(total(var(f"e{i}") ** 2 for i in (1, 2, 3))),
+            norm,
+            **{f"e{i + 1}": value for i, value in enumerate(components)},
+        ),
+        place="Section 4",
+        section=ARITHMETIC,
+    )
+
+L2 = {"m1": "25.4006", "m2": "24.6892", "m3": "23.4006", "pd": "27.8546"}
+ratio = var("L2") / var("L2_pd")
+for name, percent in (("m1", "8"), ("m2", "11.36"), ("m3", "16")):
+    proof.add(
+        f"S4.percent.{name}",
+        f"{name} improves the L2 index of the PD by {percent} %",
+        agrees(100 * (1 - ratio), percent, L2=L2[name], L2_pd=L2["pd"]),
+        place="Section 4",
+        section=ARITHMETIC,
+    )
+proof.add(
+    "S4.ratio.m3",
+    "the L2 index of m3 is 84 % of that of the PD",
+    agrees(100 * ratio, "84", L2=L2["m3"], L2_pd=L2["pd"]),
+    place="Section 4",
+    section=ARITHMETIC,
+)
+
+FIGURES = (
+    ("4", 1, "base", "30.82"),
+    ("4", 1, "shoulder", "78.69"),
+    ("4", 1, "elbow", "9.17"),
+    ("6", 2, "shoulder", "126.33"),
+    ("6", 2, "elbow", "10.12"),
+    ("8", 3, "shoulder", "122.16"),
+    ("10", None, "base", "40"),
+    ("10", None, "shoulder", "120"),
+    ("10", None, "elbow", "12"),
+)
+for figure, m, joint, torque in FIGURES:
+    index = JOINTS.index(joint)
+    degrees = expr(INITIAL_ERROR[index])
+    gain = PD_KP[index] if m is None else TABLE_2_KP[f"m{m}"][index]
+    response = degrees if m is None else h(m, degrees * pi / 180)
+    proof.add(
+        f"F.{figure}.{joint}",
+        f"Fig. {figure} starts at the torque that Table 2 gives for the {joint}: {torque} N·m",
+        agrees(var("kp") * response, torque, kp=gain),
+        place=f"Fig. {figure}",
+        section=ARITHMETIC,
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -161,3 +162,52 @@ def agrees(formula: Expr, printed: str, **inputs: str) -> Agrees:
 
 def _end(value: object | None) -> Fraction | None:
     return None if value is None else Fraction(value)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Majorant:
+    """``constant · Π symbol^power``: a product of norms, named constants and ε, all of them >= 0."""
+
+    constant: Tree
+    powers: tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True)
+class NormChain(Statement):
+    """A product of factors is at most a bound, by the Cauchy–Schwarz inequality.
+
+    Each factor lists its majorants, any one of which may be used; ``smaller`` pairs symbols (a, b) with a <= b.
+    """
+
+    factors: tuple[tuple[Majorant, ...], ...]
+    bound: Majorant
+    smaller: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class TrigonometricBound(Statement):
+    """``|f_i(q)| <= bound_i`` for all q, each f_i a polynomial in sines and cosines of q.
+
+    A bound of ``None`` asks only that f_i is bounded.
+    """
+
+    entries: tuple[tuple[Tree, Fraction | None], ...]
+
+
+def majorant(constant: object = 1, **powers: int) -> Majorant:
+    """``constant · Π symbol^power``."""
+    return Majorant(expr(constant).tree, tuple(sorted(powers.items())))
+
+
+def norm_chain(
+    factors: Iterable[tuple[Majorant, ...]], bound: Majorant, smaller: tuple[tuple[str, str], ...] = ()
+) -> NormChain:
+    """A product of factors is at most a bound."""
+    return NormChain(tuple(factors), bound, smaller)
+
+
+def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> TrigonometricBound:
+    """Polynomials in sines and cosines are bounded, or bounded by given numbers."""
+    trees = [entry.tree for entry in entries]
+    limits = [None] * len(trees) if by is None else [Fraction(b) for b in by]  # type: ignore[arg-type]
+    return TrigonometricBound(tuple(zip(trees, limits, strict=True)))

@@ -7,6 +7,7 @@ from typing import Any
 
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.decision import Decision, conjunction, undecided
+from lyapcheck.claims.procedures.chain import decide_chain
 from lyapcheck.claims.procedures.constants import decide_constant
 from lyapcheck.claims.procedures.identity import decide_identity
 from lyapcheck.claims.procedures.implication import decide_implies
@@ -14,6 +15,7 @@ from lyapcheck.claims.procedures.norms import decide_norm_bound
 from lyapcheck.claims.procedures.one_variable import decide_for_all
 from lyapcheck.claims.procedures.printed import decide_agrees
 from lyapcheck.claims.procedures.small import decide_for_small
+from lyapcheck.claims.procedures.trigonometric import decide_trigonometric
 
 
 def decide(statement: kinds.Statement) -> Decision:
@@ -40,6 +42,8 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Decision]] = {
     kinds.Implies: decide_implies,
     kinds.ForSmall: decide_for_small,
     kinds.Agrees: decide_agrees,
+    kinds.NormChain: decide_chain,
+    kinds.TrigonometricBound: decide_trigonometric,
     kinds.AllOf: _decide_all,
     kinds.Missing: _missing,
 }
