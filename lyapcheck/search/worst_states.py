@@ -26,7 +26,7 @@ from lyapcheck.search.setting import Array, Setting
 _OPTIONS: dict[str, Any] = {
     "print_time": False,
     "error_on_fail": False,
-    "ipopt": {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-10, "acceptable_tol": 1e-8},
+    "ipopt": {"print_level": 0, "sb": "yes", "max_iter": 60, "tol": 1e-10, "acceptable_tol": 1e-8},
 }
 _LONGEST_ERROR = 30.0
 """Largest |e_i| searched, rad: beyond it 1/(1 + ‖e‖) is small."""
