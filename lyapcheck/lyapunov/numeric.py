@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,10 @@ Columns = list[Array]
 
 BLOCK = 8192
 """States evaluated together: all intermediate columns of a small arm then stay in the cache."""
+
+
+_LIFT: Any = float
+"""Coefficients stay scalars: arrays of states broadcast over them."""
 
 
 class LyapunovNumeric:
@@ -54,7 +59,7 @@ class LyapunovNumeric:
     def _value(self, q: Columns, e: Columns, w: Columns) -> Array:
         h = [self.family.h(x) for x in e]
         eps = self.eps0 * self._shrink(e)[1]
-        M = self.model.mass_at([np.sin(x) for x in q], [np.cos(x) for x in q], float)
+        M = self.model.mass_at([np.sin(x) for x in q], [np.cos(x) for x in q], _LIFT)
         y = [a - eps * b for a, b in zip(w, h, strict=True)]
         kinetic = quadratic.dot(y, [quadratic.dot(row, y) for row in M])
         return np.asarray(0.5 * kinetic + quadratic.dot(self.kp, [self.family.potential(x) for x in e]))
@@ -65,7 +70,7 @@ class LyapunovNumeric:
         D = [self.family.secant(x) for x in w]
         r, shrink = self._shrink(e)
         e_hat = [np.divide(x, r, out=np.zeros_like(r), where=r > 0.0) for x in e]
-        M, Ch = self.model.mass_at(sin, cos, float), self.model.coriolis_at(sin, cos, h, float)
+        M, Ch = self.model.mass_at(sin, cos, _LIFT), self.model.coriolis_at(sin, cos, h, _LIFT)
         S = quadratic.coupling(M, Ch, h, dh, e_hat, shrink)
         eps = self.eps0 * shrink
         X = quadratic.x_matrix(quadratic.damping(self.viscous, self.kv, D), S, eps)
@@ -76,14 +81,16 @@ class LyapunovNumeric:
         r = np.sqrt(quadratic.dot(e, e))
         return r, 1.0 / (1.0 + r)
 
-    def _blocks(self, value: object, q: Array, e: Array, w: Array) -> Array:
+    def _blocks(
+        self, value: Callable[[Columns, Columns, Columns], Array], q: Array, e: Array, w: Array
+    ) -> Array:
         states = [np.asarray(x, dtype=np.float64) for x in np.broadcast_arrays(q, e, w)]
         columns = [np.ascontiguousarray(x.reshape(-1, self.model.n).T) for x in states]
         count = columns[0].shape[1]
         result = np.empty(count)
         for start in range(0, count, BLOCK):
             block = slice(start, start + BLOCK)
-            result[block] = value(*(list(x[:, block]) for x in columns))  # type: ignore[operator]
+            result[block] = value(*[list(x[:, block]) for x in columns])
         return result.reshape(states[0].shape[:-1])
 
 
