@@ -12,12 +12,14 @@ from lyapcheck.claims import (
     Proof,
     agrees,
     all_of,
+    always_positive,
     apply,
     bounded,
     coriolis_matrix,
     dh,
     diff,
     dot,
+    exp,
     expr,
     for_all,
     form,
@@ -26,6 +28,8 @@ from lyapcheck.claims import (
     h,
     identity,
     implies,
+    lacking,
+    leading_minors,
     majorant,
     mass_matrix,
     matrix,
@@ -43,6 +47,7 @@ from lyapcheck.claims import (
     secant_bound,
     sinh,
     sqrt,
+    theorem,
     total,
     transpose,
     var,
@@ -60,6 +65,16 @@ x = var("x")
 # Section 2: the robot -------------------------------------------------------------------------------------
 
 ROBOT = "Section 2: the robot"
+
+
+@proof.claim("2.1", "M(q) is symmetric and positive definite for all q", place="Property 2.1", section=ROBOT)
+def _(case):
+    mass = mass_matrix(case.robot.fixed())
+    a, b = vector("x", case.n), vector("y", case.n)
+    return all_of(
+        symmetric=identity(form(a, mass, b), form(b, mass, a)),
+        leading_minors_are_positive=always_positive(leading_minors(mass)),
+    )
 
 
 @proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", place="Property 2.2, (2)", section=ROBOT)
@@ -159,14 +174,13 @@ def _(case):
     return norm_bound(h(case.m, x), case.n, sqrt(case.n) * gamma(case.m), power=1)
 
 
-for m, value in PRINTED_GAMMA.items():
-    proof.add(
-        f"7g.m{m}",
-        f"h_{m}(x) ≤ {value} for all x: the printed γ_{m} is an upper bound",
-        for_all(h(m, x) <= value),
-        place="Table 2",
-        section=FAMILY,
-    )
+@proof.claim(
+    "7g", "the printed γ_m (1, 1.05, 1.11 for m = 1, 2, 3) bounds h_m", place="Table 2", section=FAMILY
+)
+def _(case):
+    if case.m not in PRINTED_GAMMA:
+        raise lacking(f"the paper prints no γ for m = {case.m}; it does for m = 1, 2, 3")
+    return for_all(h(case.m, x) <= PRINTED_GAMMA[case.m])
 
 
 @proof.claim("7i", "γ_m < γ_{m+1}: the peak increases with m", place="after (7); Section 4", section=FAMILY)
@@ -390,6 +404,26 @@ def _(case):
     return identity(lyapunov_12(s), lyapunov_13(s))
 
 
+@proof.claim(
+    "12p", "V > 0 away from the origin", place="after (13)", section=LYAPUNOV, uses=["2.1", "6", "12"]
+)
+def _(case):
+    """(13) is ½yᵀMy + Σ k_pi U(e_i), y = w − εh: U(x) > 0 = ln 1 unless x = 0, and then y = w."""
+    m = case.m
+    return all_of(
+        argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
+        argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
+        h_vanishes_at_0=identity(h(m, 0), 0),
+    )
+
+
+@proof.claim("12u", "V is radially unbounded", place="after (13)", section=LYAPUNOV, uses=["2.1", "7a", "12"])
+def _(case):
+    """U(x) ≥ |x| − ln 4 takes care of e; y = w − εh differs from w by at most ε₀√nγ."""
+    m = case.m
+    return for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0)
+
+
 @proof.claim("14", "(14) is dV/dt along (11)", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"])
 def _(case):
     s = symbols(case.n)
@@ -455,8 +489,16 @@ def chain(case, names, bound, factor=1):
     "16.1", "−q̇ᵀK_v h(q̇) ≤ √n γ λmax(K_v)‖q̇‖²", place="(16), term 1", section=BOUNDS, uses=["6", "15"]
 )
 def _(case):
-    """Each summand −k w h(w) is at most 0, and 0 at most the bound."""
-    return for_all(-x * h(case.m, x) <= sqrt(case.n) * gamma(case.m) * x**2)
+    """The summands are −k_i t_i with t_i = w_i h(w_i) ≥ 0."""
+    n = case.n
+    terms = total(var(f"k{i + 1}") * var(f"t{i + 1}") for i in range(n))
+    size = total(var(f"w{i + 1}") ** 2 for i in range(n))
+    variables = positive("k_max", "gamma", *(f"k{i + 1}" for i in range(n)))
+    variables += nonnegative(*(f"t{i + 1}" for i in range(n))) + reals(*(f"w{i + 1}" for i in range(n)))
+    return all_of(
+        every_t_is_nonnegative=for_all(expr(0) <= x * h(case.m, x)),
+        sum=implies(variables, (), -terms <= sqrt(n) * var("gamma") * var("k_max") * size),
+    )
 
 
 @proof.claim("16.2", "−q̇ᵀBq̇ ≤ −λmin(B)‖q̇‖²", place="(16), term 2", section=BOUNDS, uses=["15"])
@@ -708,6 +750,25 @@ def _(case):
     return all_of(
         sufficient=implies(PARAMETERS, (condition_19(c),), expr(0) < upper),
         necessary=implies(PARAMETERS, (expr(0) < upper,), condition_19(c)),
+    )
+
+
+@proof.claim(
+    "P",
+    "the origin is globally asymptotically stable",
+    place="Proposition",
+    section=CONDITIONS,
+    uses=["11", "12p", "12u", "16", "18e"],
+)
+def _(case):
+    case.read.update(("m", "n"))
+    return theorem(
+        "Lyapunov's direct method",
+        only_equilibrium="11",
+        positive_definite="12p",
+        radially_unbounded="12u",
+        rate_bounded_by_a_form="16",
+        form_negative_definite="18e",
     )
 
 

@@ -56,6 +56,19 @@ def plus(a: Matrix, b: Matrix) -> Matrix:
     return [[x + y for x, y in zip(p, q, strict=True)] for p, q in zip(a, b, strict=True)]
 
 
+def determinant(a: Matrix) -> Expr:
+    """det A, by expansion along the first row."""
+    if len(a) == 1:
+        return a[0][0]
+    minors = ([row[:j] + row[j + 1 :] for row in a[1:]] for j in range(len(a)))
+    return total((-1) ** j * a[0][j] * determinant(minor) for j, minor in enumerate(minors))
+
+
+def leading_minors(a: Matrix) -> Vector:
+    """The leading principal minors: a symmetric A is positive definite where all are positive (Sylvester)."""
+    return [determinant([row[:k] for row in a[:k]]) for k in range(1, len(a) + 1)]
+
+
 def scaled(x: Sequence[Expr], y: Sequence[Expr]) -> Vector:
     """The elementwise product, diag(x) y."""
     return [a * b for a, b in zip(x, y, strict=True)]

@@ -14,6 +14,11 @@ class Lacking(Exception):
     """A statement needs something that this case does not have; the claim is undecided for that reason."""
 
 
+def lacking(reason: str) -> Lacking:
+    """What a statement raises when the text says nothing about a case: the claim is then undecided."""
+    return Lacking(reason)
+
+
 @dataclass
 class Case:
     """What a statement may depend on; reading ``m`` or ``n`` makes the claim one that is decided for each m or n."""

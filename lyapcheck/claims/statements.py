@@ -194,6 +194,21 @@ class TrigonometricBound(Statement):
     entries: tuple[tuple[Tree, Fraction | None], ...]
 
 
+@dataclass(frozen=True)
+class TrigonometricPositive(Statement):
+    """``f_i(q) > 0`` for all q, each f_i a polynomial in sines and cosines of q."""
+
+    entries: tuple[Tree, ...]
+
+
+@dataclass(frozen=True)
+class Theorem(Statement):
+    """A theorem applied: each of its hypotheses is a claim that this one uses."""
+
+    name: str
+    hypotheses: tuple[tuple[str, str], ...]
+
+
 def majorant(constant: object = 1, **powers: int) -> Majorant:
     """``constant · Π symbol^power``."""
     return Majorant(expr(constant).tree, tuple(sorted(powers.items())))
@@ -211,3 +226,13 @@ def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> Trig
     trees = [entry.tree for entry in entries]
     limits = [None] * len(trees) if by is None else [Fraction(b) for b in by]  # type: ignore[arg-type]
     return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
+
+
+def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
+    """Polynomials in sines and cosines are positive for all angles."""
+    return TrigonometricPositive(tuple(entry.tree for entry in entries))
+
+
+def theorem(name: str, **hypotheses: str) -> Theorem:
+    """A theorem applied; the keywords name its hypotheses, their values are the ids of claims."""
+    return Theorem(name, tuple((key.replace("_", " "), id) for key, id in hypotheses.items()))

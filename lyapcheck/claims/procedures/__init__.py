@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from lyapcheck.claims import statements as kinds
-from lyapcheck.claims.decision import Decision, conjunction, undecided
+from lyapcheck.claims.decision import Decision, conjunction, proved, undecided
 from lyapcheck.claims.procedures.chain import decide_chain
 from lyapcheck.claims.procedures.constants import decide_constant
 from lyapcheck.claims.procedures.identity import decide_identity
@@ -15,7 +15,8 @@ from lyapcheck.claims.procedures.norms import decide_norm_bound
 from lyapcheck.claims.procedures.one_variable import decide_for_all
 from lyapcheck.claims.procedures.printed import decide_agrees
 from lyapcheck.claims.procedures.small import decide_for_small
-from lyapcheck.claims.procedures.trigonometric import decide_trigonometric
+from lyapcheck.claims.procedures.trigonometric import decide_bounds, decide_positive
+from lyapcheck.verdicts import Grade
 
 
 def decide(statement: kinds.Statement) -> Decision:
@@ -28,6 +29,11 @@ def decide(statement: kinds.Statement) -> Decision:
 
 def _decide_all(statement: kinds.AllOf) -> Decision:
     return conjunction((name, decide(part)) for name, part in statement.parts)
+
+
+def _apply_theorem(statement: kinds.Theorem) -> Decision:
+    """The step itself holds; whether its hypotheses do is for the chain of claims to say."""
+    return proved(Grade.EXACT, f"theorem: {statement.name}", hypotheses=dict(statement.hypotheses))
 
 
 def _missing(statement: kinds.Missing) -> Decision:
@@ -43,7 +49,9 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Decision]] = {
     kinds.ForSmall: decide_for_small,
     kinds.Agrees: decide_agrees,
     kinds.NormChain: decide_chain,
-    kinds.TrigonometricBound: decide_trigonometric,
+    kinds.TrigonometricBound: decide_bounds,
+    kinds.TrigonometricPositive: decide_positive,
+    kinds.Theorem: _apply_theorem,
     kinds.AllOf: _decide_all,
     kinds.Missing: _missing,
 }

@@ -25,8 +25,10 @@ from lyapcheck.claims.statements import Implies, Variable
 from lyapcheck.verdicts import Grade
 
 METHOD = "implication between inequalities"
-EFFORT = ((2, 60), (4, 1500))
-"""Depth and number of nodes of the two tries at a certificate; the search for a counterexample lies between."""
+EFFORT = ((1, 40), (2, 80), (3, 160), (4, 320), (5, 640), (7, 2000))
+"""Depth and number of nodes of the tries at a certificate."""
+SEARCH_AFTER = 2
+"""The depth after which counterexamples are searched, before deeper certificates are."""
 
 Exponents = tuple[int, ...]
 
@@ -40,7 +42,7 @@ def decide_implies(statement: Implies) -> Decision:
     for depth, nodes in EFFORT:
         if _certified(statement, depth, nodes):
             return proved(Grade.EXACT, f"{METHOD}: identity with terms of known sign")
-        found = search(statement) if depth == EFFORT[0][0] else None
+        found = search(statement) if depth == SEARCH_AFTER else None
         if found is not None:
             return found
     return undecided(
@@ -170,7 +172,7 @@ def _cancellations(
 ) -> Iterator[tuple[fmpq_mpoly, bool]]:
     """Remainders μ·goal − λ·μ'·hypothesis in which a negative term of the goal is gone, and whether μ' > 0."""
     bad = [(e, c) for e, c in goal.to_dict().items() if c < 0 or not signs.monomial_is(e, False)]
-    for e, c in bad[:3]:
+    for e, c in bad[:1]:
         for f, d in hypothesis.to_dict().items():
             if c / d <= 0:
                 continue

@@ -1,0 +1,110 @@
+"""Polynomials in sines and cosines as finite Fourier sums, which bound them from both sides, exactly.
+
+f(q) = Σ_k c_k exp(i k·q) with c_{−k} the conjugate of c_k: f lies within Σ_{k≠0} |c_k| of its mean c_0.
+
+References: ``katznelson2004harmonic``, chapter I.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+from typing import Any
+
+from lyapcheck.check.functions import Algebra, Tree, Unsupported, evaluate, variables
+
+Frequency = tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True)
+class Fourier:
+    """A Fourier sum: frequency (angle, multiple ≠ 0) … to the real and imaginary parts of its coefficient."""
+
+    terms: dict[Frequency, tuple[Fraction, Fraction]]
+
+    def __add__(self, other: Fourier) -> Fourier:
+        terms = dict(self.terms)
+        for k, (re, im) in other.terms.items():
+            a, b = terms.get(k, (Fraction(0), Fraction(0)))
+            terms[k] = (a + re, b + im)
+        return Fourier(terms)
+
+    def __neg__(self) -> Fourier:
+        return Fourier({k: (-re, -im) for k, (re, im) in self.terms.items()})
+
+    def __mul__(self, other: Fourier) -> Fourier:
+        result = Fourier({})
+        for k, (a, b) in self.terms.items():
+            shifted = {_sum(k, j): (a * c - b * d, a * d + b * c) for j, (c, d) in other.terms.items()}
+            result = result + Fourier(shifted)
+        return result
+
+    def __truediv__(self, other: Fourier) -> Fourier:
+        if set(other.terms) != {()} or other.terms[()][0] == 0:
+            raise Unsupported("division by something else than a number")
+        scale = 1 / other.terms[()][0]
+        return Fourier({k: (re * scale, im * scale) for k, (re, im) in self.terms.items()})
+
+    @property
+    def mean(self) -> Fraction:
+        """The coefficient of frequency 0."""
+        return self.terms.get((), (Fraction(0), Fraction(0)))[0]
+
+    @property
+    def swing(self) -> Fraction:
+        """An upper bound of Σ_{k≠0} |c_k|, exact where every c_k is real or imaginary."""
+        return sum((_modulus(re, im) for k, (re, im) in self.terms.items() if k), Fraction(0))
+
+
+class _FourierAlgebra(Algebra):
+    """Angles are names; only sin and cos of an angle are functions."""
+
+    def number(self, value: Fraction) -> Fourier:
+        return Fourier({(): (value, Fraction(0))})
+
+    def constant(self, name: str, m: int) -> Fourier:
+        raise Unsupported(f"{name} is not rational")
+
+    def pi(self) -> Fourier:
+        raise Unsupported("pi is not rational")
+
+    def function(self, name: str, value: Any) -> Fourier:
+        if name not in ("sin", "cos") or not isinstance(value, str):
+            raise Unsupported("not a polynomial in sines and cosines of single angles")
+        half, zero = Fraction(1, 2), Fraction(0)
+        up, down = ((value, 1),), ((value, -1),)
+        if name == "cos":
+            return Fourier({up: (half, zero), down: (half, zero)})
+        return Fourier({up: (zero, -half), down: (zero, half)})
+
+
+def fourier_sum(tree: Tree) -> Fourier:
+    """The Fourier sum of an expression in sin q_i and cos q_i.
+
+    Raises:
+        Unsupported: the expression is anything else.
+    """
+    try:
+        result = evaluate(tree, {name: name for name in variables(tree)}, _FourierAlgebra())
+    except TypeError as error:
+        raise Unsupported("a variable outside sin and cos has no bound") from error
+    if not isinstance(result, Fourier):
+        raise Unsupported("a variable outside sin and cos has no bound")
+    return result
+
+
+def _sum(k: Frequency, j: Frequency) -> Frequency:
+    total = dict(k)
+    for angle, multiple in j:
+        total[angle] = total.get(angle, 0) + multiple
+    return tuple(sorted((angle, multiple) for angle, multiple in total.items() if multiple))
+
+
+def _modulus(re: Fraction, im: Fraction) -> Fraction:
+    """√(re² + im²), rounded up where it is not rational in a plain way."""
+    if re == 0 or im == 0:
+        return abs(re) + abs(im)
+    scale = 10**30
+    square = re * re + im * im
+    return Fraction(isqrt(square.numerator * scale * scale // square.denominator) + 1, scale)
