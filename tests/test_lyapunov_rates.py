@@ -110,7 +110,7 @@ def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
     for k in range(len(q)):
         state = states.State(*(tuple(Fraction(float(x)) for x in row) for row in (q[k], e[k], w[k])))
         ball = states.rate(setting.arm, setting.controller, Fraction(EPS0), state)
-        assert float(ball.mid) == pytest.approx(by_numpy[k], rel=1e-10)
+        assert float(ball.mid()) == pytest.approx(by_numpy[k], rel=1e-10)
 
 
 def test_fast_matrix_decides_the_sign_for_fast_states() -> None:

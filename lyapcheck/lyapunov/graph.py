@@ -85,8 +85,8 @@ class _State:
 
 def lyapunov_graph(model: RobotModel, family: Family) -> LyapunovGraph:
     """Build the functions for an arm, at nominal values of its uncertain parameters, and a family."""
-    names = ("q", "e", "w", "kp", "kv")
-    state = _State(model.fixed(), family, *(ca.SX.sym(x, model.n) for x in names), ca.SX.sym("eps0"))
+    q, e, w, kp, kv = (ca.SX.sym(name, model.n) for name in ("q", "e", "w", "kp", "kv"))
+    state = _State(model.fixed(), family, q, e, w, kp, kv, ca.SX.sym("eps0"))
     return LyapunovGraph(
         V=state.function("V", _value(state, state.r)),
         rate=state.function("rate", _rate(state)),
@@ -165,8 +165,8 @@ def _damped(s: _State, D: Any) -> list[Any]:
 def _coupling(s: _State) -> list[list[Any]]:
     forms = s.family.casadi(s.e)
     M, Ch = graph.mass(s.model, s.q), graph.coriolis(s.model, s.q, forms.h)
-    columns = (_entries(x) for x in (forms.h, forms.dh, s.e_hat))
-    return quadratic.coupling(_rows(M), _rows(Ch), *columns, 1 / (1 + s.r))
+    h, dh, e_hat = (_entries(x) for x in (forms.h, forms.dh, s.e_hat))
+    return quadratic.coupling(_rows(M), _rows(Ch), h, dh, e_hat, 1 / (1 + s.r))
 
 
 def _entries(column: Any) -> list[Any]:

@@ -1,0 +1,112 @@
+"""Definiteness: exact over ℚ against an independent criterion, and never claimed in balls without proof."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from flint import arb, fmpq, fmpq_mat
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lyapcheck.check import matrices
+
+Rows = list[list[Fraction]]
+numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)
+HILBERT = [[Fraction(1, i + j + 1) for j in range(8)] for i in range(8)]
+
+
+@st.composite
+def symmetric(draw: st.DrawFn, size: int = 4) -> Rows:
+    n = draw(st.integers(1, size))
+    upper = {(i, j): draw(numbers) for i in range(n) for j in range(i, n)}
+    return [[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)]
+
+
+@st.composite
+def gram(draw: st.DrawFn) -> tuple[Rows, int]:
+    """GᵀG with its rank: positive semidefinite, often singular."""
+    n, k = draw(st.integers(1, 4)), draw(st.integers(0, 4))
+    G = [[draw(numbers) for _ in range(n)] for _ in range(k)]
+    product = [[sum((G[t][i] * G[t][j] for t in range(k)), Fraction(0)) for j in range(n)] for i in range(n)]
+    return product, _exact(product).rank()
+
+
+def _exact(rows: Rows) -> fmpq_mat:
+    n = len(rows)
+    return fmpq_mat(n, n, [fmpq(x.numerator, x.denominator) for row in rows for x in row])
+
+
+def _minor(rows: Rows, chosen: tuple[int, ...]) -> fmpq:
+    return _exact([[rows[i][j] for j in chosen] for i in chosen]).det()
+
+
+@given(symmetric())
+def test_definite_exactly_when_leading_minors_are_positive(rows: Rows) -> None:
+    minors = [_minor(rows, tuple(range(k + 1))) for k in range(len(rows))]
+    assert matrices.is_positive_definite(rows) == all(minor > 0 for minor in minors)
+
+
+@given(symmetric())
+def test_semidefinite_exactly_when_all_principal_minors_are_nonnegative(rows: Rows) -> None:
+    n = len(rows)
+    chosen = [c for k in range(1, n + 1) for c in combinations(range(n), k)]
+    assert matrices.is_positive_semidefinite(rows) == all(_minor(rows, c) >= 0 for c in chosen)
+
+
+@given(gram())
+def test_gram_matrices_are_semidefinite_and_definite_at_full_rank(case: tuple[Rows, int]) -> None:
+    rows, rank = case
+    assert matrices.is_positive_semidefinite(rows)
+    assert matrices.is_positive_definite(rows) == (rank == len(rows))
+    assert matrices.negative_direction(rows) is None
+
+
+@given(symmetric())
+def test_a_negative_direction_is_given_exactly_when_there_is_one(rows: Rows) -> None:
+    x = matrices.negative_direction(rows)
+    assert (x is None) == matrices.is_positive_semidefinite(rows)
+    assert x is None or matrices.form(rows, x, x) < 0
+
+
+@given(symmetric())
+def test_balls_never_prove_what_is_false(rows: Rows) -> None:
+    balls = [[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in rows]
+    assert not matrices.balls_positive_definite(balls) or matrices.is_positive_definite(rows)
+
+
+def test_a_barely_definite_matrix_is_decided_exactly() -> None:
+    tiny = Fraction(1, 10**40)
+    assert matrices.is_positive_definite([[1, 1], [1, 1 + tiny]])
+    assert not matrices.is_positive_definite([[1, 1], [1, 1]])
+    assert not matrices.is_positive_semidefinite([[1, 1], [1, 1 - tiny]])
+
+
+def test_hilbert_matrices_are_definite_both_ways() -> None:
+    assert matrices.is_positive_definite(HILBERT)
+    assert matrices.is_positive_definite(_exact(HILBERT))
+    assert matrices.balls_positive_definite(
+        [[arb(fmpq(x.numerator, x.denominator)) for x in r] for r in HILBERT]
+    )
+
+
+def test_wide_or_undefined_balls_prove_nothing() -> None:
+    nan, wide = arb("nan"), arb(1, 2)
+    assert not matrices.balls_positive_definite([[nan]])
+    assert not matrices.balls_positive_definite([[wide]])
+    assert not matrices.balls_positive_definite([[arb(1), arb(0)], [nan, arb(1)]])
+    assert not matrices.balls_positive_definite([[arb(1), arb(0)], [arb(0, 1.1), arb(1)]])
+
+
+def test_the_empty_matrix_is_definite() -> None:
+    assert matrices.is_positive_definite([])
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [([[1, 2], [3, 1]], "symmetric"), ([[1, 2]], "square"), ([[1], [2]], "square")],
+)
+def test_what_is_not_a_symmetric_matrix_is_refused(rows: list[list[int]], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        matrices.pivots(rows)
