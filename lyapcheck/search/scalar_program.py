@@ -34,6 +34,8 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
     """
     if form is None:
         return ScalarResult(None, None, "none", "h is unbounded, and the scalar form needs its bound γ")
+    if form.friction <= 0:
+        return ScalarResult(None, form, "none", "a joint has no viscous friction, so θ'22 is never positive")
     for method, proposal in (("conic program", _conic(form)), ("bisection", _bisection(form))):
         eps0 = None if proposal is None else _rounded_down(proposal)
         if eps0 is not None and certifies(form, eps0):
@@ -50,7 +52,10 @@ def _conic(form: ScalarForm) -> Fraction | None:
     x = cp.Variable(nonneg=True)
     burden = (d * d / 4 + k * c) * scale * x + d * c / 2 * scale**2 * x**2 + c * c / 4 * scale**3 * x**3
     problem = cp.Problem(cp.Maximize(x), [burden / (k * beta) <= 1])
-    problem.solve(solver=cp.CLARABEL)
+    try:
+        problem.solve(solver=cp.CLARABEL)
+    except cp.SolverError:
+        return None
     if problem.status != cp.OPTIMAL or x.value is None:
         return None
     return Fraction(float(x.value) * scale) * (1 - Fraction(1, 10**DIGITS))

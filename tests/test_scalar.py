@@ -1,0 +1,159 @@
+"""The scalar certificates bound dV/dt on real arms; their ε₀ is proved in rationals and nearly largest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lyapcheck import family, robots
+from lyapcheck.check.matrices import is_positive_definite
+from lyapcheck.check.scalar import ScalarForm, certifies
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, root_above, scalar_form, sharp_form
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.scalar_program import scalar_epsilon
+
+positive = st.fractions(min_value=Fraction(1, 50), max_value=100, max_denominator=50)
+forms = st.builds(ScalarForm, positive, positive, positive, positive)
+
+
+@dataclass(frozen=True)
+class Diagonal:
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
+    angle_unit: str = "rad"
+
+
+def gains_for(n: int) -> Diagonal:
+    kp, kv = ("25", "50", "5"), ("0.25", "0.5", "0.125")
+    return Diagonal(tuple(map(Fraction, kp[:n])), tuple(map(Fraction, kv[:n])))
+
+
+def sampled_bounds(arm: str) -> RobotBounds:
+    """β_M and k_c from many angles with 1 % on top: enough to test the inequality on sampled states."""
+    model = robots.load(arm)
+    numeric, random = NumericModel(model), np.random.default_rng(5)
+    q, x = random.uniform(-np.pi, np.pi, (20_000, model.n)), random.normal(size=(20_000, model.n))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    beta = np.linalg.norm(numeric.mass(q), 2, axis=(1, 2)).max()
+    turning = np.linalg.norm(numeric.coriolis(q, x), 2, axis=(1, 2)).max()
+    viscous = [number.value for number in model.viscous]
+    upper = [Fraction(float(value) * 1.01) for value in (beta, turning)]
+    return RobotBounds(upper[0], upper[1], min(viscous), max(viscous))
+
+
+CASES = [(arm, h) for arm in ("pendulum1", "reyes-kelly2", "buap3") for h in (1, 2, 7)]
+
+
+@pytest.mark.parametrize(("arm", "m"), CASES)
+@pytest.mark.parametrize("eps0", [0.01, 0.3, 3.0])
+def test_theta_bounds_the_rate_at_random_states(arm: str, m: int, eps0: float) -> None:
+    bounds, gains, h = sampled_bounds(arm), gains_for(robots.load(arm).n), family.hyperbolic(m)
+    form = scalar_form(gains, h.constants(), bounds)
+    assert form is not None
+    rate, eps, a, b = _sampled(arm, h, gains, eps0)
+    t11, t12, t22 = (np.array([float(x) for x in column]) for column in _thetas(form, eps))
+    assert np.all(rate <= -(t11 * a * a + 2 * t12 * a * b + t22 * b * b) + 1e-9 * (1 + b * b))
+
+
+@pytest.mark.parametrize("arm", ["pendulum1", "reyes-kelly2", "buap3"])
+@pytest.mark.parametrize(
+    "h", [family.hyperbolic(1), family.hyperbolic(3), family.linear()], ids=lambda h: h.name
+)
+def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm: str, h: Any) -> None:
+    gains, bounds = gains_for(robots.load(arm).n), sampled_bounds(arm)
+    sharp = scalar_epsilon(sharp_form(gains, h.constants(), bounds))
+    assert sharp.eps0 is not None
+    rate = _sampled(arm, h, gains, float(sharp.eps0))[0]
+    assert np.all(rate <= 0)
+    plain = scalar_epsilon(scalar_form(gains, h.constants(), bounds)).eps0
+    assert plain is None or plain <= sharp.eps0
+
+
+@given(forms, st.fractions(min_value=0, max_value=1), positive)
+def test_a_certified_eps0_holds_for_every_smaller_one(
+    form: ScalarForm, share: Fraction, eps0: Fraction
+) -> None:
+    eps = eps0 * share
+    if certifies(form, eps0) and eps > 0:
+        t11, t12, t22 = form.theta(eps)
+        assert is_positive_definite([[t11, t12], [t12, t22]])
+
+
+@given(forms, positive)
+def test_the_check_is_sylvesters_criterion_at_eps0(form: ScalarForm, eps0: Fraction) -> None:
+    t11, t12, t22 = form.theta(eps0)
+    assert certifies(form, eps0) == is_positive_definite([[t11, t12], [t12, t22]])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"stiffness": 0}, {"friction": 0}, {"drift": -1}, {"cross": -1}, {"stiffness": -1, "friction": -1}],
+)
+def test_coefficients_outside_the_argument_certify_nothing(change: dict[str, int]) -> None:
+    form = ScalarForm(*map(Fraction, (1, 1, 1, 1)))
+    tiny = Fraction(1, 10**6)
+    assert certifies(form, tiny)
+    assert not certifies(replace(form, **{k: Fraction(v) for k, v in change.items()}), tiny)
+    assert not certifies(form, Fraction(0))
+    assert not certifies(form, -tiny)
+
+
+@pytest.mark.parametrize("scale", [Fraction(1, 10**4), Fraction(1), Fraction(10**4)])
+def test_the_program_finds_nearly_the_largest_eps0(scale: Fraction) -> None:
+    form = ScalarForm(Fraction(5) * scale, Fraction(2, 5), Fraction(7), Fraction(5, 2))
+    found = scalar_epsilon(form)
+    assert found.eps0 is not None
+    assert certifies(form, found.eps0)
+    assert not certifies(form, found.eps0 * Fraction(1_000_001, 1_000_000))
+
+
+def test_without_friction_or_bound_there_is_a_reason() -> None:
+    without = scalar_epsilon(ScalarForm(Fraction(1), Fraction(0), Fraction(1), Fraction(1)))
+    assert without.eps0 is None
+    assert "friction" in without.reason
+    assert scalar_epsilon(None).eps0 is None
+    assert "unbounded" in scalar_epsilon(None).reason
+
+
+def test_published_interval_is_empty_exactly_without_19() -> None:
+    bounds = RobotBounds(Fraction(3), Fraction(1, 3), Fraction(2, 5), Fraction(2))
+    constants = family.hyperbolic(1).constants()
+    low, high = (Diagonal((Fraction(9),), (Fraction(k),)) for k in ("0.399", "0.4"))
+    assert published_limit(low, constants, bounds) is not None
+    assert published_limit(high, constants, bounds) is None
+
+
+def test_gains_per_degree_are_rounded_to_the_safe_side() -> None:
+    bounds, constants = sampled_bounds("reyes-kelly2"), family.linear().constants()
+    degrees = Diagonal((Fraction(1),) * 2, (Fraction(1),) * 2, "deg")
+    form = sharp_form(degrees, constants, bounds)
+    assert float(form.stiffness) == pytest.approx(np.degrees(1.0), rel=1e-12)
+    assert form.cross > bounds.viscous_max + form.stiffness
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 6, 7])
+def test_root_is_rounded_up_and_tight(n: int) -> None:
+    assert root_above(n) ** 2 >= n
+    assert (root_above(n) - Fraction(1, 10**12)) ** 2 < n
+
+
+def _thetas(form: ScalarForm, eps: np.ndarray) -> list[tuple[Fraction, ...]]:
+    return list(zip(*(form.theta(Fraction(float(x))) for x in eps), strict=True))
+
+
+def _sampled(arm: str, h: Any, gains: Diagonal, eps0: float) -> tuple[np.ndarray, ...]:
+    """dV/dt, ε, ‖h(e)‖ and ‖w‖ at random states of many sizes."""
+    model = robots.load(arm)
+    random, shape = np.random.default_rng(11), (400, model.n)
+    q = random.uniform(-np.pi, np.pi, shape)
+    e, w = (random.normal(size=shape) * 10 ** random.uniform(-3, 2, (shape[0], 1)) for _ in range(2))
+    numeric = LyapunovNumeric(model, h, [float(k) for k in gains.kp], [float(k) for k in gains.kv], eps0)
+    eps = eps0 / (1 + np.linalg.norm(e, axis=1))
+    return numeric.rate(q, e, w), eps, np.linalg.norm(h.h(e), axis=1), np.linalg.norm(w, axis=1)
