@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -92,8 +91,3 @@ class LyapunovNumeric:
             block = slice(start, start + BLOCK)
             result[block] = value(*[list(x[:, block]) for x in columns])
         return result.reshape(states[0].shape[:-1])
-
-
-def doubles(values: Sequence[Fraction]) -> list[float]:
-    """Exact gains as doubles."""
-    return [float(value) for value in values]
