@@ -15,12 +15,21 @@ import numpy as np
 from lyapcheck.check.balls import precision
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.states import State, confirms_positive, rate
-from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, spread
+from lyapcheck.search.sample import (
+    States,
+    fastest_directions,
+    quadratic,
+    sample,
+    slow_sample,
+    spread,
+    worst_rates,
+)
 from lyapcheck.search.setting import Array, Setting
 from lyapcheck.search.worst_states import (
     fast_states,
     finite_states,
     level_states,
+    slow_states,
     steepest_states,
     steepness,
 )
@@ -34,6 +43,9 @@ SEED = 20190301
 _DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
 _EPS_DIGITS = 7
+_STEPS = 9
+_WIDE, _NEAR = 30.0, 1e-5
+"""Largest |e_i| of slow states, rad: anywhere, and at the origin."""
 _SHOWN_BITS = 256
 _SCALES = tuple(sign * 10.0 ** (k / 2) for k in range(-2, 17) for sign in (1, -1))
 """Factors tried on the rates of a candidate: fast states need ‖w‖ large enough for K_v h(w) not to matter."""
@@ -88,7 +100,7 @@ def falsify(
     tell = on_progress or (lambda fraction, note: None)
     found: list[tuple[float, str, State]] = []
     for share, (kind, states) in enumerate(_candidates(setting, starts, samples, seed), start=1):
-        tell(share / 5, f"{kind} states")
+        tell(share / _STEPS, f"{kind} states")
         found += _best(setting, kind, states)
     for reciprocal, kind, state in sorted(found, key=lambda entry: -entry[0]):
         witness = _confirm(setting, reciprocal, kind, state)
@@ -143,8 +155,7 @@ def _plain(row: Array) -> tuple[float, ...]:
 def _candidates(setting: Setting, starts: int, samples: int, seed: int) -> Iterator[tuple[str, States]]:
     """States that refute a small ε₀, from plain sampling to the optimised programs."""
     states = sample(setting, samples, seed)
-    reciprocal = quadratic(setting, states).reciprocal()
-    chosen = states.take(spread(states, reciprocal, starts))
+    chosen = _promising(setting, states, starts)
     yield "sampled", chosen
     speed, directions = fastest_directions(setting, states.q, states.e)
     picked = spread(states, speed, starts)
@@ -153,6 +164,24 @@ def _candidates(setting: Setting, starts: int, samples: int, seed: int) -> Itera
     yield "level", level_states(setting, States(states.q[picked], states.e[picked], directions[picked]))
     yield "finite", finite_states(setting, chosen)
     yield "finite", finite_states(setting, _leaving(setting, fast, starts))
+    yield from _slow_candidates(setting, starts, samples, seed)
+
+
+def _slow_candidates(setting: Setting, starts: int, samples: int, seed: int) -> Iterator[tuple[str, States]]:
+    """States near the origin, and those of weak gains: there the linear terms in w decide."""
+    states = slow_sample(setting, samples, seed)
+    chosen = _promising(setting, states, starts)
+    yield "slow", chosen
+    yield "slow", slow_states(setting, chosen, _WIDE)
+    if setting.family.dh(0.0) > 0:
+        near = States(states.q, states.e * _NEAR / 10, states.w * _NEAR / 10)
+        chosen = _promising(setting, worst_rates(setting, near), starts)
+        yield "slow", chosen
+        yield "slow", slow_states(setting, chosen, _NEAR)
+
+
+def _promising(setting: Setting, states: States, count: int) -> States:
+    return states.take(spread(states, quadratic(setting, states).reciprocal(), count))
 
 
 def _leaving(setting: Setting, fast: States, starts: int) -> States:
@@ -183,7 +212,7 @@ def _rounded_reciprocals(setting: Setting, states: States, scale: float) -> Arra
 
 def _exact(row: Array) -> tuple[Fraction, ...]:
     """Short decimals close to the doubles; what is rounding noise beside the others becomes 0."""
-    noise = 1e-8 * max(1.0, float(np.max(np.abs(row))))
+    noise = max(1e-12, 1e-8 * float(np.max(np.abs(row))))
     return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
 
 

@@ -19,6 +19,8 @@ import numpy as np
 
 from lyapcheck.search.setting import Array, Setting
 
+_STEPS = 6
+"""Fixed-point steps towards the worst w."""
 _LARGE_ERROR = 0.3
 """rad; for m >= 2 h' has its peak beyond, and hardly anything happens below."""
 
@@ -118,6 +120,47 @@ def sample(setting: Setting, count: int, seed: int) -> States:
     free /= np.linalg.norm(free, axis=1, keepdims=True)
     chosen = np.where(order % 2 == 0, directions, free)
     return States(q, e, chosen * 10 ** random.uniform(-2, 5, (count, 1)))
+
+
+def slow_sample(setting: Setting, count: int, seed: int) -> States:
+    """Random states whose w is the worst for their (q, e), as far as fixed-point steps find it.
+
+    They start with ‖w‖ between a hundredth and a hundred times ‖h(e)‖; see `worst_rates`.
+    """
+    random = np.random.default_rng((seed, 1))
+    states = sample(setting, count, seed)
+    w = random.normal(size=states.w.shape)
+    length = np.linalg.norm(setting.family.h(states.e), axis=1, keepdims=True)
+    w *= length * 10 ** random.uniform(-2, 2, (count, 1)) / np.linalg.norm(w, axis=1, keepdims=True)
+    found = States(states.q, states.e, w)
+    for _ in range(_STEPS):
+        found = worst_rates(setting, found)
+    return found
+
+
+def worst_rates(setting: Setting, states: States) -> States:
+    """The states with w moved to where dV/dt is largest at the ε₀ refuted now, if that refutes a smaller one.
+
+    With D = diag(h(w_i)/w_i) held, dV/dt is a quadratic in w with the maximum ½ ε Y⁻¹Xᵀh wherever Y ≻ 0.
+    Where no ε₀ is refuted yet, it is twice the 4 k_p/(b + k_v) at which one joint fails near the origin.
+    """
+    family = setting.family
+    now = quadratic(setting, states).reciprocal()
+    s, along = _nearness(states.e)
+    slowest = np.max((setting.viscous + setting.kv) / setting.kp) / 8
+    eps = s / np.maximum(now, slowest)
+    h, dh = family.h(states.e), family.dh(states.e)
+    mass, turning = setting.numeric.mass(states.q), setting.numeric.coriolis(states.q, h)
+    mh = _times(mass, h)
+    damping = setting.viscous + setting.kv * family.secant(states.w)
+    form = dh[:, :, None] * mass - turning - s[:, None, None] * along[:, :, None] * mh[:, None, :]
+    Y = damping[:, :, None] * np.eye(setting.n) - eps[:, None, None] * (form + np.swapaxes(form, 1, 2)) / 2
+    push = damping * h - eps[:, None] * _times(np.swapaxes(form, 1, 2), h)
+    safe = np.abs(np.linalg.det(Y)) > 1e-12
+    Y = np.where(safe[:, None, None], Y, np.eye(setting.n))
+    moved = States(states.q, states.e, eps[:, None] / 2 * np.linalg.solve(Y, push[:, :, None])[:, :, 0])
+    better = safe & (quadratic(setting, moved).reciprocal() > now)
+    return States(states.q, states.e, np.where(better[:, None], moved.w, states.w))
 
 
 def spread(states: States, merit: Array, count: int) -> Array:

@@ -1,10 +1,11 @@
 """Worst-case states by CasADi and IPOPT from many starts.
 
-Three programs, all smooth, all started from the best of many sampled states:
+Four programs, all smooth, all started from the best of many sampled states:
 
     fast     max over (q, e, v) of the 1/ε₀ that the state w = t v, t → ∞, refutes: a generalised eigenvalue
     level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
     finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
+    slow     the same over (q, e, u) with w = ‖h(e)‖u, which reaches states near the origin and weak gains
 
 and, for a given ε₀, ``steepest``: max of dV/dt / ‖z‖², ‖z‖² = ε‖h(e)‖² + ‖w‖².
 
@@ -13,7 +14,7 @@ Soundness: none; what is found is a candidate for `lyapcheck.check.states`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -115,15 +116,48 @@ def level_states(setting: Setting, starts: States) -> States:
 
 
 def finite_states(setting: Setting, starts: States) -> States:
-    """Where the finite program ends from each start: max y with −a₀y² + a₁y + a₂ >= 0, y = 1/ε₀."""
+    """Where the finite program ends from each start."""
     x = expressions(setting)
+    bound = _bound(setting.n, _FASTEST)
+    first = quadratic(setting, starts).reciprocal()
+    return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), setting.n))
+
+
+def slow_states(setting: Setting, starts: States, reach: float) -> States:
+    """Where the slow program ends from each start, with |e_i| up to ``reach``.
+
+    A small reach finds the worst direction in which the origin can be left; where h'(0) > 0 all smaller
+    multiples of such a state are about as bad.
+    """
+    x, n = expressions(setting), setting.n
+    d, u = ca.SX.sym("d", n), ca.SX.sym("u", n)
+    unit = reach / _LONGEST_ERROR
+    lengths = _length(setting.family.h(starts.e))[:, None]
+    e = unit * d
+    w = ca.sqrt(ca.sumsqr(setting.family.casadi_smooth(e).h) + 1e-300) * u
+    inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
+    program = _reciprocal_program(
+        replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), _bound(n, _FASTEST)
+    )
+    first = quadratic(setting, starts).reciprocal()
+    found = program.climb(_with(States(starts.q, starts.e / unit, starts.w / lengths), first))
+    ends = found[:, n : 2 * n] * unit
+    return States(found[:, :n], ends, found[:, 2 * n : 3 * n] * _length(setting.family.h(ends))[:, None])
+
+
+def _reciprocal_program(x: Expressions, bound: Array) -> Program:
+    """Max y with −a₀y² + a₁y + a₂ >= 0, y = 1/ε₀."""
     y = ca.SX.sym("y")
     failing = y * y - (x.a1 / x.a0) * y - x.a2 / x.a0
-    bound = np.append(_bound(setting.n, _FASTEST), 1e6)
-    first = quadratic(setting, starts).reciprocal()
-    program = Program(ca.vertcat(x.q, x.e, x.w, y), y, bound, failing)
-    found = program.climb(np.hstack([_stack(starts), first[:, None]]))
-    return States(*_parts(found[:, :-1], setting.n))
+    return Program(ca.vertcat(x.q, x.e, x.w, y), y, np.append(bound, 1e6), failing)
+
+
+def _with(states: States, first: Array) -> Array:
+    return np.hstack([_stack(states), first[:, None]])
+
+
+def _length(rows: Array) -> Array:
+    return np.maximum(np.linalg.norm(rows, axis=1), 1e-150)
 
 
 def steepest_states(setting: Setting, eps0: float, starts: States) -> States:
