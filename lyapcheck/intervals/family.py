@@ -1,0 +1,79 @@
+"""h and h' of a family over intervals: hulls of end values and of the extremes in between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from flint import arb
+
+from lyapcheck.check.critical import peak_of_h, peaks_of_dh
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.family import Family
+from lyapcheck.intervals.functions import widened
+from lyapcheck.intervals.interval import Array, Interval
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """An x ≥ 0 at which a function may turn, between two doubles, and its value there, between two doubles."""
+
+    where: tuple[float, float]
+    value: tuple[float, float]
+
+
+def h_range(family: Family, x: Interval) -> Interval:
+    """All values of h over the intervals: h is odd and monotone between its extremes."""
+    turning = _turning_points(family)[0]
+    mirrored = [
+        Extreme((-p.where[1], -p.where[0]), (-p.value[1], -p.value[0])) for p in turning if p.where[1] > 0
+    ]
+    return _range(family.h, [*turning, *mirrored], x)
+
+
+def dh_range(family: Family, x: Interval) -> Interval:
+    """All values of h' over the intervals: h' is even and monotone between its extremes."""
+    turning = _turning_points(family)[1]
+    mirrored = [Extreme((-p.where[1], -p.where[0]), p.value) for p in turning if p.where[1] > 0]
+    return _range(family.dh, [*turning, *mirrored], x)
+
+
+def _range(function: Callable[[Array], Array], turning: list[Extreme], x: Interval) -> Interval:
+    a, b = _at_ends(function, x)
+    result = widened(np.minimum(a, b), np.maximum(a, b))
+    low, high = result.lo, result.hi
+    for point in turning:
+        inside = (x.lo <= point.where[1]) & (x.hi >= point.where[0])
+        low = np.where(inside, np.minimum(low, point.value[0]), low)
+        high = np.where(inside, np.maximum(high, point.value[1]), high)
+    return Interval(low, high)
+
+
+def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Array]:
+    """The function at both ends; boxes made by halving share most of their ends, so equal ones are done once."""
+    ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
+    distinct, index = np.unique(ends, return_inverse=True)
+    values = function(distinct)[index.ravel()]
+    half = values.size // 2
+    return values[:half].reshape(np.shape(x.lo)), values[half:].reshape(np.shape(x.hi))
+
+
+@lru_cache(maxsize=256)
+def _turning_points(family: Family) -> tuple[tuple[Extreme, ...], tuple[Extreme, ...]]:
+    """The x ≥ 0 at which h, and at which h', may stop being monotone."""
+    h_turns, dh_turns = [], [_extreme(family.ball_dh, arb(0))]
+    if family.name == "hyperbolic" and family.m is not None and family.m > 1:
+        h_turns += [_extreme(family.ball_h, _position(peak_of_h(family.m)))]
+        dh_turns += [_extreme(family.ball_dh, _position(u)) for u in peaks_of_dh(family.m)]
+    return tuple(h_turns), tuple(dh_turns)
+
+
+def _position(u: arb) -> arb:
+    return u.sqrt().asinh()
+
+
+def _extreme(function: Callable[[arb], arb], where: arb) -> Extreme:
+    place, value = Enclosure.from_arb(where), Enclosure.from_arb(function(where))
+    return Extreme((place.float_lower, place.float_upper), (value.float_lower, value.float_upper))
