@@ -541,19 +541,20 @@ def _(case):
 
 
 def term_6(case):
-    """Both sides of the bound on term 6, for the gains of this case."""
-    e = vector("e", case.n)
-    gains = case.gains.kp
+    """The bound on term 6, for any gains: k_pi = λmin(K_p) + c_i with c_i ≥ 0."""
+    e, over = vector("e", case.n), vector("c", case.n)
     size = total(e_i**2 for e_i in e)
-    eps = var("eps0") / (1 + sqrt(size))
-    left = -eps * total(k * h(case.m, e_i) ** 2 for k, e_i in zip(gains, e, strict=True))
-    return left, -eps * case.n * gamma(case.m) ** 2 * min(gains) * size
+    eps, least = var("eps0") / (1 + sqrt(size)), var("kp_min")
+    left = -eps * total((least + c) * h(case.m, e_i) ** 2 for c, e_i in zip(over, e, strict=True))
+    right = -eps * case.n * gamma(case.m) ** 2 * least * size
+    indices = range(1, case.n + 1)
+    variables = positive("eps0", "kp_min") + nonnegative(*(f"c{i}" for i in indices))
+    return implies(variables + reals(*(f"e{i}" for i in indices)), (), left <= right)
 
 
 @proof.claim("16.6", "−ε hᵀK_p h ≤ −ε n γ² λmin(K_p)‖q̃‖²", place="(16), term 6", section=BOUNDS, uses=["15"])
 def _(case):
-    left, right = term_6(case)
-    return implies(positive("eps0") + reals(*(f"e{i + 1}" for i in range(case.n))), (), left <= right)
+    return term_6(case)
 
 
 @proof.claim(
@@ -620,7 +621,6 @@ SIXTEEN = [f"16.{k}" for k in range(1, 12)]
 )
 def _(case):
     """At rest all terms but the sixth vanish; elsewhere the bounds add up to the quadratic form."""
-    left, right = term_6(case)
     c = constants(case.n)
     a, b = var("norm_e"), var("norm_w")
     corner, side, low = theta(c)
@@ -640,7 +640,7 @@ def _(case):
         eps * eps0 * n * gam * rh * beta * a * b,
     ]
     return all_of(
-        at_rest=implies(positive("eps0") + reals(*(f"e{i + 1}" for i in range(case.n))), (), left <= right),
+        at_rest=term_6(case),
         the_bounds_add_up=identity(total(parts), -(corner * a**2 + 2 * side * a * b + low * b**2)),
     )
 

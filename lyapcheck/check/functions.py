@@ -15,7 +15,7 @@ References: ``reyes2019family`` (6), (8), (12).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -29,6 +29,7 @@ Tree = tuple[Any, ...]
 FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
 FAMILY = ("h", "dh", "potential")
 CONSTANTS = ("gamma", "rho", "L")
+LEAVES = ("num", "var", "pi", *CONSTANTS)
 
 
 class Unsupported(ValueError):
@@ -89,20 +90,21 @@ def evaluate(tree: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
         Unsupported: for a node that is not in the list above or that the algebra cannot express.
     """
     kind, *rest = tree
+    if kind in LEAVES:
+        return _leaf(kind, rest, values, algebra)
+    if kind in FAMILY:
+        return evaluate(family_formula(kind, *rest), values, algebra)
+    if kind == "pow":
+        return power(evaluate(rest[0], values, algebra), rest[1], algebra)
+    return _combine(kind, [evaluate(part, values, algebra) for part in rest], algebra)
+
+
+def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:
     if kind == "num":
         return algebra.number(Fraction(rest[0]))
     if kind == "var":
         return values[rest[0]]
-    if kind in CONSTANTS:
-        return algebra.constant(kind, rest[0])
-    if kind in FAMILY:
-        return evaluate(family_formula(kind, *rest), values, algebra)
-    if kind == "pi":
-        return algebra.pi()
-    if kind == "pow":
-        return power(evaluate(rest[0], values, algebra), rest[1], algebra)
-    parts = [evaluate(part, values, algebra) for part in rest]
-    return _combine(kind, parts, algebra)
+    return algebra.pi() if kind == "pi" else algebra.constant(kind, rest[0])
 
 
 def _combine(kind: str, parts: list[Any], algebra: Algebra) -> Any:
@@ -183,27 +185,25 @@ def taylor(tree: Tree, name: str, centre: arb, order: int) -> list[arb]:
 def derivative(tree: Tree, name: str) -> Tree:
     """The derivative of an expression with respect to a variable, as an expression."""
     kind, *rest = tree
-    if kind in ("num", "pi", *CONSTANTS):
-        return ("num", "0")
-    if kind == "var":
-        return ("num", "1" if rest[0] == name else "0")
+    if kind in LEAVES:
+        return ("num", "1" if (kind, rest) == ("var", [name]) else "0")
     if kind in FAMILY:
         return derivative(family_formula(kind, *rest), name)
-    if kind == "add":
-        return ("add", *(derivative(part, name) for part in rest))
-    if kind == "neg":
-        return ("neg", derivative(rest[0], name))
+    if kind in ("mul", "div", "pow"):
+        return _product_rule(kind, rest, name)
+    slopes = [derivative(part, name) for part in rest]
+    return (kind, *slopes) if kind in ("add", "neg") else ("mul", _outer_derivative(kind, rest[0]), slopes[0])
+
+
+def _product_rule(kind: str, rest: list[Any], name: str) -> Tree:
     if kind == "mul":
         slopes = [("mul", *rest[:i], derivative(part, name), *rest[i + 1 :]) for i, part in enumerate(rest)]
         return ("add", *slopes)
-    if kind == "div":
-        a, b = rest
-        top = ("add", ("mul", derivative(a, name), b), ("neg", ("mul", a, derivative(b, name))))
-        return ("div", top, ("pow", b, 2))
+    a, b = rest
     if kind == "pow":
-        a, k = rest
-        return ("mul", ("num", str(k)), ("pow", a, k - 1), derivative(a, name)) if k else ("num", "0")
-    return ("mul", _outer_derivative(kind, rest[0]), derivative(rest[0], name))
+        return ("mul", ("num", str(b)), ("pow", a, b - 1), derivative(a, name)) if b else ("num", "0")
+    top = ("add", ("mul", derivative(a, name), b), ("neg", ("mul", a, derivative(b, name))))
+    return ("div", top, ("pow", b, 2))
 
 
 def _outer_derivative(kind: str, a: Tree) -> Tree:
@@ -228,7 +228,7 @@ def _outer_derivative(kind: str, a: Tree) -> Tree:
     return table[kind]
 
 
-def variables(tree: Tree) -> set[str]:
+def variables(tree: Sequence[Any]) -> set[str]:
     """The names of the variables of an expression."""
     if tree[0] == "var":
         return {tree[1]}

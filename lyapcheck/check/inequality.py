@@ -58,14 +58,12 @@ def exactly_zero_coefficients(tree: Tree, name: str, order: int) -> int:
     return zeros.index(False) if False in zeros else min(len(zeros), order)
 
 
-def positive_near_zero(tree: Tree, name: str, high: Fraction, order: int = 16) -> bool:
+def positive_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96) -> bool:
     """Whether f > 0 on (0, high], by f(x) = x^k · f^(k)(ξ)/k! with f(0), …, f^(k−1)(0) exactly zero."""
-    k = exactly_zero_coefficients(tree, name, order)
-    if k >= order:
-        return False
     box = ball_of(Fraction(0)).union(ball_of(high))
     try:
-        return bool(taylor(tree, name, box, k)[k] > 0)
+        k = exactly_zero_coefficients(tree, name, order)
+        return k < order and bool(taylor(tree, name, box, k)[k] > 0)
     except (ValueError, ZeroDivisionError):
         return False
 
@@ -87,7 +85,7 @@ def positive_on_box(tree: Tree, name: str, low: Fraction, high: Fraction, order:
 
 
 def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None, strict: bool) -> bool | None:
-    """Whether f > 0 (or >= 0) on [low, high], decided exactly; ``None`` where f has no polynomial in x or y alone.
+    """Whether f > 0 (or >= 0) on [low, high], exactly; ``None`` where f is not in x or y alone.
 
     With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0.
     """

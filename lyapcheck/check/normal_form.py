@@ -1,7 +1,7 @@
 """Expressions as quotients of polynomials over ℚ: the normal form in which identities are decided.
 
-The generators are the variables, one E = exp(t) for each monomial t that is exponentiated (sinh t = (E − 1/E)/2,
-and so on), one pair (sin a, cos a) with cos² = 1 − sin², and one generator for each other function of each
+The generators are the variables, one E = exp(t) for each monomial t that is exponentiated (so that sinh t is
+(E − 1/E)/2), one pair (sin a, cos a) with cos² = 1 − sin², and one generator for each other function of each
 argument (a square root with its square as a relation). Equal normal forms mean equal functions wherever both
 sides are defined; different ones mean nothing when opaque functions (log, atan, …) occur.
 
@@ -135,7 +135,7 @@ class RationalAlgebra(Algebra):
         return sin if name == "sin" else cos
 
     def _root(self, value: Ratio) -> Ratio:
-        """√(top/bottom) = √(top·bottom)/bottom for a positive number below, a generator whose square is known."""
+        """√(top/bottom) = √(top·bottom)/bottom for a positive number below; its square is known."""
         if not value.bottom.is_constant():
             return self._opaque("sqrt", value)
         radicand = value.top / value.bottom.leading_coefficient()
@@ -209,7 +209,7 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
 
 
 def is_zero(tree: Tree) -> bool:
-    """Whether the normal form of an expression is zero; ``False`` says nothing, a witness must show a difference.
+    """Whether the normal form of an expression is zero; ``False`` says nothing.
 
     Soundness: every relation that is used (squares of roots, sin² + cos² = 1, products of exponentials) holds
     for the real functions, so a zero normal form is a zero function wherever no denominator vanishes.

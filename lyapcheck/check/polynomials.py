@@ -8,6 +8,7 @@ References: ``sturm1829``; ``basu2006algorithms``, section 2.2.
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 from flint import fmpq, fmpq_poly
 
@@ -25,7 +26,7 @@ def sign_at(poly: fmpq_poly, point: Fraction) -> int:
 
 
 def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
-    """The number of distinct real roots in the half-open interval (low, high]; all roots above ``low`` for None.
+    """The number of distinct real roots in (low, high]; all roots above ``low`` for high = None.
 
     Raises:
         ValueError: for the zero polynomial.
@@ -109,7 +110,7 @@ def _inside(poly: fmpq_poly, low: End, high: End) -> int:
 
 
 def _positive_by_coefficients(poly: fmpq_poly, low: End, high: End) -> bool:
-    """A quick sufficient test on [low, ∞): in powers of (x - low) no coefficient is negative, nor all are zero.
+    """A quick sufficient test on [low, ∞): in powers of (x - low) no coefficient is negative.
 
     It means >= 0 on the closed half-line and > 0 on the open one.
     """
@@ -124,7 +125,7 @@ def _changes(chain: list[fmpq_poly], end: End, side: int) -> int:
     else:
         signs = [sign_at(member, end) for member in chain]
     signs = [sign for sign in signs if sign]
-    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+    return sum(a != b for a, b in pairwise(signs))
 
 
 def _scaled(poly: fmpq_poly) -> fmpq_poly:
@@ -135,4 +136,4 @@ def _scaled(poly: fmpq_poly) -> fmpq_poly:
 
 
 def _sign(value: fmpq) -> int:
-    return (value > 0) - (value < 0)
+    return int(value > 0) - int(value < 0)

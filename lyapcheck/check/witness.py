@@ -1,4 +1,4 @@
-"""Replaying a counterexample: at an exact point the hypotheses hold and the conclusion fails, by disjoint balls.
+"""Replaying a counterexample: at an exact point the hypotheses hold, the conclusion fails, in balls.
 
 References: ``johansson2017arb``.
 """
@@ -44,7 +44,7 @@ def refutation(
     hypotheses: tuple[Comparison, ...] = (),
     bits: int = 192,
 ) -> Sides | None:
-    """Both sides of the conclusion, if the point provably meets every hypothesis and breaks the conclusion."""
+    """Both sides of the conclusion, if the point provably meets the hypotheses and breaks it."""
     with ctx.workprec(bits):
         balls = {name: ball_of(value) for name, value in point.items()}
         if any(holds(hypothesis, balls) is not True for hypothesis in hypotheses):

@@ -1,4 +1,4 @@
-"""The case a claim is decided for: m, n, a robot and gains, with a record of which of them a statement looked at."""
+"""The case a claim is decided for: m, n, a robot and gains, and which of them a statement looked at."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def lacking(reason: str) -> Lacking:
 
 @dataclass
 class Case:
-    """What a statement may depend on; reading ``m`` or ``n`` makes the claim one that is decided for each m or n."""
+    """What a statement may depend on; reading ``m`` makes the claim one that is decided for each m."""
 
     the_m: int
     the_n: int

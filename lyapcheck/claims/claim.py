@@ -37,7 +37,7 @@ class Claim:
 class Proof:
     """A proof: claims in the order of the text, each of which may use others.
 
-    Use it in a script as ``proof = Proof("name", "title")`` and decorate a function of the case for each claim::
+    In a script, write ``proof = Proof("name", "title")`` and decorate one function of the case per claim::
 
         @proof.claim("7a", "‖h_m(x)‖ ≤ √n γ_m", place="(7)")
         def bounded(case):
@@ -50,21 +50,21 @@ class Proof:
     claims: dict[str, Claim] = field(default_factory=dict)
 
     def claim(
-        self, id: str, says: str, *, place: str = "", section: str = "", uses: Iterable[str] = ()
+        self, claim_id: str, says: str, *, place: str = "", section: str = "", uses: Iterable[str] = ()
     ) -> Callable[[StatementOf], StatementOf]:
         """Add a claim whose statement, for a case, is what the decorated function returns."""
 
         def add(statement: StatementOf) -> StatementOf:
-            if id in self.claims:
-                raise ValueError(f"two claims have the id {id!r}")
-            self.claims[id] = Claim(id, says, place, section, tuple(uses), statement)
+            if claim_id in self.claims:
+                raise ValueError(f"two claims have the id {claim_id!r}")
+            self.claims[claim_id] = Claim(claim_id, says, place, section, tuple(uses), statement)
             return statement
 
         return add
 
-    def add(self, id: str, says: str, statement: Statement, **about: object) -> None:
+    def add(self, claim_id: str, says: str, statement: Statement, **about: object) -> None:
         """Add a claim whose statement does not depend on the case."""
-        self.claim(id, says, **about)(lambda case: statement)  # type: ignore[arg-type]
+        self.claim(claim_id, says, **about)(lambda case: statement)  # type: ignore[arg-type]
 
     def order(self, file: str) -> list[Claim]:
         """The claims so that each comes after all it uses; otherwise in the order of the text.
@@ -109,8 +109,8 @@ class Proof:
         found: set[str] = set()
         waiting = list(ids)
         while waiting:
-            id = waiting.pop()
-            if id not in found:
-                found.add(id)
-                waiting.extend(self.claims[id].uses)
+            claim = waiting.pop()
+            if claim not in found:
+                found.add(claim)
+                waiting.extend(self.claims[claim].uses)
         return found

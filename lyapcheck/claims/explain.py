@@ -15,7 +15,7 @@ from lyapcheck.claims.statements import AllOf, Statement
 WIDTH = 88
 
 
-def explain(id: str, script: str = "published.py") -> str:
+def explain(claim_id: str, script: str = "published.py") -> str:
     """The explanation of one claim, as text.
 
     Raises:
@@ -23,21 +23,21 @@ def explain(id: str, script: str = "published.py") -> str:
     """
     path = find_script(script)
     proof = load_proof(path, path.name)
-    check_ids(proof, (id,), path.name)
-    claim = proof.claims[id]
+    check_ids(proof, (claim_id,), path.name)
+    claim = proof.claims[claim_id]
     lines = [
         f"{claim.id}  {claim.says}",
         f"where    {claim.place or 'not said'}",
         f"uses     {', '.join(claim.uses) or 'no other claim'}",
-        f"used by  {', '.join(_users(proof, id)) or 'no other claim'}",
+        f"used by  {', '.join(_users(proof, claim_id)) or 'no other claim'}",
         *_how(claim),
-        f"run      lyapcheck check {path.name} --only {id}",
+        f"run      lyapcheck check {path.name} --only {claim_id}",
     ]
     return "\n".join(lines) + "\n"
 
 
-def _users(proof: Proof, id: str) -> list[str]:
-    return [claim.id for claim in proof.claims.values() if id in claim.uses]
+def _users(proof: Proof, used: str) -> list[str]:
+    return [claim.id for claim in proof.claims.values() if used in claim.uses]
 
 
 def _how(claim: Claim) -> list[str]:

@@ -12,9 +12,9 @@ Renderer = Callable[[ProofResult, bool], str]
 SHOWN_COORDINATES = 12
 
 
-def renderer(format: str) -> Renderer:
+def renderer(name: str) -> Renderer:
     """The function that writes a proof result in a format."""
-    return {"text": text, "json": as_json, "markdown": markdown}[format]
+    return {"text": text, "json": as_json, "markdown": markdown}[name]
 
 
 def as_json(result: ProofResult, timings: bool = False) -> str:
@@ -30,7 +30,7 @@ def text(result: ProofResult, timings: bool = False) -> str:
         for row in rows:
             lines += [_line(row, timings), *(f"             {detail}" for detail in details(row))]
         lines.append("")
-    return "\n".join([*lines, tally(result)]) + "\n"
+    return "\n".join([*lines, *assumed(result), tally(result)]) + "\n"
 
 
 def markdown(result: ProofResult, timings: bool = False) -> str:
@@ -45,13 +45,20 @@ def markdown(result: ProofResult, timings: bool = False) -> str:
             seconds = f" ({row.seconds:.2f} s)" if timings else ""
             lines.append("| " + " | ".join(_cell(str(c)) for c in [*cells, evidence + seconds]) + " |")
         lines.append("")
-    return "\n".join([*lines, tally(result)]) + "\n"
+    return "\n".join([*lines, *assumed(result), tally(result)]) + "\n"
 
 
 def headline(result: ProofResult) -> str:
     """What was run: the proof, m, n and the robot."""
     arm = f", robot {result.robot}" if result.robot else ""
     return f"{result.title}: m = {', '.join(map(str, result.ms))}, n = {result.n}{arm}"
+
+
+def assumed(result: ProofResult) -> list[str]:
+    """What is taken for granted about the robot, if anything."""
+    if not result.assumptions:
+        return []
+    return [f"Assumed about {result.robot}:", "", *(f"- {line}" for line in result.assumptions), ""]
 
 
 def tally(result: ProofResult) -> str:

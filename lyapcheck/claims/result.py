@@ -64,6 +64,7 @@ class ProofResult:
     n: int
     robot: str | None
     claims: tuple[ClaimResult, ...]
+    assumptions: tuple[str, ...] = ()
 
     @property
     def exit_code(self) -> Exit:
@@ -83,6 +84,7 @@ class ProofResult:
             "m": list(self.ms),
             "n": self.n,
             "robot": self.robot,
+            "assumptions": list(self.assumptions),
             "counts": self.counts(),
             "claims": [row.to_json(timings) for row in self.claims],
         }

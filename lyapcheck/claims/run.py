@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.claims.case import Case, Lacking
-from lyapcheck.claims.claim import Claim, Proof
+from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.decision import Decision, undecided
 from lyapcheck.claims.procedures import decide
 from lyapcheck.claims.result import ClaimResult, ProofResult
@@ -71,11 +71,19 @@ def run_proof(
             if (claim.id, None) not in settled:
                 result = _settle(claim, Case(*case_of), settled, shown)
                 settled[claim.id, result.m] = result
-    places = {id: k for k, id in enumerate(proof.claims)}
+    places = {name: k for k, name in enumerate(proof.claims)}
     keep = set(only) or set(proof.claims)
     rows = [r for r in settled.values() if r.id in keep]
     rows.sort(key=lambda r: (places[r.id], r.m or 0))
-    return ProofResult(proof.name, proof.title, tuple(ms), joints, model.name if model else None, tuple(rows))
+    return ProofResult(
+        proof.name,
+        proof.title,
+        tuple(ms),
+        joints,
+        model.name if model else None,
+        tuple(rows),
+        model.assumptions if model else (),
+    )
 
 
 def paper_case(m: int) -> Case:
@@ -88,7 +96,7 @@ def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResul
     """The result of one claim for one case."""
     begin = time.perf_counter()
     statement = _statement(claim, case, file)
-    used = [settled.get((id, case.the_m)) or settled[id, None] for id in claim.uses]
+    used = [settled.get((name, case.the_m)) or settled[name, None] for name in claim.uses]
     if any(result.m is not None for result in used):
         case.read.add("m")
     try:
@@ -117,7 +125,8 @@ def _chained(decision: Decision, used: list[ClaimResult], open_uses: tuple[str, 
     if decision.verdict is not Verdict.PROVED:
         return decision
     if open_uses:
-        reason = f"its own step holds, but it rests on {', '.join(open_uses)}; prove those, or prove it without them"
+        names = ", ".join(open_uses)
+        reason = f"its own step holds, but it rests on {names}; prove those, or prove it without them"
         return replace(undecided(reason, decision.method), evidence=decision.evidence)
     return replace(decision, grade=min([decision.grade, *(result.decision.grade for result in used)]))
 
@@ -134,8 +143,9 @@ def _statement(claim: Claim, case: Case, file: str) -> Statement:
         raise InputError(
             Problem(file, None, claim.id, "", rule, "correct the function of this claim")
         ) from error
-    if not isinstance(statement, Statement):
-        rule = f"its function returns a {type(statement).__name__}, not a statement"
+    returned: object = statement
+    if not isinstance(returned, Statement):
+        rule = f"its function returns a {type(returned).__name__}, not a statement"
         repair = (
             "return for_all(...), identity(...), norm_bound(...), implies(...), agrees(...) or all_of(...)"
         )
@@ -161,6 +171,3 @@ def _gain_sets(gains: Any, joints: int) -> tuple[Any, ...]:
         gains = paper_gain_file(DEFAULT_GAINS) if gains is None else gains
         gains = read_gain_file(gains) if isinstance(gains, (str, Path)) else gains
     return tuple(s for s in gains.gains if s.m is not None and len(s.kp) == joints)
-
-
-__all__ = ["Proof", "run_proof"]

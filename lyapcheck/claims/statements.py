@@ -73,7 +73,7 @@ class Implies(Statement):
 class ForSmall(Statement):
     """If the hypotheses hold, the relation holds for every small enough positive value of one variable.
 
-    Every other variable that is written in ``bounded`` runs over (0, 1], and the threshold serves all of them.
+    Every variable named in ``bounded`` runs over (0, 1], and the threshold serves all of them.
     """
 
     small: str
@@ -85,7 +85,7 @@ class ForSmall(Statement):
 
 @dataclass(frozen=True)
 class Agrees(Statement):
-    """A printed number agrees with a formula in printed numbers, to half a unit in each last printed place."""
+    """A printed number agrees with a formula in printed numbers, to half a unit in each last place."""
 
     formula: Tree
     inputs: tuple[tuple[str, str], ...]
@@ -119,7 +119,7 @@ def for_all(
     open_high: bool = False,
     variable: str = "x",
 ) -> ForAll:
-    """A relation for every x from low to high, both ends included unless said to be open; None is infinity."""
+    """A relation for every x from low to high, ends included unless said to be open; None is infinity."""
     return ForAll(relation, _end(low), _end(high), open_low, open_high, variable)
 
 
@@ -160,8 +160,13 @@ def agrees(formula: Expr, printed: str, **inputs: str) -> Agrees:
     return Agrees(formula.tree, tuple(sorted(inputs.items())), printed)
 
 
+def _exact(value: object) -> Fraction:
+    """The rational value of an exact number."""
+    return Fraction(expr(value).tree[1])
+
+
 def _end(value: object | None) -> Fraction | None:
-    return None if value is None else Fraction(value)  # type: ignore[arg-type]
+    return None if value is None else _exact(value)
 
 
 @dataclass(frozen=True)
@@ -176,7 +181,7 @@ class Majorant:
 class NormChain(Statement):
     """A product of factors is at most a bound, by the Cauchy–Schwarz inequality.
 
-    Each factor lists its majorants, any one of which may be used; ``smaller`` pairs symbols (a, b) with a <= b.
+    Each factor lists its majorants, any of which may be used; ``smaller`` pairs symbols (a, b) with a <= b.
     """
 
     factors: tuple[tuple[Majorant, ...], ...]
@@ -224,7 +229,7 @@ def norm_chain(
 def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> TrigonometricBound:
     """Polynomials in sines and cosines are bounded, or bounded by given numbers."""
     trees = [entry.tree for entry in entries]
-    limits = [None] * len(trees) if by is None else [Fraction(b) for b in by]  # type: ignore[arg-type]
+    limits = [None] * len(trees) if by is None else [_exact(b) for b in by]
     return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
 
 
@@ -235,4 +240,4 @@ def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
 
 def theorem(name: str, **hypotheses: str) -> Theorem:
     """A theorem applied; the keywords name its hypotheses, their values are the ids of claims."""
-    return Theorem(name, tuple((key.replace("_", " "), id) for key, id in hypotheses.items()))
+    return Theorem(name, tuple((key.replace("_", " "), claim) for key, claim in hypotheses.items()))

@@ -1,7 +1,7 @@
 """Products of norms: |xᵀ A y| <= ‖A‖ ‖x‖ ‖y‖, with the bounds known for each factor, against a claimed bound.
 
-Some choice of one majorant per factor must give a product in the same symbols as the bound, after symbols have
-been replaced by larger ones where ``smaller`` allows it, with a constant that is no larger.
+Some choice of one majorant per factor must give a product in the same symbols as the bound, after symbols
+have been replaced by larger ones where ``smaller`` allows it, with a constant that is no larger.
 
 References: ``reyes2019family`` (15), (16).
 """

@@ -93,7 +93,7 @@ class Signs:
         self.ring: fmpq_mpoly_ctx = self.algebra.ring
 
     def polynomial(self, relation: Relation) -> fmpq_mpoly:
-        """A polynomial with the sign of the gap, in generators that are bounded below by zero where possible."""
+        """A polynomial with the sign of the gap, in generators shifted to be >= 0 where possible."""
         values = {name: self.algebra.variable(name) for name in self.algebra.names}
         ratio = evaluate(relation.gap, values, self.algebra)
         top, bottom = (self._shifted(self.algebra.reduced(p)) for p in (ratio.top, ratio.bottom))
@@ -151,7 +151,7 @@ class Cancellation:
     nodes: int
 
     def reaches(self, goal: fmpq_mpoly, strict: bool, depth: int) -> bool:
-        """Whether goal >= 0 (> 0 if strict) follows; a strict hypothesis, once used, leaves only >= 0 to show."""
+        """Whether goal >= 0 (> 0 if strict) follows; a strict hypothesis, once used, leaves >= 0 to show."""
         self.nodes -= 1
         if self.signs.is_positive(goal) if strict else self.signs.is_nonnegative(goal):
             return True
@@ -170,7 +170,7 @@ class Cancellation:
 def _cancellations(
     signs: Signs, goal: fmpq_mpoly, hypothesis: fmpq_mpoly
 ) -> Iterator[tuple[fmpq_mpoly, bool]]:
-    """Remainders μ·goal − λ·μ'·hypothesis in which a negative term of the goal is gone, and whether μ' > 0."""
+    """Remainders μ·goal − λ·μ'·hypothesis without one negative term of the goal, and whether μ' > 0."""
     bad = [(e, c) for e, c in goal.to_dict().items() if c < 0 or not signs.monomial_is(e, False)]
     for e, c in bad[:1]:
         for f, d in hypothesis.to_dict().items():

@@ -4,7 +4,7 @@
 - k = 1, f(0) = 0: put all but one entry to 0 and the bound needs |f(t)| <= c|t|; squared and summed over the
   entries, that also gives it. If f(0) ≠ 0, the bound fails at x = 0.
 
-A bound by a certified supremum (c = √n·γ with f = h, or √n·ρ with f = h') holds by the definition of the supremum.
+A bound by a certified supremum (c = √n·γ with f = h, or √n·ρ with f = h') holds by its definition.
 
 References: ``reyes2019family`` (7), (8).
 """

@@ -1,7 +1,7 @@
 """Inequalities in one variable, on an interval, a half-line or the whole line.
 
-Search comes first: a sample of exact points, each tried in balls. Where it finds nothing, the domain is cut at 0,
-the negative side is reflected, and each piece is proved by the steps of ``check.inequality``.
+Search comes first: a sample of exact points, each tried in balls. Where it finds nothing, the domain is cut
+at 0, the negative side is reflected, and each piece is proved by the steps of ``check.inequality``.
 
 References: ``reyes2019family`` (7), (8); ``tucker2011validated``.
 """
@@ -33,6 +33,8 @@ def decide_for_all(statement: ForAll) -> Decision:
     cover the domain, each shown by a step of ``check.inequality``.
     """
     found = first_refutation(statement.relation, [{statement.variable: p} for p in sample(statement)])
+    if found is None:
+        found = first_refutation(statement.relation, [{statement.variable: p} for p in valleys(statement)])
     if found is not None:
         return refuted(Grade.ENCLOSURE, f"{METHOD}: a point where it fails", witness_data(*found))
     steps: list[str] = []
@@ -83,6 +85,19 @@ def sample(statement: ForAll) -> list[Fraction]:
     return [point for point in points if point not in skip]
 
 
+def valleys(statement: ForAll) -> list[Fraction]:
+    """Points of the domain near which the gap is smallest in floating point."""
+    from lyapcheck.claims.procedures.sampling import lowest_points
+
+    low = (
+        statement.low
+        if statement.low is not None
+        else min(Fraction(-20), (statement.high or 0) - Fraction(20))
+    )
+    high = statement.high if statement.high is not None else max(Fraction(20), low + 40)
+    return lowest_points(statement.relation, statement.variable, low, high)
+
+
 def _prove(tree: Tree, statement: ForAll, low: Fraction, high: Fraction | None) -> str:
     """The step that proves one piece, or "?" and what to try next."""
     strict = statement.relation.strict
@@ -109,7 +124,7 @@ def _prove_by_balls(tree: Tree, name: str, low: Fraction, high: Fraction | None)
     if low == 0:
         start = _start_of_boxes(tree, name, high)
         if start is None:
-            return "?the sign next to 0 is open: no Taylor coefficient up to order 16 decides it"
+            return "?the sign next to 0 is open: no Taylor coefficient up to order 96 decides it"
         low = start
         used.append("Taylor at 0")
     if high is None:
@@ -122,7 +137,7 @@ def _prove_by_balls(tree: Tree, name: str, low: Fraction, high: Fraction | None)
         used.append("dominant term at infinity")
     boxes = count_boxes(tree, name, low, high)
     if boxes is None:
-        return f"?{MAX_BOXES} boxes did not settle [{low}, {high}]; shrink the interval or look for equality inside"
+        return f"?{MAX_BOXES} boxes did not settle [{low}, {high}]; shrink it or look for equality inside"
     return ", ".join([*used, f"{boxes} Taylor boxes"])
 
 
@@ -135,7 +150,7 @@ def _start_of_boxes(tree: Tree, name: str, high: Fraction | None) -> Fraction | 
 
 
 def count_boxes(tree: Tree, name: str, low: Fraction, high: Fraction) -> int | None:
-    """The number of boxes on which positivity over [low, high] is shown by bisection; None if the budget ends."""
+    """The number of boxes that show positivity over [low, high] by bisection; None if the budget ends."""
     stack, used = [(low, high)], 0
     while stack:
         left, right = stack.pop()

@@ -1,7 +1,7 @@
 """Printed numbers: whether a result that a text prints agrees with the numbers it prints beside it.
 
-A number printed as 0.5934 stands for some real in [0.59335, 0.59345]. The printed result agrees if some choice
-of inputs within their half units gives a result within its half unit; it disagrees if none does.
+A number printed as 0.5934 stands for some real in [0.59335, 0.59345]. The printed result agrees if some
+choice of inputs within their half units gives a result within its half unit; it disagrees if none does.
 
 References: ``reyes2019family``, Section 4.
 """
@@ -27,8 +27,8 @@ BITS = 128
 def decide_agrees(statement: Agrees) -> Decision:
     """Decide whether a printed number agrees with a formula in printed numbers.
 
-    Soundness: ``proved`` if the exact printed inputs give a result inside the half unit, or if two corners of the
-    inputs' ranges lie on either side of it (the formula is continuous there); ``refuted`` if the formula,
+    Soundness: ``proved`` if the exact printed inputs give a result inside the half unit, or if two corners of
+    the inputs' ranges lie on either side of it (the formula is continuous there); ``refuted`` if the formula,
     enclosed over the whole ranges, stays outside.
     """
     inputs = {name: Fraction(text) for name, text in statement.inputs}

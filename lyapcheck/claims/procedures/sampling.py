@@ -1,4 +1,4 @@
-"""Candidate counterexamples in many variables, by vectorised sampling in floating point: untrusted and fast."""
+"""Candidate counterexamples in many variables by vectorised floating point: untrusted and fast."""
 
 from __future__ import annotations
 
@@ -48,7 +48,8 @@ def values_of(tree: Tree, points: dict[str, Floats]) -> Floats:
     """An expression at many points."""
     size = len(next(iter(points.values()), np.zeros(1)))
     with np.errstate(all="ignore"):
-        return np.broadcast_to(np.asarray(evaluate(tree, points, FloatAlgebra()), dtype=np.float64), (size,))
+        values = np.zeros(size) + evaluate(tree, points, FloatAlgebra())
+    return np.asarray(values, dtype=np.float64)
 
 
 def candidates(
@@ -64,26 +65,47 @@ def candidates(
             break
         points, score = _climb(points, order, step, variables, hypotheses, conclusion, generator)
     for index in np.argsort(score, kind="stable")[:KEPT]:
-        if score[index] < 0:
+        if score[index] < 0 or (conclusion.strict and score[index] == 0):
             yield {v.name: _exact(float(points[v.name][index]), v) for v in variables}
 
 
+def lowest_points(relation: Relation, name: str, low: Fraction, high: Fraction) -> list[Fraction]:
+    """Points of [low, high] where the gap is smallest, by a fine grid and a zoom on its lowest valleys."""
+    grid = np.linspace(float(low), float(high), 20_001)
+    gap = values_of(relation.gap, {name: grid})
+    gap = np.where(np.isfinite(gap), gap, np.inf)
+    valleys = np.flatnonzero((gap[1:-1] <= gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
+    chosen = valleys[np.argsort(gap[valleys], kind="stable")[:KEPT]]
+    step = float(grid[1] - grid[0])
+    found = [_zoom(relation, name, float(grid[index]), step) for index in chosen]
+    return [point for point in map(Fraction, found) if low < point < high]
+
+
+def _zoom(relation: Relation, name: str, centre: float, width: float) -> float:
+    for _ in range(5):
+        grid = centre + np.linspace(-width, width, 101)
+        gap = values_of(relation.gap, {name: grid})
+        centre, width = float(grid[int(np.argmin(np.where(np.isnan(gap), np.inf, gap)))]), width / 40
+    return centre
+
+
 def _draw(variable: Variable, count: int, generator: np.random.Generator) -> Floats:
-    """Sizes even in the exponent; signs at random where the variable is not bounded below."""
+    """Sizes even in the exponent, the first of them 1; signs at random where nothing bounds from below."""
     size = np.exp(generator.uniform(-4.0, 4.0, count))
     if variable.low is not None:
-        return float(variable.low) + size
-    return size * generator.choice([-1.0, 1.0], count)
+        size[0] = 1.0
+        return np.asarray(float(variable.low) + size, dtype=np.float64)
+    return np.asarray(size * generator.choice([-1.0, 1.0], count), dtype=np.float64)
 
 
 def _score(points: dict[str, Floats], hypotheses: tuple[Relation, ...], conclusion: Relation) -> Floats:
-    """The relative gap of the conclusion: negative where it fails; infinite where a hypothesis does not hold."""
+    """The relative gap of the conclusion: negative where it fails, infinite where a hypothesis does."""
     left, right = values_of(conclusion.left, points), values_of(conclusion.right, points)
-    score = (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
+    score: Any = (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
     for hypothesis in hypotheses:
         gap = values_of(hypothesis.gap, points)
-        score = np.where(gap > 0, score, np.inf)
-    return np.where(np.isnan(score), np.inf, score)
+        score = np.where((gap > 0) | ((gap == 0) & (not hypothesis.strict)), score, np.inf)
+    return np.asarray(np.where(np.isnan(score), np.inf, score), dtype=np.float64)
 
 
 def _climb(

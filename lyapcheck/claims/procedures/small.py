@@ -1,8 +1,8 @@
 """Relations that hold for every small enough positive value of one variable ε.
 
-The gap of the conclusion is a polynomial p(ε, t, …), t in (0, 1]. Divided by the powers of ε and t that divide it,
-it is continuous on the compact range of t, so p > 0 for small ε as soon as its value at ε = 0 is positive and
-free of t. That value is the leading term, and its sign is an implication of its own.
+The gap of the conclusion is a polynomial p(ε, t, …), t in (0, 1]. Divided by the powers of ε and t that
+divide it, it is continuous on the compact range of t, so p > 0 for small ε as soon as its value at ε = 0 is
+positive and free of t. That value is the leading term, and its sign is an implication of its own.
 """
 
 from __future__ import annotations

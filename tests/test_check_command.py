@@ -1,0 +1,67 @@
+"""The check and explain commands: exit codes, formats, and one clear message for every bad input."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+
+def lyapcheck(*arguments, folder=None):
+    command = [sys.executable, "-m", "lyapcheck.cli.main", *arguments]
+    code = (
+        f"import sys; sys.argv = {['lyapcheck', *arguments]!r}; from lyapcheck.cli.main import main; main()"
+    )
+    command = [sys.executable, "-c", code]
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=120, check=False)
+
+
+@pytest.mark.parametrize(("claim", "code"), [("7a", 0), ("16.6", 1), ("P", 3), ("T1.torque.m1.elbow", 0)])
+def test_exit_codes_follow_the_verdicts(claim, code, tmp_path):
+    run = lyapcheck("check", "published.py", "--m", "2", "--only", claim, folder=tmp_path)
+    assert run.returncode == code, run.stderr
+    assert claim in run.stdout
+
+
+def test_json_goes_to_stdout_and_progress_to_stderr(tmp_path):
+    run = lyapcheck(
+        "check", "proofs/published.py", "--m", "1,2", "--only", "8b", "--format", "json", folder=tmp_path
+    )
+    data = json.loads(run.stdout)
+    assert [(row["m"], row["verdict"]) for row in data["claims"]] == [(1, "refuted"), (2, "proved")]
+    assert data["claims"][0]["witness"]["point"] == {"x1": "0", "x2": "0", "x3": "0"}
+    assert "seconds" not in data["claims"][0]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("check", "nowhere.py"),
+        ("check", "published.py", "--m", "0"),
+        ("check", "published.py", "--n", "0"),
+        ("check", "published.py", "--n", "2", "--robot", "buap3"),
+        ("check", "published.py", "--robot", "nobody"),
+        ("check", "published.py", "--gains", "nowhere.toml"),
+        ("check", "published.py", "--only", "7z"),
+        ("explain", "7z"),
+    ],
+)
+def test_bad_input_is_one_message_and_exit_code_2(arguments, tmp_path):
+    run = lyapcheck(*arguments, folder=tmp_path)
+    assert run.returncode == 2, run.stderr
+    assert "Traceback" not in run.stderr
+    assert run.stdout == ""
+
+
+def test_explain_needs_no_decision(tmp_path):
+    run = lyapcheck("explain", "7b", folder=tmp_path)
+    assert run.returncode == 0
+    assert "(7), second line" in run.stdout
+
+
+def test_markdown_is_one_table_a_section(tmp_path):
+    run = lyapcheck(
+        "check", "published.py", "--only", "17a", "--format", "markdown", "--timings", folder=tmp_path
+    )
+    assert run.stdout.count("|---|") == 1
+    assert " s) |" in run.stdout

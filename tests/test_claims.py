@@ -1,0 +1,248 @@
+"""The decision procedures: true statements near false ones, outside facts, and faults that must be seen."""
+
+from fractions import Fraction
+
+import pytest
+from flint import arb, fmpq_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lyapcheck.check.fourier import fourier_sum
+from lyapcheck.check.functions import ball, derivative, taylor
+from lyapcheck.check.inequality import positive_from, positive_near_zero
+from lyapcheck.check.normal_form import is_zero
+from lyapcheck.check.polynomials import count_roots, nonnegative_on, positive_on
+from lyapcheck.check.witness import refutation
+from lyapcheck.claims import (
+    Constant,
+    ForSmall,
+    agrees,
+    all_of,
+    always_positive,
+    atan,
+    bounded,
+    cos,
+    cosh,
+    dh,
+    diff,
+    exp,
+    expr,
+    for_all,
+    gamma,
+    h,
+    identity,
+    implies,
+    log,
+    majorant,
+    nonnegative,
+    norm_bound,
+    norm_chain,
+    positive,
+    potential,
+    reals,
+    rho,
+    sin,
+    sinh,
+    sqrt,
+    tanh,
+    var,
+)
+from lyapcheck.claims.decision import Decision, proved, refuted, undecided
+from lyapcheck.claims.procedures import decide
+from lyapcheck.verdicts import Grade, Verdict
+
+x, y, a, b, c = map(var, "xyabc")
+MITRINOVIC = (3 + x**2 / 11) * sinh(x) < x * (2 + cosh(x) + x**2 / 11)  # mitrinovic1970analytic, 3.6.12
+
+PROVED = {
+    "Mitrinović 3.6.12 on its interval": for_all(MITRINOVIC, "0.01", "5.1785"),
+    "Mitrinović 3.6.12 down to 0": for_all(MITRINOVIC, 0, "5.1785", open_low=True),
+    "tanh x ≤ x, equality to second order at 0": for_all(tanh(x) <= x, 0),
+    "tanh x < x right of 0": for_all(tanh(x) < x, 0, open_low=True),
+    "tanh x ≤ 1, equality at infinity": for_all(tanh(x) <= 1),
+    "exp x ≥ 1 + x on the line, equality inside": for_all(exp(x) >= 1 + x),
+    "a square, touching 0 at 1": for_all((x - 1) ** 2 >= 0),
+    "cosh x ≥ 1 + x²/2": for_all(cosh(x) >= 1 + x**2 / 2),
+    "ln(1 + x) ≤ x": for_all(log(1 + x) <= x, 0, 5),
+    "atan x ≤ x": for_all(atan(x) <= x, 0, 20),
+    "√(1 + x) ≤ 1 + x/2": for_all(sqrt(1 + x) <= 1 + x / 2, 0, 100),
+    "h_2 stays below 1.0536": for_all(h(2, x) <= "1.0536"),
+    "h_8 is continuous up to 96 orders at 0": for_all(expr(0) <= x * h(8, x)),
+    "addition theorem": identity(sinh(x + y), sinh(x) * cosh(y) + cosh(x) * sinh(y)),
+    "sin² + cos²": identity(sin(x) ** 2 + cos(x) ** 2, 1),
+    "U' = h": identity(diff(potential(5, x), "x"), h(5, x)),
+    "√2 √2 = 2": identity(sqrt(2) * sqrt(2), 2),
+    "√3 < 1.7321": Constant(sqrt(3) < "1.7321"),
+    "‖h‖ ≤ √n γ": norm_bound(h(3, x), 4, sqrt(4) * gamma(3)),
+    "‖h'‖ ≤ √n ρ": norm_bound(dh(3, x), 4, 2 * rho(3)),
+    "‖tanh x‖ ≤ ‖x‖": norm_bound(h(1, x), 3, 1, power=1),
+    "transitivity": implies(positive("a", "b", "c"), (a < b, b <= c), a < c),
+    "a square of reals": implies(reals("a", "b"), (), expr(0) <= a**2 + b**4),
+    "a product of positives": implies(positive("a", "b"), (expr(1) < a, expr(1) < b), expr(1) < a * b),
+    "√3 > 1 is known": implies(positive("a"), (), a < sqrt(3) * a),
+    "small ε": ForSmall("eps", positive("a", "b"), (a < b,), var("eps") * a + a < b),
+    "rounding": agrees(a * b, "0.01", a="0.06", b="0.133"),
+    "rounding of the inputs": agrees(a * b, "100", a="9", b="10"),
+    "amplitudes": bounded([sin(x) * cos(y) + cos(x) * sin(y)], [1]),
+    "mean above amplitude": always_positive([2 + cos(x) * cos(y) + sin(x) * sin(y)]),
+    "norms": norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1)),
+    "ε ≤ ε₀": norm_chain([(majorant(eps=2),)], majorant(eps=1, eps0=1), (("eps", "eps0"),)),
+}
+
+REFUTED = {
+    "Mitrinović 3.6.12 too far": for_all(MITRINOVIC, "0.01", "5.2"),
+    "tanh x ≤ x left of 0": for_all(tanh(x) <= x),
+    "tanh x < x at 0": for_all(tanh(x) < x, 0),
+    "tanh x ≤ 0.999": for_all(tanh(x) <= "0.999"),
+    "exp x ≥ 1 + 1.01 x": for_all(exp(x) >= 1 + expr("1.01") * x),
+    "exp x > 1 + x at 0": for_all(exp(x) > 1 + x),
+    "a square minus a little": for_all((x - 1) ** 2 >= expr("0.001")),
+    "√(1 + x) ≤ 1 + x/3": for_all(sqrt(1 + x) <= 1 + x / 3, 0, 100),
+    "h_2 stays below 1.05": for_all(h(2, x) <= "1.05"),
+    "addition theorem with a sign": identity(sinh(x + y), sinh(x) * cosh(y) - cosh(x) * sinh(y)),
+    "h'' is not h'": identity(diff(h(2, x), "x"), 2 * dh(2, x)),
+    "U' is not 2 h": identity(diff(potential(5, x), "x"), 2 * h(5, x)),
+    "√3 < 1.732": Constant(sqrt(3) < "1.732"),
+    "‖h‖ ≤ γ without √n": norm_bound(h(3, x), 4, gamma(3)),
+    "‖h_1‖ ≤ γ without √n, never reached": norm_bound(h(1, x), 2, gamma(1)),
+    "‖h'‖ ≤ √n ρ‖x‖ at 0": norm_bound(dh(1, x), 3, sqrt(3), power=1),
+    "‖h‖ ≤ ½ √n γ ‖x‖": norm_bound(h(1, x), 3, sqrt(3) / 2, power=1),
+    "transitivity of ≤ is not strict": implies(positive("a", "b", "c"), (a <= b, b <= c), a < c),
+    "a cube is not positive": implies(reals("a", "b"), (), expr(0) <= a**2 + b**3),
+    "a product of positives the other way": implies(positive("a", "b"), (expr(1) < a * b,), expr(1) < a),
+    "rounding": agrees(a * b, "0.01", a="0.6", b="0.133"),
+    "8.8 is not 8": agrees(100 * (1 - a / b), "8", a="25.4006", b="27.8546"),
+    "amplitudes": bounded([sin(x) * cos(y) + cos(x) * sin(y)], ["0.99"]),
+    "amplitude above mean": always_positive([expr("0.9") + cos(x)]),
+}
+
+UNDECIDED = {
+    "norms too large": norm_chain([(majorant(2, w=1),)], majorant("1.9", w=1)),
+    "other symbols": norm_chain([(majorant(w=1),)], majorant(e=1)),
+    "larger ε": norm_chain([(majorant(eps=1, eps0=1),)], majorant(eps=2), (("eps", "eps0"),)),
+    "leading term of unknown sign": ForSmall("eps", positive("a", "b"), (), var("eps") * a + a < b),
+    "a leading term that vanishes": ForSmall("eps", positive("a"), (), a + var("eps") < a),
+}
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_true_statements_are_proved(name):
+    decision = decide(PROVED[name])
+    assert decision.verdict is Verdict.PROVED, decision
+    assert decision.grade in (Grade.ENCLOSURE, Grade.EXACT)
+
+
+@pytest.mark.parametrize("name", REFUTED)
+def test_false_statements_are_refuted_with_a_witness(name):
+    decision = decide(REFUTED[name])
+    assert decision.verdict is Verdict.REFUTED, decision
+    assert decision.witness["left"] != decision.witness["right"] or decision.witness["operator"] == "<"
+
+
+@pytest.mark.parametrize("name", UNDECIDED)
+def test_open_statements_come_with_a_reason(name):
+    decision = decide(UNDECIDED[name])
+    assert decision.verdict is Verdict.UNDECIDED
+    assert decision.reason
+
+
+@pytest.mark.parametrize("m", [1, 2, 3, 7])
+@pytest.mark.parametrize("wrong", ["1.0000001", "0.999999"])
+def test_a_derivative_that_is_off_by_a_factor_is_refuted(m, wrong):
+    assert decide(identity(diff(h(m, x), "x"), expr(wrong) * dh(m, x))).verdict is Verdict.REFUTED
+
+
+@given(st.integers(2, 9), st.integers(-6, 6))
+def test_bounds_just_beside_gamma_fall_on_their_sides(m, offset):
+    """γ_m from the certified constants: a bound above is proved by Sturm, one below refuted by a point."""
+    from lyapcheck.check.constants import hyperbolic_constants
+
+    bound = hyperbolic_constants(m).gamma.mid + Fraction(2 * offset + 1, 500)
+    expected = Verdict.PROVED if offset >= 0 else Verdict.REFUTED
+    assert decide(for_all(h(m, x) <= bound)).verdict is expected
+
+
+@given(st.lists(st.integers(-4, 4), min_size=1, max_size=5), st.integers(-5, 5))
+def test_sturm_counts_the_roots_it_is_given(roots, low):
+    poly = fmpq_poly([1])
+    for root in roots:
+        poly *= fmpq_poly([-root, 1])
+    assert count_roots(poly, Fraction(low), None) == len({r for r in roots if r > low})
+    changes = [r for r in set(roots) if roots.count(r) % 2 and r > low]
+    assert nonnegative_on(poly, Fraction(low), None) is (not changes)
+    assert positive_on(poly, Fraction(low), None) is (not [r for r in roots if r >= low])
+
+
+def test_taylor_coefficients_enclose_those_at_every_point_of_the_ball():
+    tree = (tanh(x) * exp(x)).tree
+    wide = taylor(tree, "x", arb(1, 0.01), 4)
+    for point in (arb("0.995"), arb(1), arb("1.005")):
+        assert all(
+            big.contains(small.mid()) for big, small in zip(wide, taylor(tree, "x", point, 4), strict=True)
+        )
+
+
+def test_derivatives_of_every_function_agree_with_the_series():
+    for name in ("exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asin", "acos", "atan"):
+        tree = (name, ("mul", ("num", "1/3"), ("var", "x")))
+        point = arb("0.7")
+        assert derivative(tree, "x") is not None
+        assert ball(derivative(tree, "x"), {"x": point}).overlaps(taylor(tree, "x", point, 1)[1]), name
+
+
+def test_equality_of_values_is_not_taken_for_a_proof():
+    assert not positive_near_zero((x - x).tree, "x", Fraction(1, 2))
+    assert not positive_from((x - x).tree, "x", Fraction(4))
+    assert not positive_from((tanh(x) - 1).tree, "x", Fraction(4))
+    assert not is_zero((log(x * y) - log(x) - log(y)).tree)
+
+
+def test_an_undefined_expression_proves_and_refutes_nothing():
+    decision = decide(for_all(expr(0) <= sqrt(x - 10), 0, 5))
+    assert decision.verdict is Verdict.UNDECIDED
+    assert refutation((sqrt(x).tree, "<=", expr(0).tree), {"x": Fraction(-1)}) is None
+
+
+def test_a_witness_must_meet_the_hypotheses():
+    conclusion = (a.tree, "<=", expr(1).tree)
+    point = {"a": Fraction(2)}
+    assert refutation(conclusion, point) is not None
+    assert refutation(conclusion, point, ((a.tree, "<", expr("1.5").tree),)) is None
+
+
+def test_fourier_bounds_of_a_product_hold_at_points():
+    f = sin(x) ** 2 * cos(y) + 3 * cos(x) * sin(y)
+    total = fourier_sum(f.tree)
+    for k in range(40):
+        value = ball(f.tree, {"x": arb(k) / 7, "y": arb(k) / 5})
+        assert abs(float(value.mid()) - float(total.mean)) <= float(total.swing)
+
+
+def test_numbers_must_be_exact():
+    with pytest.raises(TypeError, match="not exact"):
+        expr(0.1)
+    with pytest.raises(TypeError, match="no truth value"):
+        bool(expr(1) < x)
+
+
+def test_numeric_evidence_decides_nothing():
+    with pytest.raises(ValueError, match="numeric"):
+        proved(Grade.NUMERIC, "sampling")
+    with pytest.raises(ValueError, match="witness"):
+        refuted(Grade.EXACT, "by thought", {})
+    with pytest.raises(ValueError, match="says why"):
+        Decision(Verdict.UNDECIDED, Grade.NUMERIC, "sampling")
+
+
+def test_a_conjunction_is_as_good_as_its_weakest_part():
+    good, bad = for_all(tanh(x) <= x, 0), for_all(tanh(x) <= x, -1, 0)
+    assert decide(all_of(one=good)).verdict is Verdict.PROVED
+    both = decide(all_of(one=good, two=bad))
+    assert both.verdict is Verdict.REFUTED
+    assert both.reason.startswith("two")
+    assert undecided("why", "how").grade is Grade.NUMERIC
+
+
+def test_a_lower_bound_of_a_variable_is_used_and_respected():
+    assert decide(implies(nonnegative("a"), (), expr(0) <= a)).verdict is Verdict.PROVED
+    assert decide(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED

@@ -1,0 +1,183 @@
+"""Proof scripts of users: what they may write, what is refused, and how claims lean on each other."""
+
+import json
+
+import pytest
+
+from lyapcheck.claims import run_proof
+from lyapcheck.claims.explain import explain
+from lyapcheck.claims.render import renderer
+from lyapcheck.errors import InputError
+from lyapcheck.verdicts import Exit, Verdict
+
+HEAD = """
+from lyapcheck.claims import *
+proof = Proof("mine", "My proof")
+x = var("x")
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def to_file(body, head=HEAD):
+        path = tmp_path / "mine.py"
+        path.write_text(head + body, encoding="utf-8")
+        return path
+
+    return to_file
+
+
+def verdicts(path, **options):
+    result = run_proof(path, **{"ms": (1,), "n": 2} | options)
+    return {row.id: row for row in result.claims}
+
+
+CHAIN = """
+proof.add("a", "tanh x ≤ {slope} x", for_all(tanh(x) <= {slope} * x, 0))
+proof.add("b", "1 ≤ 2", Constant(expr(1) <= 2), uses=["a"])
+proof.add("c", "1 ≤ 3", Constant(expr(1) <= 3), uses=["b"])
+proof.add("d", "3 ≤ 1", Constant(expr(3) <= 1), uses=["a"])
+"""
+
+
+def test_what_rests_on_a_proved_claim_is_proved_with_the_weakest_grade(write):
+    rows = verdicts(write(CHAIN.replace("{slope}", "1")))
+    assert [rows[k].verdict.value for k in "abcd"] == ["proved", "proved", "proved", "refuted"]
+    assert rows["c"].decision.grade.label == "enclosure"
+    assert rows["c"].broken == ()
+
+
+def test_what_rests_on_a_refuted_claim_is_undecided_and_says_so(write):
+    rows = verdicts(
+        write(CHAIN.replace("{slope}", "Fraction(1, 2)"), HEAD + "from fractions import Fraction\n")
+    )
+    assert rows["a"].verdict is Verdict.REFUTED
+    assert rows["b"].verdict is rows["c"].verdict is Verdict.UNDECIDED
+    assert rows["b"].broken == ("a",)
+    assert rows["c"].broken == ("b",)
+    assert "rests on b" in rows["c"].decision.reason
+    assert rows["d"].verdict is Verdict.REFUTED, "a witness needs nothing that it rests on"
+
+
+def test_a_claim_that_looks_at_m_has_a_row_for_each_m_and_the_others_one(write):
+    body = """
+@proof.claim("m", "h_m is below 1.06")
+def _(case):
+    return for_all(h(case.m, x) <= "1.06")
+
+proof.add("none", "1 ≤ 2", Constant(expr(1) <= 2))
+proof.add("above", "1 ≤ 2", Constant(expr(1) <= 2), uses=["m"])
+"""
+    result = run_proof(write(body), ms=(2, 3), n=1)
+    assert [(row.id, row.m, row.verdict.value) for row in result.claims] == [
+        ("m", 2, "proved"),
+        ("m", 3, "refuted"),
+        ("none", None, "proved"),
+        ("above", 2, "proved"),
+        ("above", 3, "undecided"),
+    ]
+    assert result.exit_code is Exit.REFUTED
+
+
+def test_a_norm_bound_may_hold_for_one_n_and_fail_for_another(write):
+    path = write("""
+@proof.claim("n", "‖h_2(x)‖ ≤ √2 γ_2")
+def _(case):
+    return norm_bound(h(2, x), case.n, sqrt(2) * gamma(2))
+""")
+    found = [verdicts(path, n=n)["n"] for n in (1, 2, 3)]
+    assert [(row.n, row.verdict.value) for row in found] == [(1, "proved"), (2, "proved"), (3, "refuted")]
+
+
+def test_only_some_claims_are_reported_but_what_they_use_is_decided(write):
+    result = run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=1, only=("c",))
+    assert [row.id for row in result.claims] == ["c"]
+    assert result.exit_code is Exit.PROVED
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ("def f(:", "is not Python"),
+        ("1 / 0", "raises ZeroDivisionError"),
+        ("import no_such_module", "raises ModuleNotFoundError"),
+        ("expr(0.5)", "not exact"),
+        ("second = Proof('b', 'b')", "exactly one Proof"),
+        (
+            "proof.add('a', '', Constant(expr(1) <= 2), uses=['z'])",
+            "uses a claim that the script does not make",
+        ),
+        (
+            "proof.add('a', '', Constant(expr(1) <= 2), uses=['b'])\n"
+            "proof.add('b', '', Constant(expr(1) <= 2), uses=['a'])",
+            "in a circle",
+        ),
+        (
+            "proof.add('a', '', Constant(expr(1) <= 2))\nproof.add('a', '', Constant(expr(1) <= 2))",
+            "two claims",
+        ),
+        ("@proof.claim('a', '')\ndef _(case):\n    return case.nothing", "raises AttributeError"),
+        ("@proof.claim('a', '')\ndef _(case):\n    return 'true'", "not a statement"),
+        ("@proof.claim('a', '')\ndef _(case):\n    return expr(1) <= 2", "not a statement"),
+    ],
+)
+def test_a_script_that_cannot_be_used_is_refused_with_the_rule(write, body, message):
+    with pytest.raises(InputError, match=message):
+        run_proof(write(body), ms=(1,), n=1)
+
+
+def test_a_script_error_names_its_line(write):
+    with pytest.raises(InputError) as caught:
+        run_proof(write("\n\n1 / 0\n"), ms=(1,), n=1)
+    assert caught.value.problems[0].line == 7
+
+
+def test_missing_scripts_and_ids_are_refused(write):
+    with pytest.raises(InputError, match="no such proof script"):
+        run_proof("nowhere.py")
+    with pytest.raises(InputError, match="did you mean a"):
+        run_proof(write("proof.add('alpha', '', Constant(expr(1) <= 2))"), n=1, only=("alpha2",))
+
+
+def test_a_claim_about_a_robot_is_undecided_without_one(write):
+    path = write("@proof.claim('r', 'M')\ndef _(case):\n    return bounded(gravity_vector(case.robot))\n")
+    assert "--robot" in verdicts(path)["r"].decision.reason
+    assert verdicts(path, n=None, robot="reyes-kelly2")["r"].verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize("name", ["text", "json", "markdown"])
+def test_output_is_the_same_every_time_and_has_no_clock(write, name):
+    path = write(CHAIN.replace("{slope}", "1"))
+    first, second = (renderer(name)(run_proof(path, ms=(1,), n=2), False) for _ in range(2))
+    assert first == second
+    assert "seconds" not in first
+    assert str(path) not in first
+
+
+def test_json_has_the_fields_of_its_schema(write):
+    data = json.loads(renderer("json")(run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2), True))
+    assert data["schema"] == "lyapcheck/check/1"
+    wanted = {
+        "id",
+        "m",
+        "n",
+        "statement",
+        "verdict",
+        "grade",
+        "uses",
+        "broken",
+        "witness",
+        "reason",
+        "method",
+    }
+    assert all(wanted | {"seconds"} <= set(row) for row in data["claims"])
+    assert data["counts"]["refuted"] == 1
+
+
+def test_explain_names_place_use_and_procedure():
+    text = explain("16.6")
+    assert "term 6" in text
+    assert "used by  16" in text
+    assert "Implies" in text
+    with pytest.raises(InputError, match=r"did you mean 16\.6"):
+        explain("16_6")

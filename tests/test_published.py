@@ -1,0 +1,161 @@
+"""The paper's own proof: verdicts found by hand elsewhere, and faults planted in the script."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.claims import run_proof
+from lyapcheck.claims.script import find_script
+from lyapcheck.verdicts import Verdict
+
+ONE = Path(find_script("published.py"))
+
+# Worked out by hand from the paper's text: a printed number against a printed number, or a limit case.
+BY_HAND = {
+    ("7g", 1): "proved",  # tanh < 1
+    ("7g", 2): "refuted",  # the peak is at sinh²x = 2 + √7, where h_2 = 1.0536
+    ("7g", 3): "refuted",  # the peak is 1.1142
+    ("8b", 1): "refuted",  # at x = 0 the left side is √n, the right side 0
+    ("16.6", 1): "refuted",  # h is bounded, the right side is not
+    ("16", 2): "refuted",
+    ("17a", None): "refuted",  # √n is missing in the printed bracket
+    ("17b", None): "proved",
+    ("17c", None): "refuted",  # the second line drops a positive term
+    ("17d", None): "proved",
+    ("18", None): "refuted",
+    ("19", None): "proved",
+    ("10j", 1): "refuted",  # one gain may use the whole norm of the limits
+    ("14", 3): "proved",
+    ("15", 3): "proved",
+    ("P", 1): "undecided",  # its proof goes through 16
+    ("T1.torque.m2.elbow", None): "refuted",  # 150 for 15
+    ("T1.torque.pd.elbow", None): "refuted",  # 50 for 15
+    ("T2.19.m1.true", None): "proved",  # 0.233 < 0.406/√3 = 0.2344
+    ("T2.19.m2.printed", None): "proved",  # 0.223 < 0.22324
+    ("T2.19.m2.true", None): "refuted",  # 0.22249
+    ("T2.19.m3.printed", None): "refuted",  # 0.21117
+    ("T2.pd.shoulder", None): "refuted",  # 2.5 against 109.72/45 = 2.438
+    ("T2.pdkv.elbow", None): "proved",  # 0.06·0.133 = 0.00798 is printed as 0.01
+    ("S4.percent.m1", None): "refuted",  # 8.81 % is not printed as 8 %
+    ("S4.percent.m2", None): "proved",
+    ("S4.norm.pd", None): "proved",
+    ("F.4.base", None): "refuted",  # 28 tanh(π/4) = 18.36
+    ("F.10.elbow", None): "proved",  # 0.133·90 = 11.97
+}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return run_proof("published.py")
+
+
+def test_verdicts_worked_out_by_hand_are_found(result):
+    rows = {(row.id, row.m): row.verdict.value for row in result.claims}
+    assert {key: rows[key] for key in BY_HAND} == BY_HAND
+
+
+def test_no_claim_ends_in_an_error_and_every_one_is_supported(result):
+    for row in result.claims:
+        assert row.verdict is not Verdict.ERROR, row
+        assert row.place
+        assert row.section
+        if row.verdict is Verdict.REFUTED:
+            assert row.decision.witness["left"] != row.decision.witness["right"]
+        if row.verdict is Verdict.UNDECIDED:
+            assert row.decision.reason
+        if row.verdict is Verdict.PROVED:
+            assert row.broken == ()
+
+
+def test_the_proposition_is_broken_where_its_proof_is(result):
+    rows = [row for row in result.claims if row.id == "P"]
+    assert [row.broken for row in rows] == [("16",)] * 3
+
+
+def test_some_bounds_depend_on_the_number_of_joints():
+    """One joint: |h'| ≤ ρ|x| fails for m = 2; three joints: √3 is slack enough. √n is harmless in (17) for n = 1."""
+    options = {"ms": (2,), "only": ("8b", "17a", "17c")}
+    one, three = (run_proof("published.py", n=n, **options) for n in (1, 3))
+    assert [row.verdict.value for row in one.claims] == ["refuted", "proved", "refuted"]
+    assert [row.verdict.value for row in three.claims] == ["proved", "refuted", "refuted"]
+
+
+def test_large_members_of_the_family_are_decided_too():
+    rows = run_proof("published.py", ms=(12,), only=("6", "7a", "7b", "8", "8b", "16.1", "16.6")).claims
+    assert [row.verdict.value for row in rows] == ["proved"] * 6 + ["refuted"]
+
+
+@pytest.mark.parametrize("robot", ["reyes-kelly2", "pelican2", "pendulum1"])
+def test_robot_properties_hold_for_other_arms(robot):
+    ids = ("2.1", "2.2", "2.3", "2.4", "2.5", "2.6")
+    rows = run_proof("published.py", ms=(1,), robot=robot, only=ids).claims
+    assert [(row.id, row.verdict.value) for row in rows] == [(name, "proved") for name in ids]
+
+
+FAULTS = [
+    ("7a", "sqrt(case.n) * gamma(case.m))\n", "gamma(case.m))\n"),
+    ("7a", "sqrt(case.n) * gamma(case.m))\n", "sqrt(case.n) * gamma(case.m) * '0.999')\n"),
+    ("8", "dh(case.m, x))\n", "dh(case.m + 1, x))\n"),
+    ("12", "- cross +", "+ cross +"),
+    ("12", 'eps**2 * form(s["h"], s["M"], s["h"]) / 2', 'eps**2 * form(s["h"], s["M"], s["h"])'),
+    ("14", "        eps * form(h_e, c, w),\n", ""),
+    ("14", "eps**2 * (2 * along", "eps**2 * (along"),
+    ("14", '        -s["eps0"] * along / (1 + s["r"]) ** 2', '        s["eps0"] * along / (1 + s["r"]) ** 2'),
+    ("15", "-eps * form(h_e, transpose(c), w)", "-eps * form(h_e, c, w)"),
+    ("15", "        -dot(w, scaled(b, w)),\n        eps * form", "        eps * form"),
+    (
+        "16.3",
+        "majorant(sqrt(case.n) * rho(case.m), eps=1, beta=1, w=2)",
+        "majorant('0.9', eps=1, beta=1, w=2)",
+    ),
+    ("16.5", "eps=1, kc=1, w=2", "eps=1, kc=1, w=1"),
+    (
+        "16.9",
+        "majorant(case.n * gamma(case.m) ** 2, eps=1, eps0=1, kc",
+        "majorant(case.n * gamma(case.m) ** 2, eps=2, kc",
+    ),
+    (
+        "19",
+        "(expr(0) < upper,), condition_19(c)",
+        "(expr(0) < upper,), c['kv'] < c['b'] / (2 * c['root'] * c['gamma'])",
+    ),
+    ("10", "kp + kv <= (limit - kg) / (root * g)", "kp + kv <= (limit + kg) / (root * g)"),
+    ("T2.19.m1.true", 'VISCOUS_MIN = "0.406"', 'VISCOUS_MIN = "0.403"'),
+    ("S4.norm.m1", '"0.5934"', '"0.5935"'),
+    ("2.8", "bounded(gravity, printed)", "bounded(gravity, [p * Fraction(99, 100) for p in printed])"),
+]
+
+
+@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS)
+def test_a_planted_fault_is_not_proved(tmp_path, claim, right, wrong):
+    source = ONE.read_text(encoding="utf-8")
+    assert right in source
+    path = tmp_path / "faulty.py"
+    path.write_text(source.replace(right, wrong), encoding="utf-8")
+    rows = [row for row in run_proof(path, ms=(2,), only=(claim,)).claims]
+    assert all(row.verdict in (Verdict.REFUTED, Verdict.UNDECIDED) for row in rows)
+
+
+REPAIRS = [
+    ("7g", '2: "1.05"', '2: "1.06"'),
+    ("T1.torque.m2.elbow", '"m2": ("50", "150", "150")', '"m2": ("50", "150", "15")'),
+    ("17a", "whole * inner + last**2 / 4) < whole", 'c["root"] * whole * inner + last**2 / 4) < whole'),
+    ("17c", 'last = flat + c["eps0"] * steep if with_eps0 else flat', "last = flat"),
+    ("S4.percent.m1", '("m1", "8")', '("m1", "9")'),
+    ("F.10.base", 'PD_KP = ("0.8"', 'PD_KP = ("0.89"'),
+]
+
+
+@pytest.mark.parametrize(("claim", "printed", "repaired"), REPAIRS)
+def test_a_repaired_statement_is_proved(tmp_path, claim, printed, repaired):
+    source = ONE.read_text(encoding="utf-8")
+    assert printed in source
+    path = tmp_path / "repaired.py"
+    path.write_text(source.replace(printed, repaired), encoding="utf-8")
+    assert [row.verdict.value for row in run_proof(path, ms=(2,), only=(claim,)).claims] == ["proved"]
+
+
+def test_no_verdict_is_written_in_the_script():
+    words = re.findall(r"\b(proved|refuted|undecided|Verdict|Decision)\b", ONE.read_text(encoding="utf-8"))
+    assert words == []
