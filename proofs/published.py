@@ -424,6 +424,22 @@ def _(case):
     return for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0)
 
 
+@proof.claim(
+    "12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", place="(12)", section=LYAPUNOV, uses=["8"]
+)
+def _(case):
+    """V depends on ‖q̃‖ only through ε(r)h(q̃), which differs from ε₀h(q̃) by no more than 2ε₀r²."""
+    r, eps0, norm_h = var("r"), var("eps0"), var("norm_h")
+    return all_of(
+        h_is_at_most_2_r=norm_bound(h(case.m, x), case.n, 2, power=1),
+        difference_is_of_second_order=implies(
+            positive("eps0") + nonnegative("r", "norm_h"),
+            (norm_h <= 2 * r,),
+            (eps0 - eps0 / (1 + r)) * norm_h <= 2 * eps0 * r**2,
+        ),
+    )
+
+
 @proof.claim("14", "(14) is dV/dt along (11)", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"])
 def _(case):
     s = symbols(case.n)
@@ -758,13 +774,14 @@ def _(case):
     "the origin is globally asymptotically stable",
     place="Proposition",
     section=CONDITIONS,
-    uses=["11", "12p", "12u", "16", "18e"],
+    uses=["11", "12d", "12p", "12u", "16", "18e"],
 )
 def _(case):
     case.read.update(("m", "n"))
     return theorem(
         "Lyapunov's direct method",
         only_equilibrium="11",
+        differentiable="12d",
         positive_definite="12p",
         radially_unbounded="12u",
         rate_bounded_by_a_form="16",
@@ -904,7 +921,7 @@ for figure, m, joint, torque in FIGURES:
     proof.add(
         f"F.{figure}.{joint}",
         f"Fig. {figure} starts at the torque that Table 2 gives for the {joint}: {torque} N·m",
-        agrees(var("kp") * response, torque, kp=gain),
+        agrees(var("kp") * response, torque, solve_for="kp", kp=gain),
         place=f"Fig. {figure}",
         section=ARITHMETIC,
     )

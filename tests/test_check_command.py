@@ -8,7 +8,6 @@ import pytest
 
 
 def lyapcheck(*arguments, folder=None):
-    command = [sys.executable, "-m", "lyapcheck.cli.main", *arguments]
     code = (
         f"import sys; sys.argv = {['lyapcheck', *arguments]!r}; from lyapcheck.cli.main import main; main()"
     )
@@ -63,5 +62,5 @@ def test_markdown_is_one_table_a_section(tmp_path):
     run = lyapcheck(
         "check", "published.py", "--only", "17a", "--format", "markdown", "--timings", folder=tmp_path
     )
-    assert run.stdout.count("|---|") == 1
+    assert run.stdout.count("| claim |") == 1
     assert " s) |" in run.stdout

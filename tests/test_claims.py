@@ -243,6 +243,14 @@ def test_a_conjunction_is_as_good_as_its_weakest_part():
     assert undecided("why", "how").grade is Grade.NUMERIC
 
 
+def test_a_wrong_printed_number_comes_with_the_input_that_would_give_it():
+    witness = decide(agrees(a * 2, "10", solve_for="a", a="3")).witness
+    assert [float(bound) for bound in witness["a that gives it"]] == pytest.approx([4.75, 5.25])
+    assert decide(agrees(a + 2, "10", solve_for="a", a="3")).witness.keys() == witness.keys() - {
+        "a that gives it"
+    }
+
+
 def test_a_lower_bound_of_a_variable_is_used_and_respected():
     assert decide(implies(nonnegative("a"), (), expr(0) <= a)).verdict is Verdict.PROVED
     assert decide(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED

@@ -85,11 +85,15 @@ class ForSmall(Statement):
 
 @dataclass(frozen=True)
 class Agrees(Statement):
-    """A printed number agrees with a formula in printed numbers, to half a unit in each last place."""
+    """A printed number agrees with a formula in printed numbers, to half a unit in each last place.
+
+    Where it does not, the value that ``solve_for`` would need is reported; the formula is proportional to it.
+    """
 
     formula: Tree
     inputs: tuple[tuple[str, str], ...]
     printed: str
+    solve_for: str | None = None
 
 
 @dataclass(frozen=True)
@@ -155,9 +159,9 @@ def all_of(**parts: Statement) -> AllOf:
     return AllOf(tuple((name.replace("_", " "), part) for name, part in parts.items()))
 
 
-def agrees(formula: Expr, printed: str, **inputs: str) -> Agrees:
+def agrees(formula: Expr, printed: str, solve_for: str | None = None, **inputs: str) -> Agrees:
     """A printed number agrees with a formula whose variables are the printed numbers ``inputs``."""
-    return Agrees(formula.tree, tuple(sorted(inputs.items())), printed)
+    return Agrees(formula.tree, tuple(sorted(inputs.items())), printed, solve_for)
 
 
 def _exact(value: object) -> Fraction:

@@ -16,7 +16,7 @@ from fractions import Fraction
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.functions import Tree, Unsupported, evaluate, variables
+from lyapcheck.check.functions import LEAVES, Tree, Unsupported, evaluate, variables
 from lyapcheck.check.normal_form import RationalAlgebra, functions_in
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.expressions import Relation, expr
@@ -30,6 +30,8 @@ EFFORT = ((1, 40), (2, 80), (3, 160), (4, 320), (5, 640), (7, 2000))
 SEARCH_AFTER = 2
 """The depth after which counterexamples are searched, before deeper certificates are."""
 
+ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt")
+
 Exponents = tuple[int, ...]
 
 
@@ -39,6 +41,12 @@ def decide_implies(statement: Implies) -> Decision:
     Soundness: ``proved`` rests on a polynomial identity in which every term has a sign that is known;
     ``refuted`` on one rational point, where balls show each hypothesis and the failure of the conclusion.
     """
+    if not all(is_algebraic(r.gap) for r in (*statement.hypotheses, statement.conclusion)):
+        return search(statement) or undecided(
+            "no counterexample among the points tried, and no proof for functions that are not algebraic; "
+            "bound them by claims of one variable and name the bounds",
+            METHOD,
+        )
     for depth, nodes in EFFORT:
         if _certified(statement, depth, nodes):
             return proved(Grade.EXACT, f"{METHOD}: identity with terms of known sign")
@@ -50,6 +58,13 @@ def decide_implies(statement: Implies) -> Decision:
         "split the claim, or add a hypothesis that bounds the variables",
         METHOD,
     )
+
+
+def is_algebraic(tree: Tree) -> bool:
+    """Whether an expression is built from numbers and variables by arithmetic and roots."""
+    if tree[0] in LEAVES:
+        return True
+    return tree[0] in ARITHMETIC and all(is_algebraic(part) for part in tree[1:] if isinstance(part, tuple))
 
 
 def search(statement: Implies) -> Decision | None:

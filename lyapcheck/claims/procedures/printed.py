@@ -15,7 +15,7 @@ from itertools import product
 from flint import arb, ctx
 
 from lyapcheck.check.enclosure import Enclosure, ball_of
-from lyapcheck.check.functions import ball
+from lyapcheck.check.functions import ball, variables
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.statements import Agrees
 from lyapcheck.verdicts import Grade
@@ -77,4 +77,21 @@ def _witness(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str
         "operator": "=",
         "right": list(target.decimals(12)),
         "printed": statement.printed,
+        **_needed(statement, target),
     }
+
+
+def _needed(statement: Agrees, target: Enclosure) -> dict[str, object]:
+    """The value of one input that would give the printed result, when the result is proportional to it."""
+    name = statement.solve_for
+    if name is None:
+        return {}
+    kind, *factors = statement.formula
+    rest = [factor for factor in factors if factor != ("var", name)]
+    if kind != "mul" or len(rest) != len(factors) - 1 or any(name in variables(factor) for factor in rest):
+        return {}
+    at_one = ("mul", ("num", "1"), *rest)
+    others = {key: ball_of(Fraction(text)) for key, text in statement.inputs if key != name}
+    with ctx.workprec(BITS):
+        value = Enclosure.from_arb(target.to_arb() / ball(at_one, others))
+    return {f"{name} that gives it": list(value.decimals(6))}
