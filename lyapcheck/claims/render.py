@@ -74,7 +74,7 @@ def details(row: ClaimResult) -> list[str]:
         found.append(_witness(witness))
     if row.decision.reason:
         found.append(row.decision.reason)
-    if row.broken:
+    if row.broken and "rests on" not in row.decision.reason:
         found.append(f"rests on {', '.join(row.broken)}, not proved")
     return found
 
@@ -85,7 +85,11 @@ def _witness(witness: dict[str, object]) -> str:
     shown = [f"{name} = {value}" for name, value in list(point.items())[:SHOWN_COORDINATES]]
     more = [f"and {len(point) - SHOWN_COORDINATES} more"] if len(point) > SHOWN_COORDINATES else []
     sides = f"left {_span(witness['left'])}, not {witness['operator']} right {_span(witness['right'])}"
-    extra = [f"{name}: {value}" for name, value in witness.items() if name not in SIDES]
+    extra = [
+        f"{name}: {_span(value) if isinstance(value, list) else value}"
+        for name, value in witness.items()
+        if name not in SIDES
+    ]
     return "; ".join(([f"at {', '.join([*shown, *more])}"] if shown else []) + [sides, *extra])
 
 

@@ -22,7 +22,7 @@ def find_script(name: str) -> Path:
     if given.is_file():
         return given
     package = Path(lyapcheck.__file__).parent
-    shipped = [folder / given.name for folder in (package.parent / "proofs", package / "proofs")]
+    shipped = [folder / given.name for folder in (package / "proofs", package.parent / "proofs")]
     if given.parent in (Path(), Path("proofs")):
         for path in shipped:
             if path.is_file():
