@@ -250,7 +250,10 @@ def _(case):
     section=TORQUE,
 )
 def _(case):
-    limits = [number.value for number in case.robot.torque_limit if number is not None]
+    numbers = (*case.robot.torque_limit, *case.robot.gravity_bound)
+    if None in numbers:
+        raise lacking("needs a torque limit and a gravity bound for every joint; add them to the arm file")
+    limits = [number.value for number in case.robot.torque_limit]
     gravity = gravity_vector(case.robot.fixed())
     norm = sqrt(total(expr(value) ** 2 for value in limits))
     bound = sqrt(total(expr(number.value) ** 2 for number in case.robot.gravity_bound))

@@ -93,6 +93,14 @@ def test_robot_properties_hold_for_other_arms(robot):
     assert [(row.id, row.verdict.value) for row in rows] == [(name, "proved") for name in ids]
 
 
+@pytest.mark.parametrize("robot", ["reyes-kelly2", "pendulum1"])
+def test_what_an_arm_file_does_not_say_leaves_claims_open_not_broken(robot):
+    rows = run_proof("published.py", ms=(2,), robot=robot).claims
+    assert all(row.verdict is not Verdict.ERROR for row in rows)
+    row = next(row for row in rows if row.id == "10j")
+    assert "arm file" in row.decision.reason
+
+
 FAULTS = [
     ("7a", "sqrt(case.n) * gamma(case.m))\n", "gamma(case.m))\n"),
     ("7a", "sqrt(case.n) * gamma(case.m))\n", "sqrt(case.n) * gamma(case.m) * '0.999')\n"),
