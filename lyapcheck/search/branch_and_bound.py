@@ -13,7 +13,6 @@ P(q, e) of ``lyapcheck.search.schur`` must be positive definite for all q on the
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -28,28 +27,13 @@ from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.family import dh_range, h_range
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.harmonics import derivative
+from lyapcheck.search.cover import Outcome, Progress, cover, halve
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.symmetry import one_sided, sign_symmetries
 
 Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
-
-CHUNK = 8192
-SMALLEST = 1e-5
-"""Half width (rad) below which a box that is not proved ends the search."""
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
-
-
-@dataclass
-class Outcome:
-    """How a search over boxes ended."""
-
-    proved: bool
-    boxes: int
-    reason: str = ""
-    state: Array | None = None
-    """The middle of a box that resisted, (q…, e…), when the search gave up on one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,32 +105,8 @@ def certify(
         return Outcome(True, 0)
     space = domain(model, problem, form, problem.eps0)
     splitter = Splitter.of(problem, space)
-    stack: list[Array] = [np.stack([space.low, space.high])[None]]
-    seen, volume, done = 0, float(np.prod(space.high - space.low)), 0.0
-    while stack:
-        boxes = stack.pop()
-        if len(boxes) > CHUNK:
-            stack.append(boxes[CHUNK:])
-            boxes = boxes[:CHUNK]
-        seen += len(boxes)
-        if seen > max_boxes:
-            return Outcome(
-                False, seen, f"{max_boxes} boxes were not enough; allow more, or ask for a smaller ε₀"
-            )
-        proved = _proved(problem, space, boxes)
-        done += float(np.sum(np.prod(boxes[proved, 1] - boxes[proved, 0], axis=1)))
-        open_boxes = boxes[~proved]
-        if on_progress is not None:
-            on_progress(min(done / volume, 1.0), f"{seen} boxes")
-        if len(open_boxes):
-            small = np.max(open_boxes[:, 1] - open_boxes[:, 0], axis=1) < 2 * SMALLEST
-            if small.any():
-                return Outcome(False, seen, _RESISTS, open_boxes[small][0].mean(axis=0))
-            stack.append(splitter.halves(open_boxes))
-    return Outcome(True, seen)
-
-
-_RESISTS = "a box of 1e-5 rad resisted: ε₀ is too large there or very close to it; ask for a smaller ε₀"
+    start = np.stack([space.low, space.high])[None]
+    return cover(start, lambda boxes: _proved(problem, space, boxes), splitter.halves, max_boxes, on_progress)
 
 
 def _proved(problem: Problem, space: Domain, boxes: Array) -> NDArray[np.bool_]:
@@ -183,13 +143,7 @@ class Splitter:
 
     def halves(self, boxes: Array) -> Array:
         """Both halves of every box."""
-        side = np.argmax(self._weights(boxes), axis=1)
-        rows = np.arange(len(boxes))
-        middle = 0.5 * (boxes[rows, 0, side] + boxes[rows, 1, side])
-        left, right = boxes.copy(), boxes.copy()
-        left[rows, 1, side] = middle
-        right[rows, 0, side] = middle
-        return np.concatenate([left, right])
+        return halve(boxes, np.argmax(self._weights(boxes), axis=1))
 
     def _weights(self, boxes: Array) -> Array:
         first = len(self.space.angles)

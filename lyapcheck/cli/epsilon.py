@@ -1,0 +1,127 @@
+"""``lyapcheck epsilon``."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.search.epsilon import EpsilonResult
+
+
+class EpsilonFormat(StrEnum):
+    """How the results are written."""
+
+    TEXT = "text"
+    JSON = "json"
+    MARKDOWN = "markdown"
+
+
+def command(
+    file: Annotated[Path, typer.Argument(help="A gain file.", metavar="FILE")],
+    robot: Annotated[
+        str | None,
+        typer.Option(help="A built-in arm or an arm file, instead of the one the gain file names."),
+    ] = None,
+    m: Annotated[
+        str | None, typer.Option("--m", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
+    ] = None,
+    max_boxes: Annotated[int, typer.Option(help="Budget of branch and bound.", min=1)] = 400_000,
+    starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
+    seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
+    format: Annotated[EpsilonFormat, typer.Option(help="How to write it.")] = EpsilonFormat.TEXT,  # noqa: A002
+    timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each gain set took.")] = False,
+) -> None:
+    """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
+
+    For each gain set: the end of (18), the scalar certificate, the largest ε₀ proved at every state, and the
+    smallest that a state refutes. Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has
+    none.
+    """
+    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.robots import load
+
+    gain_file = read_gain_file(file)
+    model = load(_robot_name(robot, gain_file))
+    chosen = _chosen(gain_file, m)
+    _require_joints(gain_file, model)
+    with progress("epsilon") as advance:
+        results, seconds = _run(chosen, model, (max_boxes, starts, seed), advance)
+    from lyapcheck.search.epsilon_formats import renderer
+
+    sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
+    missing = any(result.certified is None for result in results)
+    raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
+
+
+def _robot_name(robot: str | None, gain_file: GainFile) -> str:
+    name = robot or gain_file.robot
+    if name is None:
+        rule = f"{gain_file.path} names no arm and --robot is missing"
+        raise argument_error("--robot", "", rule, "add --robot buap3, or robot = … to the file")
+    return name
+
+
+def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
+    """The gain sets of the members asked for."""
+    if m is None:
+        return list(gain_file.gains)
+    from lyapcheck.cli.m_range import parse_m
+
+    members = parse_m(m)
+    chosen = [gain_set for gain_set in gain_file.gains if gain_set.m in members]
+    if not chosen:
+        known = ", ".join(str(gain_set.m) for gain_set in gain_file.gains if gain_set.m is not None)
+        raise argument_error(
+            "--m", m, f"{gain_file.path} has no such gain set", f"choose from {known or 'none'}"
+        )
+    return chosen
+
+
+def _require_joints(gain_file: GainFile, model: RobotModel) -> None:
+    """Refuse gains for another number of joints, at the line where they stand."""
+    problems = []
+    for gain_set in gain_file.gains:
+        if gain_set.n != model.n:
+            place = gain_file.place(gain_set, "kp")
+            rule = (
+                f"{gain_set.name} has gains for {gain_set.n} joints, but the arm {model.name} has {model.n}"
+            )
+            repair = f"choose an arm of {gain_set.n} joints, or give {model.n} gains, one a joint"
+            line = place.line if place else None
+            problems.append(Problem(gain_file.path, line, "kp", "", rule, repair))
+    if problems:
+        raise InputError(problems)
+
+
+def _run(
+    gains: list[GainSet], model: RobotModel, budget: tuple[int, int, int], advance: Advance
+) -> tuple[list[EpsilonResult], list[float]]:
+    """The result of every gain set and the seconds it took."""
+    from lyapcheck.search.epsilon import epsilon
+
+    max_boxes, starts, seed = budget
+    results: list[EpsilonResult] = []
+    seconds: list[float] = []
+    for done, gain_set in enumerate(gains):
+
+        def tell(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
+            advance((done + fraction) / len(gains), f"{name}: {note}")
+
+        began = perf_counter()
+        results.append(
+            epsilon(gain_set, model, max_boxes=max_boxes, starts=starts, seed=seed, on_progress=tell)
+        )
+        seconds.append(perf_counter() - began)
+    return results, seconds

@@ -1,0 +1,1 @@
+"""Proof-check reports: one Report object, and renderers that are pure functions of it."""

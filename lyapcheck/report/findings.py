@@ -1,0 +1,62 @@
+"""Where the paper is not confirmed, computed from the results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lyapcheck.report.model import Data, Finding
+
+SAME = 0.02
+"""A simulated index this close to the printed one, relatively, counts as confirmed."""
+
+
+def findings(claims: Sequence[Data], gate: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[Data]) -> tuple[Finding, ...]:
+    """All findings: refuted claims first, then rejected gains, ε₀, and the simulated indices."""
+    return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *_indices(runs))
+
+
+def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
+    for row in claims:
+        if row["verdict"] == "refuted":
+            details = "; ".join(row["details"])
+            yield Finding(f"claim {row['id']}", row["m"], f"{row['statement']}: {details}", "refuted")
+
+
+def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
+    for result in gate:
+        broken = [check for check in result["checks"] if check["message"] and check["id"] in result["deciding"]]
+        if result["verdict"] == "rejected" and result["m"] is not None and broken:
+            first, rest = broken[0]["message"], len(broken) - 1
+            more = f" (and {rest} more)" if rest else ""
+            yield Finding(f"gains {result['name']}", result["m"], first + more, "rejected")
+
+
+def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
+    for row in epsilon:
+        if row["m"] is None:
+            continue
+        published, falsified, certified = row["published"], row["falsified"], row["certified"]
+        if published is None:
+            proved = f"; even so dV/dt < 0 is proved with ε₀ = {float(certified):.4g}" if certified else ""
+            text = f"the interval (18) for ε₀ is empty, because (19) fails{proved}"
+            yield Finding(f"ε₀ of {row['name']}", row["m"], text, "empty")
+        elif falsified is not None and float(published) > float(falsified):
+            text = (
+                f"(18) allows ε₀ up to {float(published):.4g}, but dV/dt > 0 at a state found for "
+                f"ε₀ = {float(falsified):.4g}"
+            )
+            yield Finding(f"ε₀ of {row['name']}", row["m"], text, "refuted")
+
+
+def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
+    for run in runs:
+        printed = run.get("printed")
+        if not printed or not run["L2"]:
+            continue
+        ratio = run["L2"] / printed["L2"]
+        if abs(ratio - 1) > SAME:
+            text = (
+                f"simulated L2 index {run['L2']:.2f}°, measured {printed['L2']:.2f}° ({100 * (ratio - 1):+.0f} %); "
+                "the simulation has no dry friction and rests on assumed inertia and friction"
+            )
+            yield Finding(f"index of {run['name']}", run["m"], text, "differs")

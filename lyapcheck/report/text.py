@@ -1,0 +1,50 @@
+"""How numbers and names are written in documents; shared by the HTML and the Markdown templates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
+
+
+def number(value: Any, digits: int = 5) -> str:
+    """A number to a few significant digits; a dash where there is none."""
+    if value is None:
+        return "–"
+    return f"{float(value):.{digits}g}"
+
+
+def fixed(value: Any, places: int = 2) -> str:
+    """A number to some decimal places; a dash where there is none."""
+    return "–" if value is None else f"{float(value):.{places}f}"
+
+
+def bracket(ends: Any, digits: int = 12) -> str:
+    """The digits that both ends of an enclosure share, cut off; a dash where there is none."""
+    if ends is None:
+        return "–"
+    low, high = ends["lower"], ends["upper"]
+    if low == high:
+        return str(low)
+    shared = ""
+    for a, b in zip(low, high, strict=False):
+        if a != b:
+            break
+        shared += a
+    return shared[: digits + 2] if len(shared) > 3 else f"[{low}, {high}]"
+
+
+def joined(values: Sequence[Any], places: int = 2) -> str:
+    """A list of numbers in one cell."""
+    return ", ".join(fixed(value, places) for value in values)
+
+
+def plural(count: int, noun: str) -> str:
+    """``1 claim``, ``3 claims``."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def tally(counts: dict[str, int]) -> str:
+    """``12 proved, 3 refuted``."""
+    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count) or "none"

@@ -1,0 +1,208 @@
+"""The four ε₀ of one gain set on one arm: published, scalar, certified and falsified.
+
+    published   the end of (18), which claims dV/dt < 0 for every smaller ε₀
+    scalar      the largest ε₀ with Θ' ≻ 0, from norms alone
+    certified   the largest ε₀ for which the quadratic form Q was proved positive definite at every state
+    falsified   the smallest ε₀ for which a state with dV/dt > 0 was proved
+
+References: ``reyes2019family`` (12), (16), (18).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.states import confirms_positive
+from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
+from lyapcheck.search.certified import MAX_BOXES, certified_epsilon
+from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
+from lyapcheck.search.robot_constants import robot_bounds
+from lyapcheck.search.scalar_program import scalar_epsilon
+from lyapcheck.search.setting import Setting
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.family.base import FamilyConstants
+    from lyapcheck.robots import RobotModel
+
+Progress = Callable[[float, str], None]
+_DIGITS = 9
+
+
+class Contradiction(RuntimeError):
+    """A proved state refutes a proved ε₀: one of the two proofs is wrong, and nothing may be reported."""
+
+
+@dataclass(frozen=True)
+class EpsilonResult:
+    """The four ε₀; ``None`` where there is none, with the reason under the same name in ``reasons``.
+
+    Args:
+        name: of the gain set.
+        m: member of the family, if it has members.
+        robot: name of the arm.
+        published: the end of (18), rounded down.
+        scalar: ε₀ of the scalar certificate.
+        certified: ε₀ of branch and bound, or of the scalar certificate where that is larger.
+        falsified: ε₀ of the witness.
+        witness: the state that refutes ``falsified``.
+        boxes: how many boxes branch and bound looked at.
+        certified_by: which certificate stands behind ``certified``.
+        reasons: why a number is missing, and what to try.
+        findings: what the numbers say about each other, one sentence each.
+        assumptions: what is taken for granted about the arm.
+        seed: of the sampled states.
+    """
+
+    name: str
+    m: int | None
+    robot: str
+    published: Fraction | None
+    scalar: Fraction | None
+    certified: Fraction | None
+    falsified: Fraction | None
+    witness: Witness | None
+    boxes: int
+    certified_by: str
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    findings: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    seed: int = SEED
+
+    @property
+    def ratio(self) -> Fraction | None:
+        """certified / falsified: 1 would leave nothing open."""
+        if self.certified is None or self.falsified is None:
+            return None
+        return self.certified / self.falsified
+
+
+def epsilon(
+    gain_set: GainSet,
+    model: RobotModel,
+    *,
+    max_boxes: int = MAX_BOXES,
+    starts: int = STARTS,
+    seed: int = SEED,
+    on_progress: Progress | None = None,
+) -> EpsilonResult:
+    """All four ε₀ of a gain set.
+
+    Args:
+        gain_set: the controller.
+        model: the arm, taken at its nominal parameters.
+        max_boxes: budget of branch and bound.
+        starts: starts of each optimised program of the falsifier.
+        seed: of its random states.
+        on_progress: told the fraction done and a few words.
+
+    Raises:
+        InputError: the gains are for another number of joints.
+        Contradiction: the witness refutes a certificate.
+
+    Soundness: ``scalar`` and ``certified`` rest on their certificates and on the arm's numbers, ``falsified``
+        on the witness alone; ``published`` is what (18) claims, not what is true.
+    """
+    tell = on_progress or (lambda fraction, note: None)
+    setting, reasons = Setting(gain_set, model), {}
+    witness = falsify(setting, starts, seed=seed, on_progress=lambda f, note: tell(0.3 * f, note))
+    if witness is None:
+        reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
+    tell(0.3, "scalar certificate")
+    bounds, constants = robot_bounds(model), setting.family.constants()
+    published, reasons["published"] = _published(gain_set, constants, bounds)
+    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds))
+    form = scalar_form(gain_set, constants, bounds)
+    scalar = sharp if form is None else scalar_epsilon(form)
+    reasons["scalar"] = scalar.reason
+    hint = None if witness is None else witness.eps0
+    found = certified_epsilon(
+        model,
+        gain_set,
+        bounds,
+        hint or 10 * (sharp.eps0 or Fraction(1)),
+        max_boxes,
+        lambda f, note: tell(0.35 + 0.65 * f, note),
+    )
+    reasons["certified"] = found.reason
+    certified, by = _larger((found.eps0, "branch and bound"), (sharp.eps0, "scalar certificate"))
+    require_consistent(setting, witness, {"scalar": scalar.eps0, "certified": certified})
+    return EpsilonResult(
+        name=gain_set.name,
+        m=gain_set.m,
+        robot=model.name,
+        published=published,
+        scalar=scalar.eps0,
+        certified=certified,
+        falsified=hint,
+        witness=witness,
+        boxes=found.looked_at,
+        certified_by=by,
+        reasons={name: reason for name, reason in reasons.items() if reason},
+        findings=tuple(_findings(setting, published, certified, witness)),
+        assumptions=model.assumptions,
+        seed=seed,
+    )
+
+
+def _published(
+    gain_set: GainSet, constants: FamilyConstants, bounds: RobotBounds
+) -> tuple[Fraction | None, str]:
+    """The end of (18), rounded down, or why there is none."""
+    if constants.gamma is None:
+        return None, "(18) needs a bounded h, and the linear one has no γ"
+    limit = published_limit(gain_set, constants, bounds)
+    if limit is None:
+        return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
+    return round_down(limit.lower, _DIGITS), ""
+
+
+def _larger(*offers: tuple[Fraction | None, str]) -> tuple[Fraction | None, str]:
+    """The largest ε₀ that is certified at all, and by what."""
+    best: tuple[Fraction | None, str] = None, ""
+    for eps0, by in offers:
+        if eps0 is not None and (best[0] is None or eps0 > best[0]):
+            best = eps0, by
+    return best
+
+
+def require_consistent(
+    setting: Setting, witness: Witness | None, claimed: Mapping[str, Fraction | None]
+) -> None:
+    """Raise `Contradiction` if the witness has dV/dt > 0 at an ε₀ that is claimed to be certified."""
+    for name, eps0 in claimed.items():
+        if witness is None or eps0 is None:
+            continue
+        if confirms_positive(setting.arm, setting.controller, eps0, witness.state):
+            raise Contradiction(
+                f"{setting.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
+            )
+        if name == "scalar" and eps0 >= witness.eps0:
+            raise Contradiction(f"{setting.gains.name}: the scalar ε₀ is not below a falsified one")
+
+
+def _findings(
+    setting: Setting, published: Fraction | None, certified: Fraction | None, witness: Witness | None
+) -> list[str]:
+    found = []
+    if published is not None and witness is not None and witness.eps0 < published:
+        found.append(
+            "(18) is refuted: it allows every ε₀ below its end, and the witness refutes a smaller one"
+        )
+    if published is not None and certified is not None and published <= certified:
+        found.append("every ε₀ of (18) is below the certified one")
+    if certified is not None and witness is not None and certified > witness.eps0:
+        found.append(
+            "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
+        )
+    return found
+
+
+def round_down(value: Fraction, digits: int) -> Fraction:
+    """The largest decimal of so many significant digits that is not above a positive number."""
+    scale = Fraction(10) ** (digits - 1 - math.floor(math.log10(value)))
+    return Fraction(math.floor(value * scale)) / scale

@@ -1,0 +1,53 @@
+"""The four ε₀ as versioned JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.search.epsilon_formats.words import KINDS, exact, ratio_text
+
+if TYPE_CHECKING:
+    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.search.falsify import Witness
+
+SCHEMA = "lyapcheck/epsilon/1"
+_DIGITS = 20
+
+
+def render(results: Sequence[EpsilonResult], seconds: Sequence[float] | None = None) -> str:
+    """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``.
+
+    Numbers are exact decimal strings, a missing one is null and has its reason under ``reasons``.
+    """
+    rows = [result_json(result) for result in results]
+    if seconds is not None:
+        rows = [{**row, "seconds": round(time, 3)} for row, time in zip(rows, seconds, strict=True)]
+    document = {"schema": SCHEMA, "version": version("lyapcheck"), "results": rows}
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def result_json(result: EpsilonResult) -> dict[str, Any]:
+    """One gain set as plain data."""
+    return {
+        "name": result.name,
+        "m": result.m,
+        "robot": result.robot,
+        **{kind: exact(getattr(result, kind)) for kind in KINDS},
+        "ratio": ratio_text(result.ratio),
+        "certified_by": result.certified_by or None,
+        "witness": None if result.witness is None else _witness(result.witness),
+        "boxes": result.boxes,
+        "seed": result.seed,
+        "findings": list(result.findings),
+        "reasons": dict(result.reasons),
+        "assumptions": list(result.assumptions),
+    }
+
+
+def _witness(witness: Witness) -> dict[str, Any]:
+    state = {name: [exact(x) for x in getattr(witness.state, name)] for name in ("q", "e", "w")}
+    rate = dict(zip(("lower", "upper"), witness.rate.decimals(_DIGITS), strict=True))
+    return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}

@@ -1,0 +1,81 @@
+"""What the formats share: heads, cells and sentences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.files import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.search.falsify import Witness
+
+KINDS = ("published", "scalar", "certified", "falsified")
+HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified/falsified", "boxes")
+LEGEND = (
+    "published: end of (18), a claim; scalar: certificate from norms; certified: dV/dt < 0 proved at every "
+    "state but the origin; falsified: a state with dV/dt > 0 proved."
+)
+
+
+def ratio_text(value: Fraction | None) -> str | None:
+    """A ratio of certified to falsified in six decimals, never rounded up."""
+    if value is None:
+        return None
+    whole, rest = divmod(math.floor(value * 10**6), 10**6)
+    return f"{whole}.{rest:06d}"
+
+
+def exact(value: Fraction | None) -> str | None:
+    """An exact number as a decimal string."""
+    return None if value is None else decimal_text(value)
+
+
+def row(result: EpsilonResult, seconds: float | None) -> tuple[str, ...]:
+    """The cells under `HEADS`, a dash where there is no number, and the seconds if they are wanted."""
+    cells = [exact(getattr(result, kind)) or "—" for kind in KINDS]
+    name = result.name, "—" if result.m is None else str(result.m)
+    shown = () if seconds is None else (f"{seconds:.2f}",)
+    return (*name, *cells, ratio_text(result.ratio) or "—", str(result.boxes), *shown)
+
+
+def heads(seconds: Sequence[float] | None) -> tuple[str, ...]:
+    """The heads of the table."""
+    return HEADS if seconds is None else (*HEADS, "seconds")
+
+
+def remarks(result: EpsilonResult) -> list[str]:
+    """Findings, reasons for missing numbers, and the witness, a sentence each."""
+    said = [f"{finding}." for finding in result.findings]
+    said += [f"no {kind} ε₀: {reason}." for kind, reason in result.reasons.items()]
+    if result.witness is not None:
+        said.append(witness_text(result.witness))
+    return said
+
+
+def witness_text(witness: Witness) -> str:
+    """The failing state in one line."""
+    parts = (("q", "rad"), ("e", "rad"), ("w", "rad/s"))
+    places = ", ".join(
+        f"{name} = ({', '.join(map(decimal_text, getattr(witness.state, name)))}) {unit}"
+        for name, unit in parts
+    )
+    low, _ = witness.rate.decimals(6)
+    return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W."
+
+
+def notes(results: Sequence[EpsilonResult]) -> list[str]:
+    """What holds for all results: robot, seed, assumptions."""
+    if not results:
+        return []
+    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
+    assumed = dict.fromkeys(text for result in results for text in result.assumptions)
+    return [
+        LEGEND,
+        f"Arm: {robots}, at its nominal parameters. Seed: {seeds}.",
+        *(f"Assumed: {text}." for text in assumed),
+    ]
