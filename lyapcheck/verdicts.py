@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from enum import Enum, IntEnum
+from enum import IntEnum, StrEnum
 
 
-class Verdict(str, Enum):
+class Verdict(StrEnum):
     """What was found out about one claim."""
 
     PROVED = "proved"

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import Advance, progress
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -53,9 +54,9 @@ def command(
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
-    model = load(_robot_name(robot, gain_file))
+    model = load(robot_name(robot, [gain_file]))
     chosen = _chosen(gain_file, m)
-    _require_joints(gain_file, model)
+    require_joints([gain_file], model)
     with progress("epsilon") as advance:
         results, seconds = _run(chosen, model, (max_boxes, starts, seed), advance)
     from lyapcheck.search.epsilon_formats import renderer
@@ -63,14 +64,6 @@ def command(
     sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
-
-
-def _robot_name(robot: str | None, gain_file: GainFile) -> str:
-    name = robot or gain_file.robot
-    if name is None:
-        rule = f"{gain_file.path} names no arm and --robot is missing"
-        raise argument_error("--robot", "", rule, "add --robot buap3, or robot = … to the file")
-    return name
 
 
 def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
@@ -87,22 +80,6 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
             "--m", m, f"{gain_file.path} has no such gain set", f"choose from {known or 'none'}"
         )
     return chosen
-
-
-def _require_joints(gain_file: GainFile, model: RobotModel) -> None:
-    """Refuse gains for another number of joints, at the line where they stand."""
-    problems = []
-    for gain_set in gain_file.gains:
-        if gain_set.n != model.n:
-            place = gain_file.place(gain_set, "kp")
-            rule = (
-                f"{gain_set.name} has gains for {gain_set.n} joints, but the arm {model.name} has {model.n}"
-            )
-            repair = f"choose an arm of {gain_set.n} joints, or give {model.n} gains, one a joint"
-            line = place.line if place else None
-            problems.append(Problem(gain_file.path, line, "kp", "", rule, repair))
-    if problems:
-        raise InputError(problems)
 
 
 def _run(

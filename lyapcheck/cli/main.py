@@ -30,8 +30,8 @@ def _top(
 ) -> None:
     """Check the Lyapunov proof of bounded hyperbolic controllers for robot manipulators.
 
-    Exit codes: 0 all proved or accepted, 1 something refuted or rejected, 2 unusable input, 3 undecided, 4 internal
-    error.
+    Exit codes: 0 all proved or accepted, 1 something refuted or rejected, 2 unusable input, 3 undecided,
+    4 internal error.
     """
 
 

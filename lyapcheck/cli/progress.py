@@ -28,7 +28,8 @@ def _bar(label: str) -> Iterator[Advance]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TextColumn("{task.fields[note]}"))
+    label_column, note_column = TextColumn("{task.description}"), TextColumn("{task.fields[note]}")
+    columns = (label_column, BarColumn(), TimeElapsedColumn(), note_column)
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(label, total=1.0, note="")
         yield lambda fraction, note: bar.update(task, completed=fraction, note=note)

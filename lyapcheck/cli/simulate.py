@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lyapcheck.cli.angles import parse_angles
+from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import InputError, Problem, argument_error
@@ -20,7 +21,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate import Run, Task
 
@@ -70,7 +71,7 @@ def command(
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
-    model = load(_robot_name(robot, gain_file))
+    model = load(robot_name(robot, [gain_file]))
     task = _task(model, target, start, time, eps0)
     _check_places(csv, plot)
     with progress("simulate") as advance:
@@ -79,14 +80,6 @@ def command(
     for reason in failures:
         print(f"not finished: {reason}", file=sys.stderr)
     raise typer.Exit(int(Exit.UNDECIDED if failures else Exit.PROVED))
-
-
-def _robot_name(robot: str | None, gain_file: GainFile) -> str:
-    name = robot or gain_file.robot
-    if name is None:
-        rule = f"{gain_file.path} names no arm and --robot is missing"
-        raise argument_error("robot", "none", rule, "add --robot buap3, or robot = … to the file")
-    return name
 
 
 def _task(model: RobotModel, target: str | None, start: str | None, time: float, eps0: float) -> Task:

@@ -10,7 +10,9 @@ SAME = 0.02
 """A simulated index this close to the printed one, relatively, counts as confirmed."""
 
 
-def findings(claims: Sequence[Data], gate: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[Data]) -> tuple[Finding, ...]:
+def findings(
+    claims: Sequence[Data], gate: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[Data]
+) -> tuple[Finding, ...]:
     """All findings: refuted claims first, then rejected gains, ε₀, and the simulated indices."""
     return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *_indices(runs))
 
@@ -24,7 +26,8 @@ def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
     for result in gate:
-        broken = [check for check in result["checks"] if check["message"] and check["id"] in result["deciding"]]
+        deciding = [check for check in result["checks"] if check["id"] in result["deciding"]]
+        broken = [check for check in deciding if check["message"]]
         if result["verdict"] == "rejected" and result["m"] is not None and broken:
             first, rest = broken[0]["message"], len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
@@ -56,7 +59,8 @@ def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
         ratio = run["L2"] / printed["L2"]
         if abs(ratio - 1) > SAME:
             text = (
-                f"simulated L2 index {run['L2']:.2f}°, measured {printed['L2']:.2f}° ({100 * (ratio - 1):+.0f} %); "
-                "the simulation has no dry friction and rests on assumed inertia and friction"
+                f"simulated L2 index {run['L2']:.2f}°, measured {printed['L2']:.2f}° "
+                f"({100 * (ratio - 1):+.0f} %); the simulation has no dry friction and rests on assumed "
+                "inertia and friction"
             )
             yield Finding(f"index of {run['name']}", run["m"], text, "differs")

@@ -1,9 +1,17 @@
-"""The long computations of a report, each a function of names and paths so that it can run in its own process."""
+"""The long computations of a report, as functions of names and paths: each can run in its own process."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate import Run
+
+REST = 0.7853981633974483
+"""45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
 
 
 @dataclass(frozen=True)
@@ -18,6 +26,14 @@ class RunData:
     dV: Any
 
 
+@dataclass(frozen=True)
+class GainData:
+    """What was computed for one gain set."""
+
+    epsilon: dict[str, Any]
+    run: RunData
+
+
 def claims_job(proof: str, m: int, robot: str, gains: str) -> list[dict[str, Any]]:
     """Every claim of a proof for one m, as rows with their details in words."""
     from lyapcheck.claims import run_proof
@@ -27,28 +43,44 @@ def claims_job(proof: str, m: int, robot: str, gains: str) -> list[dict[str, Any
     return [{**row.to_json(), "details": details(row)} for row in result.claims]
 
 
-def epsilon_job(gains: str, name: str, robot: str, seed: int) -> dict[str, Any]:
-    """The four ε₀ of one gain set."""
+def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
+    """The four ε₀ of one gain set, its worst states, and the reference simulation."""
     from lyapcheck.control import read_gain_file
     from lyapcheck.robots import load
-    from lyapcheck.search.epsilon import epsilon
-
-    gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
-    return epsilon(gain_set, load(robot), seed=seed).to_json()
-
-
-def run_job(gains: str, name: str, robot: str, eps0: float) -> RunData:
-    """The reference simulation of one gain set."""
-    from lyapcheck.control import read_gain_file
-    from lyapcheck.robots import load
-    from lyapcheck.simulate import PAPER_TASK, simulate
-    from lyapcheck.simulate.render import result_json
 
     gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
     model = load(robot)
+    row = _epsilon(gain_set, model, seed)
+    eps0 = float(row["certified"] or row["scalar"] or 0.0)
+    return GainData(row, _run_data(_simulated(gain_set, model, eps0)))
+
+
+def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
+    """The four ε₀, and the states of largest dV/dt at the certified one."""
+    from lyapcheck.search.epsilon import epsilon
+    from lyapcheck.search.epsilon_formats.json import result_json
+    from lyapcheck.search.epsilon_formats.words import reasons
+    from lyapcheck.search.falsify import worst_states
+    from lyapcheck.search.setting import Setting
+
+    result = epsilon(gain_set, model, seed=seed)
+    at = result.certified or result.scalar or result.falsified
+    worst = worst_states(Setting(gain_set, model), float(at), seed=seed) if at else ()
+    states = [asdict(state) for state in worst]
+    return {**result_json(result), "remarks": reasons(result), "worst_states": states}
+
+
+def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
+    """The paper's experiment where the arm has its three joints, else a step of 45° in every joint."""
+    from lyapcheck.simulate import PAPER_TASK, simulate
+
     if model.n == len(PAPER_TASK.q_d):
         task = PAPER_TASK
-        run = simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0)
-    else:
-        run = simulate(gain_set, model, [0.7853981633974483] * model.n, eps0=eps0)
+        return simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0)
+    return simulate(gain_set, model, [REST] * model.n, eps0=eps0)
+
+
+def _run_data(run: Run) -> RunData:
+    from lyapcheck.simulate.render import result_json
+
     return RunData(result_json(run), run.t, run.e, run.tau, run.V, run.dV)

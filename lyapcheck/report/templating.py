@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import Any
 
 from lyapcheck.report import text
+from lyapcheck.report.drawings import file_stem
 
 
 def environment(escape: bool) -> Any:
@@ -23,9 +24,8 @@ def environment(escape: bool) -> Any:
         keep_trailing_newline=True,
     )
     env.globals.update(SYMBOLS=text.SYMBOLS, plural=text.plural, tally=text.tally)
-    env.filters.update(
-        number=text.number, fixed=text.fixed, bracket=text.bracket, joined=text.joined, sections=sections, cell=cell
-    )
+    env.filters.update(number=text.number, fixed=text.fixed, bracket=text.bracket, joined=text.joined)
+    env.filters.update(sections=sections, cell=cell, stem=file_stem)
     return env
 
 

@@ -131,7 +131,7 @@ def as_json(runs: Sequence[Run]) -> str:
     """Schema ``lyapcheck/simulate/1``: degrees, N·m, s, J; ``null`` where there is no number."""
     from importlib.metadata import version
 
-    results = [_result(run) for run in runs]
+    results = [result_json(run) for run in runs]
     data = {
         "schema": SCHEMA,
         "version": version("lyapcheck"),
@@ -141,7 +141,8 @@ def as_json(runs: Sequence[Run]) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _result(run: Run) -> dict[str, Any]:
+def result_json(run: Run) -> dict[str, Any]:
+    """One run as plain data: degrees, N·m, s, J; ``None`` where there is no number."""
     found, seen = run.indices, run.promises
     return {
         "name": run.name,

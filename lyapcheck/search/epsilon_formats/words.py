@@ -50,10 +50,18 @@ def heads(seconds: Sequence[float] | None) -> tuple[str, ...]:
 def remarks(result: EpsilonResult) -> list[str]:
     """Findings, reasons for missing numbers, and the witness, a sentence each."""
     said = [f"{finding}." for finding in result.findings]
-    said += [f"no {kind} ε₀: {reason}." for kind, reason in result.reasons.items()]
+    said += reasons(result)
     if result.witness is not None:
         said.append(witness_text(result.witness))
     return said
+
+
+def reasons(result: EpsilonResult) -> list[str]:
+    """Why a number is missing, or not larger than it is; a sentence each."""
+    return [
+        f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"{kind} ε₀: {reason}."
+        for kind, reason in result.reasons.items()
+    ]
 
 
 def witness_text(witness: Witness) -> str:

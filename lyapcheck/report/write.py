@@ -1,0 +1,70 @@
+"""A report on disk: written beside its place first, then moved there."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from pathlib import Path
+
+from lyapcheck.errors import argument_error
+from lyapcheck.report.model import Report
+
+FORMATS = ("html", "md", "json")
+_MODULES = {"html": "html", "md": "markdown", "json": "json"}
+
+
+def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str]:
+    """Every file of a report by its name; figures are shared by the formats that show them."""
+    files: dict[str, str] = {}
+    for name in formats:
+        files |= import_module(f"lyapcheck.report.{_MODULES[name]}").render(report)
+    if set(formats) & {"html", "md"}:
+        files |= {f"figures/{name}": drawing for name, drawing in report.figures.items()}
+    return files
+
+
+def require_folder(option: str, folder: Path) -> None:
+    """Refuse a folder that could not be written at the end, before the work is done.
+
+    Raises:
+        InputError: it is a file, or neither it nor its parents can be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise argument_error(option, folder, "is a file", "name a folder")
+    nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise argument_error(option, folder, f"{nearest} cannot be written to", "name a folder elsewhere")
+
+
+def write(files: Mapping[str, str], folder: Path) -> None:
+    """Put all files into a folder; what stands there already under other names stays.
+
+    All files are written to a new folder first, so that a full disk leaves the old report whole.
+
+    Raises:
+        InputError: the file system refuses.
+    """
+    staged = None
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
+        for name, text in files.items():
+            _put(staged / name, text)
+        for name in files:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            os.replace(staged / name, folder / name)
+    except OSError as error:
+        repair = "free some space or name another folder"
+        raise argument_error("--out", folder, f"cannot be written ({error.strerror})", repair) from error
+    finally:
+        if staged is not None:
+            shutil.rmtree(staged, ignore_errors=True)
+
+
+def _put(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        stream.write(text)
