@@ -31,7 +31,6 @@ def case(request: pytest.FixtureRequest) -> tuple[GainSet, EpsilonResult]:
 
 def test_the_four_are_in_order(case: tuple[GainSet, EpsilonResult]) -> None:
     _, found = case
-    assert found.published is not None
     assert found.scalar is not None
     assert found.certified is not None
     assert found.falsified is not None
@@ -76,7 +75,8 @@ def test_json_numbers_are_exact_strings(case: tuple[GainSet, EpsilonResult]) -> 
     assert document["schema"] == "lyapcheck/epsilon/1"
     row = document["results"][0]
     for kind in ("published", "scalar", "certified", "falsified"):
-        assert F(row[kind]) == getattr(found, kind)
+        expected = getattr(found, kind)
+        assert row[kind] is None if expected is None else F(row[kind]) == expected
     assert found.witness is not None
     assert [F(x) for x in row["witness"]["w"]] == list(found.witness.state.w)
     low, high = (F(row["witness"]["rate"][end]) for end in ("lower", "upper"))

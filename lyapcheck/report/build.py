@@ -92,16 +92,16 @@ def _compute(subject: Subject, tell: Progress) -> tuple[tuple[Data, ...], list[G
     """The long computations, a process for each core: claims by m, then each gain set."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     with ProcessPoolExecutor(WORKERS, mp_context=get_context("spawn")) as pool:
-        sets: list[tuple[str, Future[GainData]]] = [
+        sets: list[tuple[str, Future[Any]]] = [
             (name, pool.submit(gains_job, file.path, name, subject.robot, SEED))
             for file, name in subject.sets
         ]
         gains_of = subject.gain_files[0].path
-        proofs: list[tuple[str, Future[list[dict[str, Any]]]]] = [
+        proofs: list[tuple[str, Future[Any]]] = [
             (f"claims for m = {m}", pool.submit(claims_job, PROOF, m, subject.robot, gains_of))
             for m in subject.ms
         ]
-        _watch({job: label for label, job in (*sets, *proofs)}, tell)
+        _watch({job: label for label, job in sets} | {job: label for label, job in proofs}, tell)
         parts = [job.result() for _, job in sets]
         rows = [row for _, job in proofs for row in job.result()]
     return _merged(rows), parts

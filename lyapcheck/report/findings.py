@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lyapcheck.report.model import Data, Finding
+from lyapcheck.report.text import witness_words
 
 SAME = 0.02
 """A simulated index this close to the printed one, relatively, counts as confirmed."""
@@ -18,10 +19,15 @@ def findings(
 
 
 def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
+    """One finding a claim, for all m at which it is refuted."""
+    refuted: dict[str, list[Data]] = {}
     for row in claims:
         if row["verdict"] == "refuted":
-            details = "; ".join(row["details"])
-            yield Finding(f"claim {row['id']}", row["m"], f"{row['statement']}: {details}", "refuted")
+            refuted.setdefault(row["id"], []).append(row)
+    for claim_id, rows in refuted.items():
+        first = rows[0]
+        ms = tuple(row["m"] for row in rows if row["m"] is not None)
+        yield Finding(f"claim {claim_id}", ms, f"{first['statement']}: {witness_words(first)}", "refuted")
 
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
@@ -31,7 +37,7 @@ def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
         if result["verdict"] == "rejected" and result["m"] is not None and broken:
             first, rest = broken[0]["message"], len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
-            yield Finding(f"gains {result['name']}", result["m"], first + more, "rejected")
+            yield Finding(f"gains {result['name']}", (result["m"],), first + more, "rejected")
 
 
 def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
@@ -42,13 +48,13 @@ def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
         if published is None:
             proved = f"; even so dV/dt < 0 is proved with ε₀ = {float(certified):.4g}" if certified else ""
             text = f"the interval (18) for ε₀ is empty, because (19) fails{proved}"
-            yield Finding(f"ε₀ of {row['name']}", row["m"], text, "empty")
+            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "empty")
         elif falsified is not None and float(published) > float(falsified):
             text = (
                 f"(18) allows ε₀ up to {float(published):.4g}, but dV/dt > 0 at a state found for "
                 f"ε₀ = {float(falsified):.4g}"
             )
-            yield Finding(f"ε₀ of {row['name']}", row["m"], text, "refuted")
+            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "refuted")
 
 
 def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
@@ -63,4 +69,5 @@ def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
                 f"({100 * (ratio - 1):+.0f} %); the simulation has no dry friction and rests on assumed "
                 "inertia and friction"
             )
-            yield Finding(f"index of {run['name']}", run["m"], text, "differs")
+            ms = () if run["m"] is None else (run["m"],)
+            yield Finding(f"index of {run['name']}", ms, text, "differs")

@@ -65,8 +65,8 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
 
     result = epsilon(gain_set, model, seed=seed)
     at = result.certified or result.scalar or result.falsified
-    worst = worst_states(Setting(gain_set, model), float(at), seed=seed) if at else ()
-    states = [asdict(state) for state in worst]
+    setting = Setting(gain_set, model)
+    states = [asdict(state) for state in (worst_states(setting, float(at), seed=seed) if at else ())]
     return {**result_json(result), "remarks": reasons(result), "worst_states": states}
 
 

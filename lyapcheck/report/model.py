@@ -17,13 +17,13 @@ class Finding:
 
     Args:
         subject: what it is about: a claim, a gain set, an index.
-        m: the member of the family, ``None`` where it concerns all.
+        ms: the members of the family it concerns; empty where it concerns all.
         text: one or two sentences, numbers included.
         kind: ``refuted``, ``rejected``, ``empty`` or ``differs``.
     """
 
     subject: str
-    m: int | None
+    ms: tuple[int, ...]
     text: str
     kind: str
 
@@ -106,7 +106,7 @@ class MemberView:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Findings about this m, and about all."""
-        return tuple(finding for finding in self.report.findings if finding.m in (self.m, None))
+        return tuple(finding for finding in self.report.findings if not finding.ms or self.m in finding.ms)
 
     def counts(self) -> dict[str, int]:
         """How many claims have each verdict."""

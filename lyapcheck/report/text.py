@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from lyapcheck.report.model import Data
+
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
 
@@ -40,6 +42,11 @@ def joined(values: Sequence[Any], places: int = 2) -> str:
     return ", ".join(fixed(value, places) for value in values)
 
 
+def listed(values: Sequence[Any], digits: int = 4) -> str:
+    """A list of numbers of very different sizes in one cell, each to a few significant digits."""
+    return ", ".join(number(value or 0.0, digits) for value in values)
+
+
 def plural(count: int, noun: str) -> str:
     """``1 claim``, ``3 claims``."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
@@ -48,3 +55,23 @@ def plural(count: int, noun: str) -> str:
 def tally(counts: dict[str, int]) -> str:
     """``12 proved, 3 refuted``."""
     return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count) or "none"
+
+
+MOST_COORDINATES = 3
+"""A witness with more coordinates than this is given in the table of claims only."""
+
+
+def witness_words(row: Data) -> str:
+    """Both sides of a refuted relation in a few digits, and where: for an overview."""
+    witness = row["witness"]
+    point = [f"{name} = {value}" for name, value in witness["point"].items()]
+    where = f" at {', '.join(point)}" if 0 < len(point) <= MOST_COORDINATES else ""
+    left, right = (span_words(witness[side]) for side in ("left", "right"))
+    extra = [f"; {name}: {span_words(witness[name])}" for name in witness if name.endswith("gives it")]
+    return f"{left} is not {witness['operator'].replace('<=', '≤')} {right}{where}{''.join(extra)}"
+
+
+def span_words(ends: Sequence[str]) -> str:
+    """An enclosure in six digits; a range where its ends differ by more."""
+    low, high = (f"{float(end):.6g}" for end in ends)
+    return low if low == high else f"{low} to {high}"
