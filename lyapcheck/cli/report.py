@@ -77,10 +77,7 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     files = tuple(read_gain_file(path) for path in chosen)
     arm = robot_name(robot, files)
     require_joints(files, load(arm))
-    subject = Subject(arm, members, files)
-    if not subject.sets:
-        raise argument_error("--m", m, "no gain set has such an m", "ask for an m of the gain file")
-    return subject
+    return Subject(arm, members, files)
 
 
 def _summary(report: Report, out: Path, formats: tuple[str, ...]) -> str:

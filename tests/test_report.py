@@ -1,0 +1,244 @@
+"""The report: one object, several documents, written whole."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.cli.main import build_app
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.report.build import Subject, build
+from lyapcheck.report.drawings import file_stem
+from lyapcheck.report.figures.bars import epsilon_figure, indices_figure
+from lyapcheck.report.figures.motion import errors_figure, torques_figure
+from lyapcheck.report.findings import findings
+from lyapcheck.report.model import Report
+from lyapcheck.report.text import bracket, listed, number, span_words, witness_words
+from lyapcheck.report.write import render, require_folder, write
+
+VOID = {"meta", "link", "img", "br"}
+
+
+@pytest.fixture(scope="module")
+def report() -> Report:
+    """A small real report: the two-joint arm, m = 1."""
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    return build(Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),)))
+
+
+@pytest.fixture(scope="module")
+def files(report: Report) -> dict[str, str]:
+    return render(report)
+
+
+class Balance(HTMLParser):
+    """Complains about tags that are closed in the wrong order, and collects links."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.targets: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.targets += [value or "" for key, value in attrs if key in ("href", "src")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_every_format_is_there(files: dict[str, str]) -> None:
+    assert {"index.html", "m1.html", "style.css", "report.md", "m1.md", "report.json"} <= set(files)
+    assert "figures/family.svg" in files
+
+
+def test_pages_are_balanced_and_their_links_lead_somewhere(files: dict[str, str]) -> None:
+    for name, page in files.items():
+        if name.endswith(".html"):
+            reader = Balance()
+            reader.feed(page)
+            assert reader.open == []
+            assert set(reader.targets) <= set(files)
+            assert "<script" not in page
+
+
+def test_markdown_links_lead_somewhere(files: dict[str, str]) -> None:
+    for name, page in files.items():
+        if name.endswith(".md"):
+            assert set(re.findall(r"\]\(([^)]+)\)", page)) <= set(files)
+
+
+def test_markdown_tables_have_as_many_cells_in_every_row(files: dict[str, str]) -> None:
+    for page in (page for name, page in files.items() if name.endswith(".md")):
+        width = 0
+        for line in page.splitlines():
+            cells = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
+            assert not (cells and width) or cells == width, line
+            width = cells
+
+
+def test_equations_and_figures_are_wellformed_xml(files: dict[str, str]) -> None:
+    equations = re.findall(r"<math.*?</math>", files["index.html"], re.DOTALL)
+    assert len(equations) >= 5
+    for fragment in [*equations, *(text for name, text in files.items() if name.endswith(".svg"))]:
+        ElementTree.fromstring(fragment)
+
+
+def test_json_holds_every_claim_and_the_numbers_of_epsilon(report: Report, files: dict[str, str]) -> None:
+    document = json.loads(files["report.json"])
+    assert document["schema"] == "lyapcheck/report/1"
+    assert sum(document["counts"].values()) == len(report.claims) > 80
+    row = document["epsilon"][0]
+    assert float(row["scalar"]) <= float(row["certified"]) < float(row["falsified"])
+    assert row["worst_states"]
+    assert all(state["relative"] < 0 for state in row["worst_states"])
+
+
+def test_every_claim_is_on_the_page_of_its_member(report: Report, files: dict[str, str]) -> None:
+    for row in report.claims:
+        assert f'<tr id="{row["id"]}">' in files["m1.html"]
+        assert f"| {row['id']} |" in files["m1.md"]
+
+
+def test_assumptions_versions_and_seed_are_on_every_page(report: Report, files: dict[str, str]) -> None:
+    for page in (files["report.md"], files["m1.md"]):
+        assert all(text in page for text in report.robot["assumptions"])
+        assert f"casadi {report.versions['casadi']}" in page
+        assert f"Seed {report.seed}" in page
+
+
+def test_no_clock_and_no_path_of_this_machine(files: dict[str, str]) -> None:
+    here = str(Path(__file__).resolve().parents[1])
+    for text in files.values():
+        assert here not in text
+        assert "<dc:date>" not in text
+
+
+def claim(claim_id: str, m: int | None, verdict: str) -> dict[str, Any]:
+    witness = {"point": {"x": "3/2"}, "left": ["1.0", "1.0"], "operator": "<=", "right": ["0", "0"]}
+    return {"id": claim_id, "m": m, "verdict": verdict, "statement": "1 ≤ 0", "witness": witness}
+
+
+def test_refuted_claims_become_one_finding_for_all_their_members() -> None:
+    rows = [claim("a", 1, "refuted"), claim("a", 2, "refuted"), claim("b", 1, "proved")]
+    found = findings(rows, [], [], [])
+    assert [(item.subject, item.ms) for item in found] == [("claim a", (1, 2))]
+    assert "1 is not ≤ 0 at x = 3/2" in found[0].text
+
+
+def epsilon_row(**numbers: str | None) -> dict[str, Any]:
+    blank = {"published": None, "scalar": None, "certified": None, "falsified": None}
+    return {"name": "a", "m": 2, **blank, **numbers}
+
+
+@pytest.mark.parametrize(
+    ("row", "kinds"),
+    [
+        (epsilon_row(published="0.1", certified="0.2", falsified="0.3"), []),
+        (epsilon_row(published="0.4", certified="0.2", falsified="0.3"), ["refuted"]),
+        (epsilon_row(certified="0.2", falsified="0.3"), ["empty"]),
+        (epsilon_row(), ["empty"]),
+    ],
+)
+def test_published_epsilons_are_held_against_the_others(row: dict[str, Any], kinds: list[str]) -> None:
+    assert [item.kind for item in findings([], [], [row], [])] == kinds
+
+
+@pytest.mark.parametrize(("simulated", "count"), [(25.0, 0), (25.4, 0), (31.0, 1), (None, 0)])
+def test_simulated_indices_are_held_against_the_printed(simulated: float | None, count: int) -> None:
+    run = {"name": "a", "m": 1, "L2": simulated, "printed": {"L2": 25.0}}
+    assert len(findings([], [], [], [run])) == count
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"),
+    [
+        ({"lower": "1.0535692", "upper": "1.0535693"}, "1.053569"),
+        ({"lower": "1", "upper": "1"}, "1"),
+        ({"lower": "0.1", "upper": "0.2"}, "[0.1, 0.2]"),
+        (None, "–"),
+    ],
+)
+def test_bracket_shows_only_digits_that_both_ends_share(ends: Any, expected: str) -> None:
+    assert bracket(ends) == expected
+
+
+def test_numbers_of_any_size_fit_a_cell() -> None:
+    assert listed([1e-7, -0.0, 123456.0]) == "1e-07, 0, 1.235e+05"
+    assert number(None) == "–"
+    assert span_words(["1", "2"]) == "1 to 2"
+
+
+def test_a_long_witness_is_left_to_the_table() -> None:
+    row = claim("a", 1, "refuted")
+    row["witness"]["point"] = {f"x{i}": "1" for i in range(4)}
+    assert "x0" not in witness_words(row)
+
+
+@pytest.mark.parametrize("name", ["../../etc/passwd", "a/b", "tau m1", "τ₃", "x" * 10])
+def test_names_of_gain_sets_never_become_paths(name: str) -> None:
+    assert re.fullmatch(r"[\w-]+", file_stem(name))
+
+
+def test_figures_are_the_same_bytes_twice() -> None:
+    t = np.linspace(0, 5, 50)
+    e = np.stack([np.exp(-t), np.cos(t)], axis=1)
+
+    def draw() -> list[str]:
+        return [
+            errors_figure("a", t, e, ["one", "two"]),
+            torques_figure("a", t, e, ["one", "two"], [1.0, None]),
+            indices_figure(["a", "b"], {"simulated": [1.0, None]}),
+            epsilon_figure(["a"], {"scalar": [0.1], "certified": [None]}),
+        ]
+
+    assert draw() == draw()
+
+
+def test_a_refused_write_leaves_the_old_report_whole(tmp_path: Path) -> None:
+    write({"report.md": "old"}, tmp_path)
+    (tmp_path / "figures").write_text("in the way")
+    with pytest.raises(InputError, match="cannot be written"):
+        write({"figures/a.svg": "new", "report.md": "new"}, tmp_path)
+    assert (tmp_path / "report.md").read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["figures", "report.md"]
+
+
+def test_a_folder_that_is_a_file_is_refused_before_any_work(tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("")
+    with pytest.raises(InputError, match="is a file"):
+        require_folder("--out", tmp_path / "out")
+    require_folder("--out", tmp_path / "new" / "deep")
+
+
+BROKEN = [
+    (["--m", "0"], "at least 1"),
+    (["--m", "x"], "whole number"),
+    (["--m", "1:40"], "at most 20"),
+    (["--m", "1", "2", "-3"], "No such option"),
+    (["--format", "docx"], "is not a format"),
+    (["--robot", "nobody"], "nobody"),
+    (["--robot", "reyes-kelly2"], "3 joints"),
+    (["--gains", "missing.toml"], "missing.toml"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "expected"), BROKEN)
+def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = CliRunner().invoke(build_app(("report", "table")), ["report", "--out", str(out), *arguments])
+    said = str(result.exception) if isinstance(result.exception, InputError) else result.output
+    assert expected in said
+    assert result.exit_code != 0
+    assert not out.exists()
