@@ -7,7 +7,8 @@ from typing import Any
 
 from flint import arb
 
-from lyapcheck.check.balls import even_range, odd_range
+from lyapcheck.check import members
+from lyapcheck.check.balls import even_range
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms
@@ -42,11 +43,11 @@ class Algebraic(ElementaryFamily):
 
     def ball_h(self, x: arb) -> arb:
         """x/√(1 + x²), rising."""
-        return odd_range(lambda a: a / (1 + a * a).sqrt(), (), x)
+        return members.algebraic_h(x)
 
     def ball_dh(self, x: arb) -> arb:
         """(1 + x²)^(-3/2), falling away from 0."""
-        return even_range(lambda a: (1 + a * a).rsqrt() ** 3, (), x)
+        return members.algebraic_dh(x)
 
     def ball_potential(self, x: arb) -> arb:
         """√(1 + x²) - 1, without cancellation."""

@@ -7,7 +7,8 @@ from typing import Any
 
 from flint import arb
 
-from lyapcheck.check.balls import even_range, odd_range, precision
+from lyapcheck.check import members
+from lyapcheck.check.balls import even_range, precision
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms
@@ -49,11 +50,11 @@ class Arctan(ElementaryFamily):
 
     def ball_h(self, x: arb) -> arb:
         """arctan x, rising."""
-        return odd_range(arb.atan, (), x)
+        return members.arctan_h(x)
 
     def ball_dh(self, x: arb) -> arb:
         """1/(1 + x²), falling away from 0."""
-        return even_range(lambda a: 1 / (1 + a * a), (), x)
+        return members.arctan_dh(x)
 
     def ball_potential(self, x: arb) -> arb:
         """U, rising away from 0."""
@@ -67,7 +68,7 @@ class Arctan(ElementaryFamily):
         """γ = π/2 in the limit, ρ = L = 1 at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)
         with precision(4 * digits + 16):
-            gamma = Enclosure.from_arb(arb.pi() / 2)
+            gamma = members.half_pi()
         return FamilyConstants(gamma, one, one, None, zero, zero)
 
 

@@ -1,0 +1,124 @@
+"""Trigonometric polynomials as sums of harmonics a cos(k·q) + b sin(k·q), exactly.
+
+The form is unique, so two polynomials are the same function exactly when their harmonics are equal; and over
+a box of joint angles each harmonic has its exact range, where a product of sines and cosines of the same
+angle would lose it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+
+Harmonic = tuple[int, ...]
+"""Integer multiples k of the joint angles; the first that is not zero is positive."""
+Gaussian = tuple[Fraction, Fraction]
+Harmonics = dict[Harmonic, Gaussian]
+"""k to (a, b)."""
+Term = tuple[tuple[int, ...], Fraction]
+"""Exponents of (s1 … sn, c1 … cn) and the coefficient of one monomial."""
+
+
+def harmonics(terms: Iterable[Term], n: int) -> Harmonics:
+    """The harmonics of a polynomial in n sines and n cosines.
+
+    With z = exp(i k·q) each s is (z − 1/z)/(2i) and each c is (z + 1/z)/2; the coefficients stay Gaussian
+    rationals, and those of k and −k are conjugate.
+    """
+    total: dict[Harmonic, Gaussian] = {}
+    for powers, coefficient in terms:
+        for k, value in _product(powers[:n], powers[n : 2 * n]).items():
+            _add(total, k, (value[0] * coefficient, value[1] * coefficient))
+    return _real(total)
+
+
+def derivative(terms: Mapping[Harmonic, Gaussian], i: int) -> Harmonics:
+    """The derivative with respect to q_i, counted from 0."""
+    return {k: (k[i] * b, -k[i] * a) for k, (a, b) in terms.items() if k[i] != 0}
+
+
+def combination(parts: Iterable[tuple[Fraction, Mapping[Harmonic, Gaussian]]]) -> Harmonics:
+    """Σ factor · polynomial."""
+    total: Harmonics = {}
+    for factor, terms in parts:
+        for k, (a, b) in terms.items():
+            _add(total, k, (factor * a, factor * b))
+    return {k: ab for k, ab in total.items() if any(ab)}
+
+
+def mirrored(terms: Mapping[Harmonic, Gaussian], signs: Sequence[int]) -> Harmonics:
+    """The polynomial with every q_i replaced by σ_i q_i."""
+    result: Harmonics = {}
+    for k, (a, b) in terms.items():
+        turned = tuple(s * x for s, x in zip(signs, k, strict=True))
+        flip = _lead(turned) < 0
+        result[tuple(-x for x in turned) if flip else turned] = (a, -b if flip else b)
+    return result
+
+
+def largest(terms: Mapping[Harmonic, Gaussian]) -> Fraction:
+    """A bound of the absolute value: Σ |a| + |b|."""
+    return sum((abs(a) + abs(b) for a, b in terms.values()), Fraction(0))
+
+
+def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int], Harmonics]:
+    """The c_ijk = c_ikj = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) with k ≤ j that do not vanish."""
+    n, half = len(mass), Fraction(1, 2)
+    found = {}
+    for i in range(n):
+        for j in range(n):
+            for k in range(j + 1):
+                parts = (
+                    (half, derivative(mass[i][j], k)),
+                    (half, derivative(mass[i][k], j)),
+                    (-half, derivative(mass[j][k], i)),
+                )
+                symbol = combination(parts)
+                if symbol:
+                    found[i, j, k] = symbol
+    return found
+
+
+def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> dict[Harmonic, Gaussian]:
+    """Π s_i^a c_i^b as coefficients of exp(i k·q)."""
+    n, half = len(sines), Fraction(1, 2)
+    result: dict[Harmonic, Gaussian] = {(0,) * n: (Fraction(1), Fraction(0))}
+    for i in range(n):
+        for up, down in [((Fraction(0), -half), (Fraction(0), half))] * sines[i]:
+            result = _times(result, i, up, down)
+        for up, down in [((half, Fraction(0)), (half, Fraction(0)))] * cosines[i]:
+            result = _times(result, i, up, down)
+    return result
+
+
+def _times(terms: dict[Harmonic, Gaussian], i: int, up: Gaussian, down: Gaussian) -> dict[Harmonic, Gaussian]:
+    """The product with up·z_i + down/z_i."""
+    result: dict[Harmonic, Gaussian] = {}
+    for k, value in terms.items():
+        for step, factor in ((1, up), (-1, down)):
+            place = (*k[:i], k[i] + step, *k[i + 1 :])
+            _add(result, place, _complex_product(value, factor))
+    return result
+
+
+def _complex_product(x: Gaussian, y: Gaussian) -> Gaussian:
+    return x[0] * y[0] - x[1] * y[1], x[0] * y[1] + x[1] * y[0]
+
+
+def _add(terms: dict[Harmonic, Gaussian], k: Harmonic, value: Gaussian) -> None:
+    old = terms.get(k, (Fraction(0), Fraction(0)))
+    terms[k] = (old[0] + value[0], old[1] + value[1])
+
+
+def _lead(k: Harmonic) -> int:
+    return next((x for x in k if x), 0)
+
+
+def _real(terms: dict[Harmonic, Gaussian]) -> Harmonics:
+    """Conjugate pairs as cosines and sines: v e^{ix} + v̄ e^{−ix} = 2 Re v cos x − 2 Im v sin x."""
+    result: Harmonics = {}
+    for k, (re, im) in sorted(terms.items()):
+        lead = _lead(k)
+        if lead >= 0 and (re or im):
+            result[k] = (re, Fraction(0)) if lead == 0 else (2 * re, -2 * im)
+    return result

@@ -1,0 +1,94 @@
+"""The bounded functions h that controllers may use, as the checker knows them: h, h' in balls, γ, ρ and L.
+
+References: ``reyes2019family`` (6), (7), (8).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb
+
+from lyapcheck.check import balls
+from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.enclosure import Enclosure
+
+
+@dataclass(frozen=True)
+class Member:
+    """An odd, bounded h with its bounds from above.
+
+    Args:
+        h: contains h over a ball, dimensionless.
+        dh: contains h' over a ball.
+        gamma: at least sup h.
+        rho: at least sup |h'|.
+        L: at least sup h(x)/x.
+    """
+
+    h: Callable[[arb], arb]
+    dh: Callable[[arb], arb]
+    gamma: Fraction
+    rho: Fraction
+    L: Fraction
+
+
+def member(name: str, m: int | None = None) -> Member:
+    """A function by name: ``hyperbolic`` with its m, ``tanh``, ``arctan`` or ``algebraic`` (x/√(1+x²)).
+
+    Raises:
+        ValueError: no such function, or an m where there is none to choose, or none where there is.
+    """
+    if name == "hyperbolic" and isinstance(m, int) and m >= 1:
+        return _hyperbolic(m)
+    if m is None and name in _SINGLE:
+        return _SINGLE[name]()
+    raise ValueError(f"no bounded function {name!r} with m = {m} is known to the checker")
+
+
+def _hyperbolic(m: int) -> Member:
+    found = hyperbolic_constants(m)
+    bounds = found.gamma.upper, found.rho.upper, found.L.upper
+    return Member(lambda x: balls.h(m, x), lambda x: balls.dh(m, x), *bounds)
+
+
+def arctan_h(x: arb) -> arb:
+    """arctan x, rising."""
+    return balls.odd_range(arb.atan, (), x)
+
+
+def arctan_dh(x: arb) -> arb:
+    """1/(1 + x²), falling away from 0."""
+    return balls.even_range(lambda a: 1 / (1 + a * a), (), x)
+
+
+def half_pi() -> Enclosure:
+    """π/2 at the precision in force."""
+    return Enclosure.from_arb(arb.pi() / 2)
+
+
+def algebraic_h(x: arb) -> arb:
+    """x/√(1 + x²), rising."""
+    return balls.odd_range(lambda a: a / (1 + a * a).sqrt(), (), x)
+
+
+def algebraic_dh(x: arb) -> arb:
+    """(1 + x²)^(−3/2), falling away from 0."""
+    return balls.even_range(lambda a: 1 / ((1 + a * a) * (1 + a * a).sqrt()), (), x)
+
+
+def _arctan() -> Member:
+    return Member(arctan_h, arctan_dh, half_pi().upper, Fraction(1), Fraction(1))
+
+
+def _algebraic() -> Member:
+    return Member(algebraic_h, algebraic_dh, Fraction(1), Fraction(1), Fraction(1))
+
+
+_SINGLE: dict[str, Callable[[], Member]] = {
+    "tanh": lambda: _hyperbolic(1),
+    "arctan": _arctan,
+    "algebraic": _algebraic,
+}

@@ -1,0 +1,51 @@
+"""Trees of boxes: a box is cut in the middle of one side, and again, until each part can be judged.
+
+A tree is written in preorder, a digit for the side that is cut and a dot for a leaf. Both halves of a side
+share the double in the middle, so the leaves cover the start whatever the tree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+Side = tuple[float, float]
+Box = tuple[Side, ...]
+
+
+class BrokenTree(ValueError):
+    """The text is not the preorder of a tree of cuts of this box."""
+
+
+def leaves(start: Box, tree: str) -> Iterator[Box]:
+    """The boxes at the dots of a tree.
+
+    Raises:
+        BrokenTree: a character is neither a dot nor a side of the box, or there are too few or too many.
+    """
+    stack = [start]
+    for mark in tree:
+        if not stack:
+            raise BrokenTree("the tree ends before its text does")
+        box = stack.pop()
+        if mark == ".":
+            yield box
+        else:
+            left, right = halves(box, _side(mark, len(box)))
+            stack += (right, left)
+    if stack:
+        raise BrokenTree("the text ends before its tree does")
+
+
+def halves(box: Box, side: int) -> tuple[Box, Box]:
+    """Both halves of a box, cut at one double."""
+    low, high = box[side]
+    middle = 0.5 * (low + high)
+    before, after = box[:side], box[side + 1 :]
+    return (*before, (low, middle), *after), (*before, (middle, high), *after)
+
+
+def _side(mark: str, sides: int) -> int:
+    side = ord(mark) - ord("0")
+    if not 0 <= side < sides:
+        raise BrokenTree(f"{mark!r} is not a side of the box")
+    return side

@@ -1,0 +1,61 @@
+"""Walking a tree of boxes and showing P ≻ 0 on each leaf."""
+
+from __future__ import annotations
+
+from lyapcheck.check.balls import precision
+from lyapcheck.check.scalar import certifies
+from lyapcheck.check.stability.boxes import Box, halves, leaves
+from lyapcheck.check.stability.closure import Closure
+from lyapcheck.check.stability.schur import Evaluator
+
+BITS = 64
+BLOCK = 64
+MORE_HALVINGS = 12
+"""How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
+
+
+def proves(closure: Closure, tree: str) -> bool:
+    """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
+
+    Args:
+        closure: arm, controller and ε₀.
+        tree: in preorder, a digit for the side of ``closure.start`` that is cut, a dot for a leaf.
+
+    Returns:
+        ``True`` only if proved; ``False`` says nothing about the statement.
+
+    Raises:
+        BrokenTree: the text is not a tree of this box.
+
+    Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
+    """
+    return proves_part(closure, tree, 0, 1)
+
+
+def proves_part(closure: Closure, tree: str, part: int, parts: int) -> bool:
+    """The share of `proves` that falls to one of several processes: every leaf in turn, by its number.
+
+    Soundness: the tree proves the statement if all its parts are ``True``.
+    """
+    if not closure.admissible:
+        return False
+    if certifies(closure.tail, closure.eps0):
+        return True
+    with precision(BITS):
+        evaluator = Evaluator(closure)
+        # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
+        mine = (box for k, box in enumerate(leaves(closure.start, tree)) if k // BLOCK % parts == part)
+        return all(_shown(evaluator, box) for box in mine)
+
+
+def _shown(evaluator: Evaluator, box: Box) -> bool:
+    """Whether P ≻ 0 is shown on a box, cut further where that is needed."""
+    stack = [(box, 0)]
+    while stack:
+        part, depth = stack.pop()
+        if evaluator.proves(part):
+            continue
+        if depth == MORE_HALVINGS:
+            return False
+        stack += [(half, depth + 1) for half in halves(part, depth % len(part))]
+    return True

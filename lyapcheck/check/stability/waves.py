@@ -1,0 +1,72 @@
+"""M(q) and the Christoffel symbols over boxes of joint angles, in balls."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from flint import arb
+
+from lyapcheck.check.balls import to_arb
+from lyapcheck.check.harmonics import Harmonics, derivative
+
+Waves = dict[tuple[int, ...], tuple[arb, arb]]
+
+
+class Polynomial:
+    """A trigonometric polynomial and its slopes, enclosed over boxes by two forms that both hold."""
+
+    def __init__(self, terms: Harmonics) -> None:
+        self.terms = _lifted(terms)
+        self.used = [k for k in terms if any(k)]
+        joints = {i for k in terms for i, factor in enumerate(k) if factor}
+        self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
+
+    def over(self, wide: Waves, centre: Waves, offset: list[arb]) -> arb:
+        """The sum of the ranges of its harmonics, cut with the mean value form."""
+        natural = _combined(self.terms, wide)
+        if not self.slopes:
+            return natural
+        mean = _combined(self.terms, centre)
+        for i, slope in self.slopes:
+            mean += _combined(slope, wide) * offset[i]
+        return natural.intersection(mean)
+
+
+Lifted = list[tuple[tuple[int, ...], arb, arb]]
+
+
+def _lifted(terms: Harmonics) -> Lifted:
+    return [(k, to_arb(a), to_arb(b)) for k, (a, b) in terms.items()]
+
+
+def _combined(terms: Lifted, waves: Waves) -> arb:
+    total = arb(0)
+    for k, a, b in terms:
+        if k in waves:
+            cosine, sine = waves[k]
+            total += a * cosine + b * sine
+        else:
+            total += a
+    return total
+
+
+def waves(used: Sequence[tuple[int, ...]], q: Sequence[arb]) -> Waves:
+    """cos and sin of every harmonic."""
+    found: Waves = {}
+    for k in used:
+        angle = sum((factor * x for factor, x in zip(k, q, strict=True) if factor), arb(0))
+        found[k] = cosine_range(angle), cosine_range(angle - arb.pi() / 2)
+    return found
+
+
+def cosine_range(x: arb) -> arb:
+    """cos over a ball: the hull of both ends and of the extremes ±1 at the multiples of π in between."""
+    low, high = x.lower(), x.upper()
+    found = low.cos().union(high.cos())
+    turns = range(math.floor(float(low) / math.pi) - 1, math.ceil(float(high) / math.pi) + 2)
+    for k in turns:
+        place = k * arb.pi()
+        if not (place < low or place > high):
+            found = found.union(arb((-1) ** k))
+    return found

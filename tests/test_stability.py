@@ -1,0 +1,222 @@
+"""The checker of global certificates: trees of boxes, P in balls, tail, symmetry, and what it must refuse."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from flint import arb
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from lyapcheck.check import stability
+from lyapcheck.check.balls import precision
+from lyapcheck.check.harmonics import christoffel, derivative, harmonics, mirrored
+from lyapcheck.check.stability import BrokenTree, Closure, leaves, proves, proves_part
+from lyapcheck.check.stability.boxes import halves
+from lyapcheck.check.stability.schur import Evaluator
+from lyapcheck.check.states import State, rate
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.family import named
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.setting import Setting
+
+F = Fraction
+TENTH = F(1, 10)
+Array = NDArray[np.float64]
+GAINS = {
+    "buap3": read_gain_file(paper_gain_file("table2")).gains,
+    "reyes-kelly2": read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains,
+    "pendulum1": tuple(GainSet(f"m{m}", m, (F(20),), (F(1, 5),)) for m in (1, 2, 3)),
+}
+CASES = [(robot, index) for robot in GAINS for index in range(3)]
+
+
+def closure(robot: str, index: int, eps0: Fraction = TENTH) -> Closure:
+    gains = GAINS[robot][index]
+    return Closure(Setting(gains, load(robot)).arm, gains.family, gains.m, gains.kp, gains.kv, eps0)
+
+
+def exact_schur(robot: str, index: int, eps0: float, q: Array, e: Array) -> Array:
+    """P at one state, by NumPy from the definition and the numeric model."""
+    gains, model = GAINS[robot][index], NumericModel(load(robot))
+    family = named(gains.family, gains.m)
+    h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
+    M, B = model.mass(q), np.diag(model.viscous)
+    unit = e / r if r else np.zeros_like(e)
+    S = model.coriolis(q, h) + np.outer(M @ h, unit) / (1 + r) - M @ np.diag(dh)
+    eps, L = eps0 / (1 + r), float(family.constants().L.upper)
+    kp, kv = (np.array([float(k) for k in part]) for part in (gains.kp, gains.kv))
+    X = B + eps * S
+    return B + eps * (S + S.T) / 2 - eps / 4 * X.T @ np.diag(1 / (kp - eps0 * L * kv / 4)) @ X
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> None:
+    case = closure(robot, index)
+    generator = np.random.default_rng(index)
+    joints, angles = range(case.n), case.angles
+    with precision(64):
+        evaluator = Evaluator(case)
+        for _ in range(25):
+            width = 10.0 ** generator.uniform(-3, 0.3)
+            middle = generator.uniform(-2, 2, len(angles) + case.n)
+            box = tuple((float(x - width), float(x + width)) for x in middle)
+            sides, errors = box[: len(angles)], box[len(angles) :]
+            r_squared = sum((evaluator.square(side) for side in errors), arb(0))
+            P = evaluator.schur(sides, errors, r_squared)
+            for _ in range(8):
+                point = np.array([generator.uniform(*side) for side in box])
+                q = generator.uniform(-3, 3, case.n)
+                q[list(angles)] = point[: len(angles)]
+                exact = exact_schur(robot, index, 0.1, q, point[len(angles) :])
+                for i, j in product(joints, repeat=2):
+                    if j <= i:
+                        low, high = float(P[i][j].lower()), float(P[i][j].upper())
+                        assert low - 1e-12 <= exact[i, j] <= high + 1e-12
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index: int) -> None:
+    """The reduction itself, against the checker's independent dV/dt in balls."""
+    case, gains = closure(robot, index, F(1, 2)), GAINS[robot][index]
+    setting = Setting(gains, load(robot))
+    generator = np.random.default_rng(7 + index)
+    shown = 0
+    for _ in range(30):
+        q, e = generator.uniform(-3, 3, case.n), generator.uniform(-2, 2, case.n)
+        if np.linalg.eigvalsh(exact_schur(robot, index, 0.5, q, e))[0] < 1e-9:
+            continue
+        for scale in (1e-3, 0.1, 1.0, 30.0, 1e4):
+            parts = (q, e, scale * generator.normal(size=case.n))
+            state = State(*(tuple(F(float(x)) for x in part) for part in parts))
+            assert rate(case.arm, setting.controller, F(1, 2), state) < 0
+            shown += 1
+    assert shown or robot == "buap3"
+
+
+def grown(case: Closure, deepest: int) -> str:
+    """A tree by plain halving, side after side, as far as the checker's own evaluator needs."""
+    with precision(64):
+        evaluator = Evaluator(case)
+
+        def grow(box: stability.Box, depth: int) -> str:
+            if depth == deepest or evaluator.proves(box):
+                return "."
+            side = max(range(len(box)), key=lambda i: box[i][1] - box[i][0])
+            return str(side) + "".join(grow(half, depth + 1) for half in halves(box, side))
+
+        return grow(case.start, 0)
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_a_pendulum_is_proved_below_its_limit_and_refused_above(index: int) -> None:
+    """At e → 0 (m = 1), and at the peak of h' (m > 1), P is B − ε₀ρJ/(1+r) less a little."""
+    arm = closure("pendulum1", index).arm
+    inertia, friction = float(sum(c for _, c in arm.mass[0][0])), float(arm.viscous[0])
+    rho = float(named("hyperbolic", index + 1).constants().rho.upper)
+    low, high = F(friction / inertia / rho * 0.3), F(friction / inertia / rho * 4)
+    fine = closure("pendulum1", index, low)
+    assert proves(fine, grown(fine, 12))
+    wrong = closure("pendulum1", index, high)
+    assert not proves(wrong, grown(wrong, 8))
+
+
+def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsified() -> None:
+    case = closure("reyes-kelly2", 0, F("0.802"))
+    tree = grown(case, 40)
+    assert proves(case, tree)
+    assert all(proves_part(case, tree, part, 3) for part in range(3))
+    assert not proves(replace(case, eps0=F("0.8106")), tree)
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index: int) -> None:
+    case = closure("pendulum1", index, F(1, 10))
+    assert not proves(replace(case, eps0=F(1000)), grown(case, 8))
+
+
+@pytest.mark.parametrize(
+    ("change", "value"),
+    [
+        ("kp", (F(-20),)),
+        ("kv", (F(0),)),
+        ("eps0", F(0)),
+        ("eps0", F(-1)),
+        ("kp", (F(20), F(20))),
+        ("kp", (F(1, 10**9),)),
+    ],
+)
+def test_inadmissible_data_prove_nothing(change: str, value: object) -> None:
+    case = closure("pendulum1", 0, F(1, 1000))
+    assert proves(case, ".")
+    assert not proves(replace(case, **{change: value}), ".")
+
+
+def test_an_asymmetric_or_negative_arm_proves_nothing() -> None:
+    case = closure("reyes-kelly2", 0, F(1, 10**6))
+    assert proves(case, ".")
+    (a, b), (_, d) = case.arm.mass
+    assert not proves(replace(case, arm=replace(case.arm, mass=((a, b), (a, d)))), ".")
+    assert not proves(replace(case, arm=replace(case.arm, viscous=(F(-1), F(1)))), ".")
+
+
+@pytest.mark.parametrize("tree", ["", "0", "0.", "..", "9..", "x..", "0...", "-.."])
+def test_broken_trees_are_refused(tree: str) -> None:
+    with pytest.raises(BrokenTree):
+        list(leaves(((0.0, 1.0), (0.0, 1.0)), tree))
+
+
+def test_an_unknown_function_is_refused() -> None:
+    case = closure("pendulum1", 0)
+    for family, m in (("hyperbolic", None), ("hyperbolic", 0), ("tanh", 1), ("linear", None), ("sine", 2)):
+        with pytest.raises(ValueError, match="no bounded"):
+            proves(replace(case, family=family, m=m), ".")
+
+
+@st.composite
+def trees(draw: st.DrawFn, sides: int = 3, depth: int = 6) -> str:
+    if depth == 0 or draw(st.booleans()):
+        return "."
+    side = draw(st.integers(0, sides - 1))
+    return str(side) + draw(trees(sides, depth - 1)) + draw(trees(sides, depth - 1))
+
+
+@given(trees(), st.lists(st.floats(-1, 1), min_size=3, max_size=3))
+def test_leaves_cover_the_start(tree: str, point: list[float]) -> None:
+    boxes = list(leaves(((-1.0, 1.0),) * 3, tree))
+    assert any(all(low <= x <= high for x, (low, high) in zip(point, box, strict=True)) for box in boxes)
+    volume = sum(np.prod([high - low for low, high in box]) for box in boxes)
+    assert volume == pytest.approx(8.0)
+
+
+@pytest.mark.parametrize("robot", ["buap3", "buap3-small", "reyes-kelly2", "pelican2"])
+def test_harmonics_and_symbols_agree_with_the_numeric_model(robot: str) -> None:
+    model = load(robot)
+    arm = Setting(GainSet("a", 1, (F(1),) * model.n, (F(1),) * model.n), model).arm
+    mass = [[harmonics(entry, model.n) for entry in row] for row in arm.mass]
+    q = np.random.default_rng(3).uniform(-3, 3, model.n)
+
+    def value(terms: dict[tuple[int, ...], tuple[Fraction, Fraction]]) -> float:
+        angle = {k: float(np.dot(k, q)) for k in terms}
+        return sum(float(a) * np.cos(angle[k]) + float(b) * np.sin(angle[k]) for k, (a, b) in terms.items())
+
+    numeric = NumericModel(model)
+    assert np.allclose([[value(entry) for entry in row] for row in mass], numeric.mass(q), atol=1e-13)
+    h = np.arange(1.0, model.n + 1)
+    C = np.zeros((model.n, model.n))
+    for (i, j, k), terms in christoffel(mass).items():
+        C[i, j] += value(terms) * h[k]
+        C[i, k] += value(terms) * h[j] * (k != j)
+    assert np.allclose(C, numeric.coriolis(q, h), atol=1e-13)
+
+
+def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow() -> None:
+    terms = {(1, -2): (F(1), F(2)), (0, 1): (F(0), F(3))}
+    assert mirrored(mirrored(terms, (-1, 1)), (-1, 1)) == terms
+    assert derivative(terms, 1) == {(1, -2): (F(-4), F(2)), (0, 1): (F(3), F(0))}
