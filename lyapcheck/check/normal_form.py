@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from flint import Ordering, arb, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -208,6 +209,7 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     return Ratio(algebra.reduced(ratio.top), algebra.reduced(ratio.bottom)), algebra
 
 
+@lru_cache(maxsize=32)
 def is_zero(tree: Tree) -> bool:
     """Whether the normal form of an expression is zero; ``False`` says nothing.
 

@@ -3,6 +3,7 @@
 A proof script needs nothing but the names below.
 """
 
+from lyapcheck.check.certificates.statements import Relation
 from lyapcheck.claims.arms import (
     apply,
     coriolis_matrix,
@@ -24,7 +25,6 @@ from lyapcheck.claims.claim import Claim, Proof
 from lyapcheck.claims.decision import Decision
 from lyapcheck.claims.expressions import (
     Expr,
-    Relation,
     atan,
     cos,
     cosh,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
+from lyapcheck.check.certificates.statements import Relation
 from lyapcheck.check.functions import Tree, derivative
 
 Operand = "Expr | Fraction | int | str | Decimal"
@@ -67,30 +68,6 @@ class Expr:
 
     def __gt__(self, other: object) -> Relation:
         return expr(other) < self
-
-
-@dataclass(frozen=True)
-class Relation:
-    """``left <= right`` or ``left < right``."""
-
-    left: Tree
-    operator: str
-    right: Tree
-
-    @property
-    def strict(self) -> bool:
-        """Whether equality is excluded."""
-        return self.operator == "<"
-
-    @property
-    def gap(self) -> Tree:
-        """``right - left``, which the relation says is not negative (positive, if strict)."""
-        return ("add", self.right, ("neg", self.left))
-
-    def __bool__(self) -> bool:
-        raise TypeError(
-            "a relation is a statement to decide, it has no truth value; write a < b and b < c as two"
-        )
 
 
 def expr(value: object) -> Expr:

@@ -1,57 +1,90 @@
-"""One decision procedure a file, chosen by the kind of statement."""
+"""One search a file, chosen by the kind of statement; the checker judges what they find."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.proofs import Application
+from lyapcheck.check.certificates.rules.theorem import THEOREMS
 from lyapcheck.claims import statements as kinds
-from lyapcheck.claims.decision import Decision, conjunction, proved, undecided
-from lyapcheck.claims.procedures.chain import decide_chain
-from lyapcheck.claims.procedures.constants import decide_constant
-from lyapcheck.claims.procedures.identity import decide_identity
-from lyapcheck.claims.procedures.implication import decide_implies
-from lyapcheck.claims.procedures.norms import decide_norm_bound
-from lyapcheck.claims.procedures.one_variable import decide_for_all
-from lyapcheck.claims.procedures.printed import decide_agrees
-from lyapcheck.claims.procedures.small import decide_for_small
-from lyapcheck.claims.procedures.trigonometric import decide_bounds, decide_positive
+from lyapcheck.claims.decision import Decision, proved, refuted, undecided
+from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
+from lyapcheck.claims.procedures.chain import find_chain
+from lyapcheck.claims.procedures.constants import find_constant
+from lyapcheck.claims.procedures.identity import find_identity
+from lyapcheck.claims.procedures.implication import find_implies
+from lyapcheck.claims.procedures.norms import find_norm_bound
+from lyapcheck.claims.procedures.one_variable import find_for_all
+from lyapcheck.claims.procedures.printed import find_agrees
+from lyapcheck.claims.procedures.small import find_for_small
+from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
 from lyapcheck.verdicts import Grade
 
 
 def decide(statement: kinds.Statement) -> Decision:
-    """The decision on a statement, by the procedure of its kind."""
+    """The decision on a statement: the search of its kind proposes, the checker disposes.
+
+    Soundness: ``proved`` and ``refuted`` are the verdicts of ``check.certificates.verify``, the same that
+    judges certificates read from files; no search is trusted.
+    """
+    finding = find(statement)
+    if finding.proof is None:
+        return undecided(finding.reason, finding.method, **finding.evidence)
+    try:
+        accepted = verify(statement, finding.proof)
+    except Refused as refusal:
+        return undecided(
+            f"what the search found is refused by the checker ({refusal}); report this as a fault",
+            finding.method,
+            **finding.evidence,
+        )
+    if accepted.verdict != finding.verdict.value:
+        raise AssertionError(f"the search says {finding.verdict.value}, the checker {accepted.verdict}")
+    grade, method, evidence = Grade[accepted.grade.upper()], finding.method, finding.evidence
+    if finding.witness is None:
+        return proved(grade, method, finding.proof, **evidence)
+    return refuted(grade, method, finding.witness, finding.reason, finding.proof, **evidence)
+
+
+def find(statement: kinds.Statement) -> Finding:
+    """What the search for the kind of a statement finds; not yet judged."""
     for kind, procedure in PROCEDURES.items():
         if isinstance(statement, kind):
             return procedure(statement)
     raise TypeError(f"no procedure decides a {type(statement).__name__}")
 
 
-def _decide_all(statement: kinds.AllOf) -> Decision:
-    return conjunction((name, decide(part)) for name, part in statement.parts)
+def _find_all(statement: kinds.AllOf) -> Finding:
+    return conjunction((name, find(part)) for name, part in statement.parts)
 
 
-def _apply_theorem(statement: kinds.Theorem) -> Decision:
+def _apply_theorem(statement: kinds.Theorem) -> Finding:
     """The step itself holds; whether its hypotheses do is for the chain of claims to say."""
-    return proved(Grade.EXACT, f"theorem: {statement.name}", hypotheses=dict(statement.hypotheses))
+    if statement.name not in THEOREMS:
+        known = "; ".join(sorted(THEOREMS))
+        return still_open(f"the checker knows no theorem of that name, only: {known}", "theorem")
+    hypotheses = dict(statement.hypotheses)
+    return shown(Application(), f"theorem: {statement.name}", hypotheses=hypotheses)
 
 
-def _missing(statement: kinds.Missing) -> Decision:
-    return undecided(statement.reason, "not applicable")
+def _missing(statement: kinds.Missing) -> Finding:
+    return still_open(statement.reason, "not applicable")
 
 
-PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Decision]] = {
-    kinds.Identity: decide_identity,
-    kinds.ForAll: decide_for_all,
-    kinds.Constant: decide_constant,
-    kinds.NormBound: decide_norm_bound,
-    kinds.Implies: decide_implies,
-    kinds.ForSmall: decide_for_small,
-    kinds.Agrees: decide_agrees,
-    kinds.NormChain: decide_chain,
-    kinds.TrigonometricBound: decide_bounds,
-    kinds.TrigonometricPositive: decide_positive,
+PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
+    kinds.Identity: find_identity,
+    kinds.ForAll: find_for_all,
+    kinds.Constant: find_constant,
+    kinds.NormBound: find_norm_bound,
+    kinds.Implies: find_implies,
+    kinds.ForSmall: find_for_small,
+    kinds.Agrees: find_agrees,
+    kinds.NormChain: find_chain,
+    kinds.TrigonometricBound: find_bounds,
+    kinds.TrigonometricPositive: find_positive,
     kinds.Theorem: _apply_theorem,
-    kinds.AllOf: _decide_all,
+    kinds.AllOf: _find_all,
     kinds.Missing: _missing,
 }

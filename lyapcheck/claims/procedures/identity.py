@@ -8,33 +8,29 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
+from lyapcheck.check.certificates.proofs import NormalForm
+from lyapcheck.check.certificates.rules.identity import gap_of
+from lyapcheck.check.certificates.statements import Identity
 from lyapcheck.check.functions import Unsupported, variables
 from lyapcheck.check.normal_form import is_zero
-from lyapcheck.claims.decision import Decision, proved, refuted, undecided
-from lyapcheck.claims.expressions import Relation
-from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data
-from lyapcheck.claims.statements import Identity
-from lyapcheck.verdicts import Grade
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 
 METHOD = "identity"
 TRIES = 12
 
 
-def decide_identity(statement: Identity) -> Decision:
-    """Decide ``left = right`` for all values of the variables.
-
-    Soundness: equal normal forms are equal functions; a difference is shown by disjoint balls at one point.
-    """
-    relation = Relation(statement.left, "=", statement.right)
-    found = first_refutation(relation, points(statement))
+def find_identity(statement: Identity) -> Finding:
+    """Try points where both sides may differ, then the normal forms."""
+    found = first_refutation((statement.left, "=", statement.right), points(statement))
     if found is not None:
-        return refuted(Grade.ENCLOSURE, f"{METHOD}: a point where the sides differ", witness_data(*found))
+        return broken(witness_of(found), f"{METHOD}: a point where the sides differ", witness_data(found))
     try:
-        if is_zero(relation.gap):
-            return proved(Grade.EXACT, f"{METHOD}: equal normal forms over the rationals")
+        if is_zero(gap_of(statement)):
+            return shown(NormalForm(), f"{METHOD}: equal normal forms over the rationals")
     except Unsupported as problem:
-        return undecided(f"{problem}; rewrite both sides in polynomials, exp, sinh, cosh, sin, cos", METHOD)
-    return undecided(
+        return still_open(f"{problem}; rewrite both sides in polynomials, exp, sinh, cosh, sin, cos", METHOD)
+    return still_open(
         "the normal forms differ but no point tells the sides apart; apply the laws of log or atan by hand",
         METHOD,
     )

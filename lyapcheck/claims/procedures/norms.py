@@ -11,48 +11,36 @@ References: ``reyes2019family`` (7), (8).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 
-from flint import arb, ctx
-
-from lyapcheck.check.functions import CONSTANTS, Tree, Unsupported, ball
-from lyapcheck.check.normal_form import is_zero
-from lyapcheck.claims.decision import Decision, conjunction, proved, refuted, undecided
-from lyapcheck.claims.expressions import Expr, Relation, expr, sqrt, total, var
-from lyapcheck.claims.procedures.constants import decide_relation
-from lyapcheck.claims.procedures.one_variable import decide_for_all, sample
-from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data
-from lyapcheck.claims.statements import ForAll, NormBound
-from lyapcheck.verdicts import Grade, Verdict
+from lyapcheck.check.certificates.proofs import EqualEntries, OneEntry, Proof, Supremum
+from lyapcheck.check.certificates.rules import norms as rules
+from lyapcheck.check.certificates.statements import ForAll, NormBound, Relation
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.constants import find_relation
+from lyapcheck.claims.procedures.one_variable import find_for_all, sample
+from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 
 METHOD = "norm inequality"
-SUPREMUM_OF = {"h": "gamma", "dh": "rho"}
 
 
-def decide_norm_bound(statement: NormBound) -> Decision:
-    """Decide a norm bound for every x in Rⁿ, for the n it names.
-
-    Soundness: see the two reductions above; a refutation names x itself, with both norms in balls.
-    """
-    found = first_refutation(vector_relation(statement), vector_points(statement))
+def find_norm_bound(statement: NormBound) -> Finding:
+    """Try the vectors that are worst; where none breaks the bound, prove it by one variable."""
+    found = first_refutation(rules.vector_relation(statement).comparison, vector_points(statement))
     if found is not None:
-        return refuted(Grade.ENCLOSURE, f"{METHOD}: a vector where it fails", witness_data(*found))
+        return broken(witness_of(found), f"{METHOD}: a vector where it fails", witness_data(found))
+    by_definition = _by_supremum(statement)
+    if by_definition is not None:
+        return by_definition
     return _prove_uniform(statement) if statement.power == 0 else _prove_linear(statement)
-
-
-def vector_relation(statement: NormBound) -> Relation:
-    """The claim written out in x1, …, xn."""
-    entries = [var(f"x{i + 1}") for i in range(statement.n)]
-    left = sqrt(total(Expr(substitute(statement.component, "x", x.tree)) ** 2 for x in entries))
-    size = sqrt(total(x**2 for x in entries)) if statement.power else expr(1)
-    return left <= Expr(statement.bound) * size
 
 
 def vector_points(statement: NormBound) -> list[Point]:
     """The vectors that the reductions say are worst: all entries equal, or one entry alone."""
-    grid = sample(ForAll(Expr(statement.component) <= 0))
+    grid = sample(ForAll(Relation(statement.component, "<=", ("num", "0"))))
     peaks = _peaks(statement)
-    names = [f"x{i + 1}" for i in range(statement.n)]
+    names = rules.entries(statement)
     if statement.power == 0:
         return [dict.fromkeys(names, t) for t in [*peaks, *grid]]
     zero = dict.fromkeys(names, Fraction(0))
@@ -72,60 +60,35 @@ def _peaks(statement: NormBound) -> list[Fraction]:
     return [Fraction(best).limit_denominator(10**6)]
 
 
-def _prove_uniform(statement: NormBound) -> Decision:
-    supremum = SUPREMUM_OF.get(statement.component[0])
-    if supremum is not None and statement.component[2] == ("var", "x"):
-        own = Expr((supremum, statement.component[1]))
-        by_definition = decide_relation(sqrt(statement.n) * own <= Expr(statement.bound), METHOD)
-        if by_definition.verdict is Verdict.PROVED:
-            return by_definition
-    return _both_signs(
-        statement, statement.bound, Fraction(statement.n), "all entries equal is the worst case"
-    )
+def _by_supremum(statement: NormBound) -> Finding | None:
+    relation = rules.supremum_relation(statement)
+    numbers = find_relation(relation, METHOD) if relation is not None else None
+    if numbers is None or not numbers.is_proof or numbers.proof is None:
+        return None
+    return shown(Supremum(numbers.proof), numbers.method)
 
 
-def _prove_linear(statement: NormBound) -> Decision:
-    with ctx.workprec(192):
-        at_zero = ball(statement.component, {"x": arb(0)})
-    if not at_zero.is_zero() and not _vanishes_at_zero(statement.component):
-        return undecided("f(0) is not shown to be 0; simplify f so that its value at 0 is exact", METHOD)
-    line = Expr(statement.bound) * var("x")
-    f = Expr(statement.component)
-    parts = [
-        (label, decide_for_all(ForAll(relation, low, high)))
-        for low, high, slope in ((Fraction(0), None, line), (None, Fraction(0), -line))
-        for label, relation in (("f(t) <= c|t|", f <= slope), ("-f(t) <= c|t|", -f <= slope))
-    ]
-    return _named(conjunction(parts), "one entry alone is the worst case")
+def _prove_uniform(statement: NormBound) -> Finding:
+    parts = [find_for_all(part) for part in rules.uniform_parts(statement)]
+    labels = ("f(t) <= c/√n", "-f(t) <= c/√n")
+    why = "all entries equal is the worst case"
+    return _reduced(parts, labels, why, lambda proofs: EqualEntries(proofs[0], proofs[1]))
 
 
-def _both_signs(statement: NormBound, bound: Tree, n: Fraction, why: str) -> Decision:
-    f, c = Expr(statement.component), Expr(bound) / sqrt(n)
-    parts = [
-        ("f(t) <= c/√n", decide_for_all(ForAll(f <= c))),
-        ("-f(t) <= c/√n", decide_for_all(ForAll(-f <= c))),
-    ]
-    return _named(conjunction(parts), why)
+def _prove_linear(statement: NormBound) -> Finding:
+    parts = [find_for_all(part) for part in rules.linear_parts(statement)]
+    labels = ("f(t) <= c|t|", "-f(t) <= c|t|") * 2
+    return _reduced(parts, labels, "one entry alone is the worst case", OneEntry)
 
 
-def _named(decision: Decision, why: str) -> Decision:
-    if decision.verdict is Verdict.PROVED:
-        return proved(decision.grade, f"{METHOD}: {why}; {decision.method}", **decision.evidence)
-    reason = decision.reason or "the inequality in one variable is open"
-    return undecided(f"reduced to one variable ({why}), which stays open: {reason}", METHOD)
-
-
-def _vanishes_at_zero(tree: Tree) -> bool:
-    try:
-        return is_zero(substitute(tree, "x", ("num", "0")))
-    except Unsupported:
-        return False
-
-
-def substitute(tree: Tree, name: str, by: Tree) -> Tree:
-    """An expression with a variable replaced by another expression."""
-    if tree[0] == "var":
-        return by if tree[1] == name else tree
-    if tree[0] == "num" or tree[0] in CONSTANTS:
-        return tree
-    return (tree[0], *(substitute(part, name, by) if isinstance(part, tuple) else part for part in tree[1:]))
+def _reduced(
+    parts: list[Finding], labels: tuple[str, ...], why: str, combine: Callable[[tuple[Proof, ...]], Proof]
+) -> Finding:
+    """The norm bound from its inequalities in one variable; a part that fails leaves it open."""
+    for label, part in zip(labels, parts, strict=True):
+        if not part.is_proof:
+            reason = part.reason or "the inequality in one variable fails"
+            return still_open(f"reduced to one variable ({why}), which stays open: {label}: {reason}", METHOD)
+    methods = "; ".join(dict.fromkeys(part.method for part in parts))
+    proofs = tuple(part.proof for part in parts if part.proof is not None)
+    return shown(combine(proofs), f"{METHOD}: {why}; {methods}")

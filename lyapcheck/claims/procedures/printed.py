@@ -8,66 +8,47 @@ References: ``reyes2019family``, Section 4.
 
 from __future__ import annotations
 
-from decimal import Decimal
 from fractions import Fraction
 from itertools import product
 
-from flint import arb, ctx
+from flint import ctx
 
+from lyapcheck.check.certificates.proofs import Corners, OutsideRounding, PrintedInputs
+from lyapcheck.check.certificates.rules.printed import at_corner, at_printed, over_all, printed_range
+from lyapcheck.check.certificates.statements import Agrees
 from lyapcheck.check.enclosure import Enclosure, ball_of
 from lyapcheck.check.functions import ball, variables
-from lyapcheck.claims.decision import Decision, proved, refuted, undecided
-from lyapcheck.claims.statements import Agrees
-from lyapcheck.verdicts import Grade
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
 
 METHOD = "arithmetic on printed numbers"
 BITS = 128
 
 
-def decide_agrees(statement: Agrees) -> Decision:
-    """Decide whether a printed number agrees with a formula in printed numbers.
-
-    Soundness: ``proved`` if the exact printed inputs give a result inside the half unit, or if two corners of
-    the inputs' ranges lie on either side of it (the formula is continuous there); ``refuted`` if the formula,
-    enclosed over the whole ranges, stays outside.
-    """
-    inputs = {name: Fraction(text) for name, text in statement.inputs}
-    ranges = {name: printed_range(text) for name, text in statement.inputs}
-    target = printed_range(statement.printed)
-    with ctx.workprec(BITS):
-        exact = Enclosure.from_arb(ball(statement.formula, {k: ball_of(v) for k, v in inputs.items()}))
-        whole = Enclosure.from_arb(ball(statement.formula, {k: r.to_arb() for k, r in ranges.items()}))
-        corners = [
-            _corner(statement, ends) for ends in product(*((r.lower, r.upper) for r in ranges.values()))
-        ]
+def find_agrees(statement: Agrees) -> Finding:
+    """Compare the formula at the printed inputs, over all their roundings and at the corners of these."""
+    target, exact = printed_range(statement.printed), at_printed(statement, BITS)
     computed = {"computed": list(exact.decimals(8)), "printed": statement.printed}
     if target.lower <= exact.lower and exact.upper <= target.upper:
-        return proved(Grade.ENCLOSURE, f"{METHOD}: the printed inputs give it", **computed)
+        return shown(PrintedInputs(BITS), f"{METHOD}: the printed inputs give it", **computed)
+    whole = over_all(statement, BITS)
     if whole.upper < target.lower or whole.lower > target.upper:
-        return refuted(
-            Grade.ENCLOSURE,
-            f"{METHOD}: no inputs within their rounding give it",
-            _witness(statement, exact, target),
-        )
-    if any(c.upper <= target.upper for c in corners) and any(c.lower >= target.lower for c in corners):
-        return proved(Grade.ENCLOSURE, f"{METHOD}: within the rounding of the inputs", **computed)
-    return undecided(
+        method = f"{METHOD}: no inputs within their rounding give it"
+        return broken(OutsideRounding(BITS), method, _witness(statement, exact, target))
+    corners = _corners(statement, target)
+    if corners is not None:
+        return shown(corners, f"{METHOD}: within the rounding of the inputs", **computed)
+    return still_open(
         "the rounding of the inputs leaves it open; use more digits of the inputs", METHOD, **computed
     )
 
 
-def printed_range(text: str) -> Enclosure:
-    """The reals that round to a printed number: half a unit of its last place to both sides."""
-    value, places = Fraction(text), Decimal(text).as_tuple().exponent
-    half = Fraction(10) ** int(places) / 2
-    return Enclosure(value - half, value + half)
-
-
-def _corner(statement: Agrees, ends: tuple[Fraction, ...]) -> Enclosure:
-    values: dict[str, arb] = {
-        name: ball_of(end) for (name, _), end in zip(statement.inputs, ends, strict=True)
-    }
-    return Enclosure.from_arb(ball(statement.formula, values))
+def _corners(statement: Agrees, target: Enclosure) -> Corners | None:
+    """A corner of the roundings with a result below the printed one, and one above."""
+    all_ends = list(product((0, 1), repeat=len(statement.inputs)))
+    values = [(ends, at_corner(statement, ends, BITS)) for ends in all_ends]
+    below = next((ends for ends, value in values if value.upper <= target.upper), None)
+    above = next((ends for ends, value in values if value.lower >= target.lower), None)
+    return None if below is None or above is None else Corners(below, above, BITS)
 
 
 def _witness(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str, object]:

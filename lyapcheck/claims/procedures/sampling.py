@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.check.certificates.statements import Relation, Variable
 from lyapcheck.check.functions import Algebra, Tree, evaluate
-from lyapcheck.claims.expressions import Relation
 from lyapcheck.claims.procedures.search import Point
-from lyapcheck.claims.statements import Variable
 
 SEED = 20190561
 SAMPLES = 20_000

@@ -7,55 +7,83 @@ References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
-from lyapcheck.check.fourier import fourier_sum
+from lyapcheck.check.certificates.proofs import EntryWitness, FourierBounds
+from lyapcheck.check.certificates.rules.trigonometric import above_zero, largest, lowest, within
+from lyapcheck.check.certificates.statements import (
+    Implies,
+    Relation,
+    TrigonometricBound,
+    TrigonometricPositive,
+)
 from lyapcheck.check.functions import Tree, Unsupported, variables
-from lyapcheck.claims.decision import Decision, conjunction, proved, undecided
-from lyapcheck.claims.expressions import Expr, Relation, expr
-from lyapcheck.claims.procedures.implication import search
-from lyapcheck.claims.statements import Implies, TrigonometricBound, TrigonometricPositive, reals
-from lyapcheck.verdicts import Grade
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.implication import counterexample, sampled
+from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
+from lyapcheck.claims.statements import reals
 
 METHOD = "mean and amplitudes of the Fourier sum"
 
-
-def decide_bounds(statement: TrigonometricBound) -> Decision:
-    """Decide whether polynomials in sines and cosines stay within bounds for all angles."""
-    return conjunction((f"entry {k + 1}", _within(*entry)) for k, entry in enumerate(statement.entries))
+Doubt = tuple[str, list[tuple[bool, Relation]]]
+"""Why Fourier sums do not settle an entry, and the relations (from below?) to break."""
 
 
-def decide_positive(statement: TrigonometricPositive) -> Decision:
-    """Decide whether polynomials in sines and cosines are positive for all angles."""
-    return conjunction((f"entry {k + 1}", _above_zero(tree)) for k, tree in enumerate(statement.entries))
+def find_bounds(statement: TrigonometricBound) -> Finding:
+    """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
+
+    def doubt(entry: tuple[Tree, Fraction | None]) -> Doubt | None:
+        tree, bound = entry
+        reached = largest(tree)
+        if bound is None or reached <= bound:
+            return None
+        above, below = within(tree, bound)
+        return f"{reached} is above {bound}", [(False, above), (True, below)]
+
+    return _find(statement.entries, doubt, lambda entry: entry[0])
 
 
-def _within(tree: Tree, bound: Fraction | None) -> Decision:
-    try:
-        f = fourier_sum(tree)
-    except Unsupported as problem:
-        return undecided(f"{problem}; give the entries as polynomials in sin and cos", METHOD)
-    largest = abs(f.mean) + f.swing
-    if bound is None or largest <= bound:
-        return proved(Grade.EXACT, METHOD, bound=str(largest))
-    return _searched(tree, (Expr(tree) <= bound, -Expr(tree) <= bound), f"{largest} is above {bound}")
+def find_positive(statement: TrigonometricPositive) -> Finding:
+    """Compute mean minus amplitudes of each entry; where that is not positive, look for angles."""
+
+    def doubt(tree: Tree) -> Doubt | None:
+        reached = lowest(tree)
+        if reached > 0:
+            return None
+        return f"mean minus amplitudes is {reached}", [(True, above_zero(tree))]
+
+    return _find(statement.entries, doubt, lambda tree: tree)
 
 
-def _above_zero(tree: Tree) -> Decision:
-    try:
-        f = fourier_sum(tree)
-    except Unsupported as problem:
-        return undecided(f"{problem}; give the entries as polynomials in sin and cos", METHOD)
-    lowest = f.mean - f.swing
-    if lowest > 0:
-        return proved(Grade.EXACT, METHOD, lower_bound=str(lowest))
-    return _searched(tree, (expr(0) < Expr(tree),), f"mean minus amplitudes is {lowest}")
+def _find(
+    entries: Sequence[tuple[object, ...]],
+    doubt: Callable[..., Doubt | None],
+    tree_of: Callable[..., Tree],
+) -> Finding:
+    open_ones: list[str] = []
+    for k, entry in enumerate(entries):
+        try:
+            doubted = doubt(entry)
+        except Unsupported as problem:
+            return still_open(f"{problem}; give the entries as polynomials in sin and cos", METHOD)
+        if doubted is not None:
+            why, relations = doubted
+            found = _counterexample(k, tree_of(entry), relations)
+            if found is not None:
+                return found
+            open_ones.append(f"entry {k + 1}: {why}, and no angle that decides was found")
+    if open_ones:
+        return still_open(f"{open_ones[0]}; bisect over the angles", METHOD)
+    return shown(FourierBounds(), METHOD)
 
 
-def _searched(tree: Tree, relations: tuple[Relation, ...], why: str) -> Decision:
+def _counterexample(entry: int, tree: Tree, relations: list[tuple[bool, Relation]]) -> Finding | None:
     names = reals(*sorted(variables(tree)))
-    for relation in relations:
-        found = search(Implies(names, (), relation))
+    for lower, relation in relations:
+        found = counterexample(Implies(names, (), relation))
         if found is not None:
-            return found
-    return undecided(f"{why}, and no angle that decides was found; bisect over the angles", METHOD)
+            proof = EntryWitness(entry, lower, point_of(found[1]), BITS)
+            method = f"{METHOD}: angles at which entry {entry + 1} leaves its bound"
+            return broken(proof, method, witness_data(found), **sampled())
+    return None

@@ -1,0 +1,25 @@
+"""Why a certificate is not accepted."""
+
+from __future__ import annotations
+
+SHOWN = 80
+
+
+class Refused(Exception):
+    """A certificate does not show what it states: what is wrong, the value found, and the rule it breaks."""
+
+    def __init__(self, subject: str, value: object, rule: str) -> None:
+        text = str(value)
+        self.subject, self.rule = subject, rule
+        self.value = text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"
+        super().__init__(f"{subject} = {self.value}: {rule}" if text else f"{subject}: {rule}")
+
+
+def require(holds: object, subject: str, value: object, rule: str) -> None:
+    """Refuse unless something is true.
+
+    Raises:
+        Refused: it is not.
+    """
+    if holds is not True:
+        raise Refused(subject, value, rule)

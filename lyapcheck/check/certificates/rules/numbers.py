@@ -1,0 +1,47 @@
+"""Relations between numbers: exactly where the difference is rational, else by balls that do not touch."""
+
+from __future__ import annotations
+
+from flint import ctx
+
+from lyapcheck.check.certificates.proofs import ExactNumbers, SeparateBalls
+from lyapcheck.check.certificates.refusal import Refused
+from lyapcheck.check.certificates.rules.replay import require_bits
+from lyapcheck.check.certificates.statements import Constant, Relation
+from lyapcheck.check.certificates.verify import Accepted, rule
+from lyapcheck.check.functions import Unsupported
+from lyapcheck.check.normal_form import normal_form
+from lyapcheck.check.witness import holds
+
+
+@rule(Constant, ExactNumbers)
+def by_exact_numbers(statement: Constant, proof: ExactNumbers) -> Accepted:
+    """Soundness: the sign of one rational number."""
+    truth = exact_truth(statement.relation)
+    if truth is None:
+        raise Refused("difference", "", "of both sides is not rational")
+    return Accepted("proved" if truth else "refuted", "exact")
+
+
+@rule(Constant, SeparateBalls)
+def by_separate_balls(statement: Constant, proof: SeparateBalls) -> Accepted:
+    """Soundness: the ball of the difference does not touch 0."""
+    with ctx.workprec(require_bits(proof.bits)):
+        truth = holds(statement.relation.comparison, {})
+    if truth is None:
+        raise Refused("bits", proof.bits, "are too few to tell both sides apart")
+    return Accepted("proved" if truth else "refuted", "enclosure")
+
+
+def exact_truth(relation: Relation) -> bool | None:
+    """The truth of a relation between numbers whose difference is rational, else ``None``."""
+    try:
+        ratio, algebra = normal_form(relation.gap)
+    except Unsupported:
+        return None
+    if ratio.top == 0:
+        return not relation.strict
+    if algebra.uses and not (ratio.top.is_constant() and ratio.bottom.is_constant()):
+        return None
+    gap = ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient()
+    return bool(gap > 0)

@@ -1,0 +1,121 @@
+"""Whether a statement says something at all: one function a kind."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from itertools import chain
+from typing import Any
+
+from lyapcheck.check.certificates import statements as kinds
+from lyapcheck.check.certificates.refusal import Refused, require
+from lyapcheck.check.certificates.trees import require_expressions
+
+MAX_JOINTS = 100
+MAX_INPUTS = 16
+MAX_LENGTH = 400
+DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
+
+
+def require_well_formed(statement: kinds.Statement) -> None:
+    """Refuse a statement that the rules should not have to look at.
+
+    Raises:
+        Refused: an unknown operation, an undeclared variable, an empty interval, a size out of reach.
+    """
+    form = FORMS.get(type(statement))
+    if form is None:
+        raise Refused("kind", type(statement).__name__, "is not a kind of statement that the checker knows")
+    form(statement)
+
+
+def _identity(statement: kinds.Identity) -> None:
+    require_expressions((statement.left, statement.right))
+
+
+def _for_all(statement: kinds.ForAll) -> None:
+    _relations([statement.relation], [statement.variable])
+    low, high = statement.low, statement.high
+    if low is not None and high is not None:
+        require(low <= high, "interval", f"[{low}, {high}]", "is empty")
+
+
+def _constant(statement: kinds.Constant) -> None:
+    _relations([statement.relation], [])
+
+
+def _norm_bound(statement: kinds.NormBound) -> None:
+    require(1 <= statement.n <= MAX_JOINTS, "n", statement.n, f"must be from 1 to {MAX_JOINTS}")
+    require(statement.power in (0, 1), "power", statement.power, "must be 0 or 1")
+    require_expressions([statement.component], ["x"])
+    require_expressions([statement.bound], [])
+
+
+def _implies(statement: kinds.Implies) -> None:
+    _relations((*statement.hypotheses, statement.conclusion), [v.name for v in statement.variables])
+
+
+def _for_small(statement: kinds.ForSmall) -> None:
+    names = [*(v.name for v in statement.variables), statement.small, *statement.bounded]
+    _relations((*statement.hypotheses, statement.conclusion), names)
+
+
+def _agrees(statement: kinds.Agrees) -> None:
+    names = [name for name, _ in statement.inputs]
+    _distinct("inputs", names)
+    require(len(names) <= MAX_INPUTS, "inputs", len(names), f"must be at most {MAX_INPUTS}")
+    require_expressions([statement.formula], names)
+    for text in (*(text for _, text in statement.inputs), statement.printed):
+        plain = len(text) <= MAX_LENGTH and DECIMAL.fullmatch(text) is not None
+        require(plain, "printed number", text, "is not a decimal")
+
+
+def _norm_chain(statement: kinds.NormChain) -> None:
+    for majorant in (statement.bound, *chain.from_iterable(statement.factors)):
+        require_expressions([majorant.constant], [])
+        _distinct("powers", [name for name, _ in majorant.powers])
+        for name, power in majorant.powers:
+            require(power >= 0, f"power of {name}", power, "a majorant has no negative power")
+
+
+def _bounds(statement: kinds.TrigonometricBound) -> None:
+    require_expressions(tree for tree, _ in statement.entries)
+
+
+def _positive(statement: kinds.TrigonometricPositive) -> None:
+    require_expressions(statement.entries)
+
+
+def _theorem(statement: kinds.Theorem) -> None:
+    _distinct("hypotheses", [name for name, _ in statement.hypotheses])
+
+
+def _all_of(statement: kinds.AllOf) -> None:
+    require(len(statement.parts) > 0, "parts", "none", "a conjunction needs at least one part")
+
+
+FORMS: dict[type, Callable[[Any], None]] = {
+    kinds.Identity: _identity,
+    kinds.ForAll: _for_all,
+    kinds.Constant: _constant,
+    kinds.NormBound: _norm_bound,
+    kinds.Implies: _implies,
+    kinds.ForSmall: _for_small,
+    kinds.Agrees: _agrees,
+    kinds.NormChain: _norm_chain,
+    kinds.TrigonometricBound: _bounds,
+    kinds.TrigonometricPositive: _positive,
+    kinds.Theorem: _theorem,
+    kinds.AllOf: _all_of,
+}
+"""The kinds of statement, each with what makes one well formed."""
+
+
+def _relations(relations: Iterable[kinds.Relation], names: list[str]) -> None:
+    _distinct("variables", names)
+    for relation in relations:
+        require_expressions((relation.left, relation.right), names)
+
+
+def _distinct(subject: str, names: list[str]) -> None:
+    require(len(set(names)) == len(names), subject, ", ".join(names), "one is given twice")

@@ -1,0 +1,58 @@
+"""What a search proposes: a proof or a refutation for the checker to judge, or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from lyapcheck.check.certificates.proofs import EveryPart, OnePart, Proof
+from lyapcheck.verdicts import Verdict
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A verdict that a search expects the checker to reach with ``proof``; none for an open statement."""
+
+    verdict: Verdict
+    method: str
+    proof: Proof | None = None
+    reason: str = ""
+    witness: dict[str, Any] | None = None
+    evidence: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def is_proof(self) -> bool:
+        """Whether the search expects the statement to be proved."""
+        return self.verdict is Verdict.PROVED
+
+
+def shown(proof: Proof, method: str, **evidence: Any) -> Finding:
+    """A proof was found."""
+    return Finding(Verdict.PROVED, method, proof, evidence=evidence)
+
+
+def broken(proof: Proof, method: str, witness: dict[str, Any], **evidence: Any) -> Finding:
+    """A counterexample was found."""
+    return Finding(Verdict.REFUTED, method, proof, witness=witness, evidence=evidence)
+
+
+def still_open(reason: str, method: str, **evidence: Any) -> Finding:
+    """Nothing was found; the reason says what to try next."""
+    return Finding(Verdict.UNDECIDED, method, reason=reason, evidence=evidence)
+
+
+def conjunction(parts: Iterable[tuple[str, Finding]]) -> Finding:
+    """The finding on "all of these": one part refuted, or one open, or a proof of each."""
+    named = list(parts)
+    rows = [{"part": name, "verdict": f.verdict.value, "method": f.method} for name, f in named]
+    evidence = {"parts": rows}
+    for wanted in (Verdict.REFUTED, Verdict.UNDECIDED):
+        for index, (name, found) in enumerate(named):
+            if found.verdict is wanted:
+                reason = f"{name}: {found.reason}" if found.reason else name
+                proof = OnePart(index, found.proof) if found.proof is not None else None
+                return replace(found, reason=reason, proof=proof, evidence={**found.evidence, **evidence})
+    methods = "; ".join(dict.fromkeys(found.method for _, found in named))
+    proofs = tuple(found.proof for _, found in named if found.proof is not None)
+    return shown(EveryPart(proofs), methods, **evidence)
