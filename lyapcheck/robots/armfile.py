@@ -51,6 +51,17 @@ A **printed model** gives M on and above the diagonal (kg·m²) and the potentia
     [[joints]]
     name = "elbow"
     viscous = 0.175
+
+A **URDF file** gives the links, and this file what such files lack, see `lyapcheck.robots.urdf`::
+
+    title = "UR5 with friction"
+    urdf = "ur5_robot.urdf"             # beside this file, or a path from here
+    tip = "ee_link"                     # optional: the link that ends the chain
+    gravity = [0, 0, -9.81]             # optional
+
+    [[joints]]                          # optional: numbers that replace those of the URDF file
+    name = "elbow_joint"
+    viscous = { value = 0.5, assumed = true, note = "a guess" }
 """
 
 from __future__ import annotations
@@ -62,6 +73,7 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.overlay import read_overlay
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
 
@@ -78,6 +90,8 @@ def read_arm(path: Path, shown: str | None = None) -> RobotModel:
     top = ArmFields(document.data, (), notes)
     title, _ = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
+    if "urdf" in top.data:
+        return read_overlay(path, title, remarks, top)
     plan = read_plan(top)
     top.close()
     if notes.problems or plan is None:

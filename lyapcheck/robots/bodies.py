@@ -100,11 +100,11 @@ def _broken_rule(tensor: dict[str, Number]) -> str:
     Both conditions are convex and the entries independent, so the corners of the ranges decide.
     """
     for matrix in _corners(tensor):
-        if not _positive_semidefinite(matrix):
+        if not positive_semidefinite(matrix):
             return "must be positive semidefinite"
         half = sum((matrix[i][i] for i in range(3)), Fraction(0)) / 2
         second = [[half * (i == k) - matrix[i][k] for k in range(3)] for i in range(3)]
-        if not _positive_semidefinite(second):
+        if not positive_semidefinite(second):
             return "must obey the triangle inequality (no principal moment above the sum of the others)"
     return ""
 
@@ -118,7 +118,7 @@ def _corners(tensor: dict[str, Number]) -> Iterator[list[list[Fraction]]]:
         yield matrix
 
 
-def _positive_semidefinite(a: list[list[Fraction]]) -> bool:
+def positive_semidefinite(a: list[list[Fraction]]) -> bool:
     """All principal minors of a symmetric 3 × 3 matrix are non-negative."""
     pairs = [a[i][i] * a[k][k] - a[i][k] ** 2 for i, k in ((0, 1), (0, 2), (1, 2))]
     cofactors = (pairs[2], a[1][2] * a[0][2] - a[0][1] * a[2][2], a[0][1] * a[1][2] - a[0][2] * a[1][1])

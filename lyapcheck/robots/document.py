@@ -17,12 +17,8 @@ def open_arm(path: Path, shown: str) -> Document:
     Raises:
         InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
     """
-    if path.suffix.lower() == ".urdf":
-        raise _refused(
-            shown, "URDF is not read by this version", "describe the arm by [[links]] in a .toml file"
-        )
     if path.suffix.lower() != ".toml" and not path.is_dir():
-        raise _refused(shown, "is no arm file", "give the path of a .toml file")
+        raise _refused(shown, "is no arm file", "give the path of a .toml or .urdf file")
     if path.is_file() and path.stat().st_size > LARGEST_ARM_FILE:
         raise _refused(shown, f"is larger than {LARGEST_ARM_FILE} bytes", "give an arm of one page")
     return open_document(path, shown)

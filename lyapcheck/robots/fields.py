@@ -11,6 +11,9 @@ from lyapcheck.files import Fields, Notes, decimal_text
 from lyapcheck.files.places import KeyPath
 from lyapcheck.robots.number import Number
 
+LARGEST = 10**12
+"""No number of an arm in SI units is larger; beyond it sits a slip, and no double holds its square."""
+
 
 class Sign(Enum):
     """Which values a number may have over its whole range."""
@@ -73,7 +76,11 @@ class ArmFields(Fields):
     def decimal(self, path: KeyPath, value: object) -> Fraction | None:
         """An exact number of any sign, ``None`` when the value is none."""
         if isinstance(value, int | Fraction) and not isinstance(value, bool):
-            return Fraction(value)
+            exact = Fraction(value)
+            if abs(exact) <= LARGEST:
+                return exact
+            self.notes.fail(path, value, f"must be at most {LARGEST} in size", "use SI units")
+            return None
         self.notes.fail(path, value, "must be a finite decimal number", "write a plain decimal like 0.091")
         return None
 

@@ -44,9 +44,14 @@ def _read_joint(fields: ArmFields) -> Joint:
         rule = "must be up to 31 small letters, digits and underscores, a letter first"
         fields.fail("name", rule, 'write a name like "shoulder"')
     _refuse_other_kinds(fields)
+    return read_motor(name, fields, required=True)
+
+
+def read_motor(name: str, fields: ArmFields, required: bool) -> Joint:
+    """Friction, limits and encoder of a joint."""
     return Joint(
         name,
-        fields.quantity("viscous", "N·m·s/rad", Sign.POSITIVE, required=True),
+        fields.quantity("viscous", "N·m·s/rad", Sign.POSITIVE, required=required),
         fields.quantity("coulomb", "N·m", Sign.NONNEGATIVE),
         fields.quantity("torque_limit", "N·m", Sign.POSITIVE),
         fields.integer("encoder", 1, 2**40),

@@ -1,8 +1,9 @@
 """M and the potential of a serial chain of revolute joints, exactly, from its links.
 
-Every frame is parallel to the base frame at q = 0. Bodies are composed from the tip to the base; a
-composed body is its mass m, first moment m·c and inertia J about the origin of its frame, and
-everything in the frame of joint j depends on the joints after j only, which keeps the polynomials small.
+The frame of a link is that of its joint; without ``turn`` it is parallel to the base frame at q = 0.
+Bodies are composed from the tip to the base; a composed body is its mass m, first moment m·c and inertia J
+about the origin of its frame, and everything in the frame of joint j depends on the joints after j only,
+which keeps the polynomials small.
 
 References: composite rigid body algorithm, featherstone2008rigid chapter 6.
 """
@@ -23,7 +24,7 @@ Matrix = list[list[Any]]
 
 @dataclass(frozen=True)
 class Link:
-    """One joint and the body it moves, with polynomials (constants or parameters) as entries.
+    """One joint and the body it moves in the frame of the joint, with polynomials as entries.
 
     Args:
         axis: unit vector of the joint axis.
@@ -31,6 +32,7 @@ class Link:
         mass: kg.
         com: centre of mass from the joint, m.
         inertia: about the centre of mass, kg·m².
+        turn: rotation from the frame of the joint at q = 0 to that of the link before; none when parallel.
     """
 
     axis: Vector
@@ -38,6 +40,7 @@ class Link:
     mass: fmpq_mpoly
     com: Vector
     inertia: Matrix
+    turn: Matrix | None = None
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ def _column(ring: fmpq_mpoly_ctx, links: Sequence[Link], body: _Body, j: int) ->
     angular = _apply(body.inertia, links[j].axis)
     entries = [(j, trig.normal_form(_dot(links[j].axis, angular)))]
     for i in reversed(range(j)):
-        turn = _rotation(ring, links[i + 1].axis, i + 1)
+        turn = _rotation(ring, links[i + 1], i + 1)
         momentum = _normal(_apply(turn, momentum))
         angular = _normal(_plus(_apply(turn, angular), _cross(links[i + 1].origin, momentum)))
         entries.append((i, trig.normal_form(_dot(links[i].axis, angular))))
@@ -96,7 +99,7 @@ def _own(link: Link) -> _Body:
 
 def _carried(ring: fmpq_mpoly_ctx, body: _Body, link: Link, joint: int) -> _Body:
     """The body as seen from the frame before the joint: turned by q, moved to the joint's place."""
-    turn = _rotation(ring, link.axis, joint)
+    turn = _rotation(ring, link, joint)
     turned = _normal(_apply(turn, body.moment))
     rows = [_normal(row) for row in _product(turn, body.inertia)]
     inertia = [_normal(row) for row in _product(rows, _transpose(turn))]
@@ -110,16 +113,18 @@ def _add(a: _Body, b: _Body) -> _Body:
     return _Body(a.mass + b.mass, _plus(a.moment, b.moment), _sum(a.inertia, b.inertia))
 
 
-def _rotation(ring: fmpq_mpoly_ctx, axis: Vector, joint: int) -> Matrix:
-    """Rodrigues: I cos q + K sin q + a aᵀ (1 − cos q)."""
+def _rotation(ring: fmpq_mpoly_ctx, link: Link, joint: int) -> Matrix:
+    """From the frame of a link to that before: turn · (I cos q + K sin q + a aᵀ (1 − cos q))."""
     n = trig.joint_count(ring)
     sine, cosine = ring.gen(joint), ring.gen(n + joint)
+    axis = link.axis
     x, y, z = axis
     skew = [[0 * x, -z, y], [z, 0 * x, -x], [-y, x, 0 * x]]
-    return [
+    own = [
         [(cosine if i == k else 0) + skew[i][k] * sine + axis[i] * axis[k] * (1 - cosine) for k in range(3)]
         for i in range(3)
     ]
+    return own if link.turn is None else _product(link.turn, own)
 
 
 def _shifted(outer: Matrix) -> Matrix:

@@ -10,6 +10,7 @@ from pathlib import Path
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.armfile import read_arm
 from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.urdf import read_urdf
 
 
 def names() -> tuple[str, ...]:
@@ -17,15 +18,23 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _arms().iterdir() if path.suffix == ".toml"))
 
 
-def load(name_or_path: str | Path) -> RobotModel:
-    """The built-in arm of that name, or the arm in that ``.toml`` file.
+def load(name_or_path: str | Path, tip: str | None = None) -> RobotModel:
+    """The built-in arm of that name, or the arm in that ``.toml`` or ``.urdf`` file.
+
+    Args:
+        name_or_path: the arm.
+        tip: for a URDF file, the link that ends the chain; by default that of the most joints.
 
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
     """
+    if tip is not None and not str(name_or_path).lower().endswith(".urdf"):
+        raise argument_error("tip", tip, f"{name_or_path} is no URDF file", "leave it out")
     if str(name_or_path) in names():
         return _builtin(str(name_or_path))
     path = Path(name_or_path)
+    if path.suffix.lower() == ".urdf":
+        return read_urdf(path, tip=tip)
     if not path.suffix and not path.exists():
         raise argument_error(
             "robot", name_or_path, "is neither a built-in arm nor a file", _advice(str(name_or_path))
@@ -36,7 +45,7 @@ def load(name_or_path: str | Path) -> RobotModel:
 def _advice(name: str) -> str:
     near = get_close_matches(name, names(), n=1)
     guess = f"did you mean {near[0]}? " if near else ""
-    return f"{guess}built-in arms: {', '.join(names())}; or give the path of an arm file (.toml)"
+    return f"{guess}built-in arms: {', '.join(names())}; or give the path of an arm file (.toml, .urdf)"
 
 
 @lru_cache(maxsize=64)

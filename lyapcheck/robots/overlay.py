@@ -1,0 +1,68 @@
+"""Arm files that name a URDF file: its links, with friction, limits and encoders told here."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from lyapcheck.errors import InputError
+from lyapcheck.robots.fields import ArmFields
+from lyapcheck.robots.joints import Joint, read_motor
+from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.number import Number
+from lyapcheck.robots.urdf import read_urdf
+
+_PARTS = ("viscous", "coulomb", "torque_limit", "encoder", "gravity_bound")
+
+
+def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmFields) -> RobotModel:
+    """The arm of the URDF file that ``urdf`` names, with the numbers of ``[[joints]]`` in place of its own.
+
+    Raises:
+        InputError: either file has a problem; those of the arm file are told first.
+    """
+    file, tip = top.text("urdf", required=True), top.text("tip") or None
+    gravity = top.vector("gravity", "m/s²") if "gravity" in top.data else None
+    if gravity is not None and any(x.ranged for x in gravity):
+        top.fail("gravity", "must be exact here", "give plain numbers")
+    motors = _read_motors(top)
+    top.close()
+    if file and Path(file).suffix.lower() != ".urdf":
+        top.fail("urdf", "must be the path of a .urdf file", 'write urdf = "arm.urdf"')
+    if top.notes.problems:
+        raise InputError(top.notes.problems)
+    model = read_urdf(path.parent / file, file, tip, gravity)
+    for i, motor in enumerate(motors):
+        if motor.name not in model.joints:
+            near = get_close_matches(motor.name, model.joints, 1)
+            repair = f"did you mean {near[0]}?" if near else f"use one of: {', '.join(model.joints)}"
+            top.notes.fail(("joints", i, "name"), motor.name, "is no joint of this chain", repair)
+    if top.notes.problems:
+        raise InputError(top.notes.problems)
+    return _told(replace(model, name=path.stem, title=title, remarks=(*remarks, *model.remarks)), motors)
+
+
+def _read_motors(top: ArmFields) -> list[Joint]:
+    tables = top.tables("joints")
+    motors = [read_motor(table.text("name", required=True), table, required=False) for table in tables]
+    for i, (table, motor) in enumerate(zip(tables, motors, strict=True)):
+        table.close()
+        if motor.name in [other.name for other in motors[:i]]:
+            table.fail("name", "is told twice", "give each joint one table")
+    return motors
+
+
+def _told(model: RobotModel, motors: list[Joint]) -> RobotModel:
+    """The model with the numbers of the motors in place of its own."""
+    parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in _PARTS}
+    numbers: dict[str, Number] = dict(model.numbers)
+    for motor in motors:
+        numbers |= motor.numbers()
+        for key in _PARTS:
+            told = getattr(motor, key)
+            if told is not None:
+                parts[key][model.joints.index(motor.name)] = told
+    changed: dict[str, Any] = {key: tuple(values) for key, values in parts.items()}
+    return replace(model, numbers=numbers, **changed)

@@ -1,0 +1,36 @@
+"""Whether the bodies of a URDF file can exist."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lyapcheck.robots.bodies import positive_semidefinite
+from lyapcheck.robots.urdf.fields import UrdfNotes
+from lyapcheck.robots.urdf.parts import UrdfLink
+from lyapcheck.robots.urdf.tree import Tree
+
+
+def check_bodies(tree: Tree, notes: UrdfNotes) -> None:
+    """Note every link whose inertia is not positive semidefinite: M would not be positive definite."""
+    for link in tree.links.values():
+        if not positive_semidefinite(tensor(link)):
+            repair = "check the signs and the point about which it is given (the centre of mass)"
+            notes.fail(
+                link.element, f"link {link.name}: inertia", "", "must be positive semidefinite", repair
+            )
+
+
+def impossible(tree: Tree) -> list[str]:
+    """The links with a principal moment above the sum of the others: no body has that, but many files do."""
+    return [link.name for link in tree.links.values() if not _triangle(tensor(link))]
+
+
+def tensor(link: UrdfLink) -> list[list[Fraction]]:
+    """The inertia of a link as the file gives it."""
+    xx, yy, zz, xy, xz, yz = link.inertia
+    return [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+
+
+def _triangle(a: list[list[Fraction]]) -> bool:
+    half = (a[0][0] + a[1][1] + a[2][2]) / 2
+    return positive_semidefinite([[half * (i == k) - a[i][k] for k in range(3)] for i in range(3)])

@@ -1,0 +1,77 @@
+"""The numbers of a URDF file under the names that reports use, each with its line as source."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.robots.number import Number
+from lyapcheck.robots.urdf.fields import Triple
+from lyapcheck.robots.urdf.parts import INERTIA, UrdfJoint
+from lyapcheck.robots.urdf.tree import Tree
+from lyapcheck.robots.urdf.xml import Element
+
+_NO_DAMPING = "the file gives no damping, which means 0; property 2.7 needs more than that"
+
+
+@dataclass(frozen=True)
+class Motor:
+    """Friction and limit of one joint."""
+
+    viscous: Number
+    coulomb: Number | None
+    torque_limit: Number | None
+
+
+def motor_of(joint: UrdfJoint, file: str) -> Motor:
+    """What ``<dynamics>`` and ``<limit>`` of a joint say."""
+    source = _source(joint.element, file)
+    viscous = Number(joint.damping or Fraction(0), "N·m·s/rad", source)
+    if joint.damping is None:
+        viscous = Number(Fraction(0), "N·m·s/rad", "", assumed=True, note=_NO_DAMPING)
+    coulomb = None if joint.friction is None else Number(joint.friction, "N·m", source)
+    limit = None if joint.effort is None else Number(joint.effort, "N·m", source)
+    return Motor(viscous, coulomb, limit)
+
+
+def gravity_numbers(gravity: Triple) -> tuple[Number, ...]:
+    """The gravity that is taken where the user gives none."""
+    note = "URDF says nothing of gravity; the base frame is taken to have z upwards"
+    return tuple(Number(x, "m/s²", assumed=True, note=note) if x else Number(x, "m/s²") for x in gravity)
+
+
+def link_numbers(tree: Tree, file: str) -> dict[str, Number]:
+    """Mass, centre of mass and inertia of every link that has any, as the file writes them."""
+    found: dict[str, Number] = {}
+    for link in tree.links.values():
+        source = _source(link.element, file)
+        entries = [("mass", link.mass, "kg")]
+        entries += [(f"com_{letter}", x, "m") for letter, x in zip("xyz", link.com, strict=True)]
+        entries += [(key, x, "kg·m²") for key, x in zip(INERTIA, link.inertia, strict=True)]
+        for key, value, unit in entries:
+            if value:
+                found[f"{link.name}_{key}"] = Number(value, unit, source)
+    return found
+
+
+def joint_numbers(
+    tree: Tree, chain: Sequence[UrdfJoint], motors: Sequence[Motor], file: str
+) -> dict[str, Number]:
+    """The places of all joints, and the motors of those of the chain."""
+    found: dict[str, Number] = {}
+    for joint in tree.joints.values():
+        source = _source(joint.element, file)
+        for letter, x in zip("xyz", joint.xyz, strict=True):
+            if x:
+                found[f"{joint.name}_origin_{letter}"] = Number(x, "m", source)
+    for joint, motor in zip(chain, motors, strict=True):
+        for key in ("viscous", "coulomb", "torque_limit"):
+            number = getattr(motor, key)
+            if number is not None:
+                found[f"{joint.name}_{key}"] = number
+    return found
+
+
+def _source(element: Element, file: str) -> str:
+    return f"{file}, line {element.line}"

@@ -1,0 +1,228 @@
+"""Rotations with rational entries: exactly orthogonal, and within 10⁻¹⁵ rad of the angles as written.
+
+The sine and cosine of a decimal angle other than 0 are never rational, so an angle of a file cannot be kept
+exactly. An angle within 10⁻⁵ rad of a multiple of π/2 is taken as that multiple, for that is what a file
+means by 1.5708; any other one is replaced by a rational point of the circle close to it. Both are told to
+the reader.
+
+References: the half-angle parametrisation of the circle; a quaternion with rational entries gives a
+rational rotation.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from flint import arb, ctx, fmpq, fmpz_mat
+
+from lyapcheck.robots.urdf.fields import Triple
+
+SNAP = Fraction(1, 100_000)
+"""Radians."""
+CLOSE = Fraction(1, 10**15)
+_STEP = Fraction(1, 10**16)
+_LARGE = 10**26
+_BITS = 256
+
+Rotation = tuple[Triple, Triple, Triple]
+_ZERO, _ONE = Fraction(0), Fraction(1)
+UNIT: Rotation = ((_ONE, _ZERO, _ZERO), (_ZERO, _ONE, _ZERO), (_ZERO, _ZERO, _ONE))
+
+
+@dataclass
+class Roundings:
+    """Which angles and axes were not taken exactly as written, by the place that says them."""
+
+    snapped: dict[str, Fraction] = field(default_factory=dict)
+    rounded: list[str] = field(default_factory=list)
+
+    def sentences(self) -> tuple[str, ...]:
+        """What a reader has to know about them."""
+        found = []
+        if self.snapped:
+            worst = max(self.snapped, key=lambda place: self.snapped[place])
+            found.append(
+                f"Angles within {float(SNAP):.0e} rad of a multiple of π/2 are taken as that multiple; "
+                f"the largest difference is {float(self.snapped[worst]):.1e} rad ({worst})."
+            )
+        if self.rounded:
+            found.append(
+                f"Rotations and axes that no exact rational can give are rounded by less than "
+                f"{float(CLOSE):.0e} rad: {', '.join(self.rounded)}."
+            )
+        return tuple(found)
+
+
+def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
+    """Rz(yaw) Ry(pitch) Rx(roll), the fixed-axis angles of URDF, rad."""
+    result = UNIT
+    for axis, angle in enumerate(rpy):
+        if angle:
+            result = product(_turn(axis, *_circle(angle, place, roundings)), result)
+    return result
+
+
+def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction, Fraction]:
+    """Rational (sin, cos) close to those of the angle."""
+    quarters, rest = _quarters(angle)
+    if abs(rest) <= SNAP:
+        if abs(rest) > CLOSE:
+            roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, _ZERO))
+        sine, cosine = _ZERO, _ONE
+    else:
+        if place not in roundings.rounded:
+            roundings.rounded.append(place)
+        t = _half_tangent(rest)
+        sine, cosine = 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
+    for _ in range(quarters % 4):
+        sine, cosine = cosine, -sine
+    return sine, cosine
+
+
+def _quarters(angle: Fraction) -> tuple[int, Fraction]:
+    """The nearest multiple of π/2, and a rational within 10⁻⁴⁰ of what is left."""
+    previous = ctx.prec
+    ctx.prec = _BITS
+    try:
+        exact = arb(fmpq(angle.numerator, angle.denominator))
+        count = round(float(exact / (arb.pi() / 2)))
+        return count, _middle(exact - count * arb.pi() / 2)
+    finally:
+        ctx.prec = previous
+
+
+def _half_tangent(angle: Fraction) -> Fraction:
+    """A rational with small denominator within 10⁻¹⁶ of tan(angle/2), for |angle| ≤ π/4 or so."""
+    previous = ctx.prec
+    ctx.prec = _BITS
+    try:
+        tangent = (arb(fmpq(angle.numerator, angle.denominator)) / 2).tan()
+        return _near(_middle(tangent))
+    finally:
+        ctx.prec = previous
+
+
+def _middle(ball: arb) -> Fraction:
+    mantissa, exponent = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def _turn(axis: int, sine: Fraction, cosine: Fraction) -> Rotation:
+    """The rotation about a coordinate axis."""
+    rows = [[_ZERO] * 3 for _ in range(3)]
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    rows[axis][axis] = _ONE
+    rows[j][j] = rows[k][k] = cosine
+    rows[k][j], rows[j][k] = sine, -sine
+    return _rotation(rows)
+
+
+def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
+    """An exact unit vector along a vector that is not zero, or within 10⁻¹⁵ rad of it.
+
+    Soundness: the answer has length exactly 1 whatever was rounded (stereographic projection).
+    """
+    square = sum((x * x for x in vector), _ZERO)
+    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    if length * length == square:
+        x, y, z = (component / length for component in vector)
+        return x, y, z
+    roundings.rounded.append(place)
+    size = _root(square)
+    direction = [component / size for component in vector]
+    pole = max(range(3), key=lambda i: abs(direction[i]))
+    sign = 1 if direction[pole] > 0 else -1
+    plane = [_near(x / (1 + sign * direction[pole])) for i, x in enumerate(direction) if i != pole]
+    norm = plane[0] ** 2 + plane[1] ** 2
+    result = [2 * x / (1 + norm) for x in plane]
+    result.insert(pole, sign * (1 - norm) / (1 + norm))
+    return result[0], result[1], result[2]
+
+
+def _root(square: Fraction) -> Fraction:
+    """√square within a relative 10⁻⁴⁰."""
+    scale = 10**60
+    return Fraction(math.isqrt(square.numerator * square.denominator * scale**2), square.denominator * scale)
+
+
+def _near(x: Fraction) -> Fraction:
+    """The rational of the fewest digits within 10⁻¹⁶ of x."""
+    digits = 1
+    while abs(x.limit_denominator(10**digits) - x) > _STEP:
+        digits += 1
+    return x.limit_denominator(10**digits)
+
+
+def tidy(rotation: Rotation) -> Rotation:
+    """The rotation itself, or where its entries have grown long one within 10⁻¹⁵ rad with shorter ones."""
+    if all(entry.denominator < _LARGE for row in rotation for entry in row):
+        return rotation
+    return _from_quaternion(_quaternion(rotation))
+
+
+def _quaternion(r: Rotation) -> tuple[int, int, int, int]:
+    """A quaternion of whole numbers along the unit one; its largest component decides the formula."""
+    trace = r[0][0] + r[1][1] + r[2][2]
+    rows = [
+        [1 + trace, r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]],
+        [r[2][1] - r[1][2], 1 + 2 * r[0][0] - trace, r[0][1] + r[1][0], r[0][2] + r[2][0]],
+        [r[0][2] - r[2][0], r[0][1] + r[1][0], 1 + 2 * r[1][1] - trace, r[1][2] + r[2][1]],
+        [r[1][0] - r[0][1], r[0][2] + r[2][0], r[1][2] + r[2][1], 1 + 2 * r[2][2] - trace],
+    ]
+    best = max(range(4), key=lambda i: rows[i][i])
+    direction = [entry / rows[best][best] for entry in rows[best]]
+    others = [direction[i] for i in range(4) if i != best]
+    scale, *parts = _simultaneous(others)
+    parts.insert(best, scale)
+    return parts[0], parts[1], parts[2], parts[3]
+
+
+def _simultaneous(numbers: list[Fraction]) -> list[int]:
+    """A small q and p_i with |q x_i − p_i| ≤ 10⁻¹⁶ q, from a short vector of a lattice (LLL)."""
+    fine, size = 10**16, 10**20
+    rows = [[size, *(round(x * fine * size) for x in numbers)]]
+    rows += [[0] + [fine * size if i == k else 0 for k in range(3)] for i in range(3)]
+    reduced = fmpz_mat(rows).lll()
+    for row in range(4):
+        q = int(reduced[row, 0]) // size
+        parts = [round(q * x) for x in numbers]
+        if q and all(abs(p - q * x) * 10**16 <= abs(q) for p, x in zip(parts, numbers, strict=True)):
+            return [q, *parts]
+    return [10**17, *(round(x * 10**17) for x in numbers)]
+
+
+def _from_quaternion(q: tuple[int, int, int, int]) -> Rotation:
+    w, x, y, z = (Fraction(part) for part in q)
+    n = w * w + x * x + y * y + z * z
+    rows = [
+        [n - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), n - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), n - 2 * (x * x + y * y)],
+    ]
+    return _rotation([[entry / n for entry in row] for row in rows])
+
+
+def product(a: Rotation, b: Rotation) -> Rotation:
+    """A B."""
+    return _rotation(
+        [[sum((a[i][k] * b[k][j] for k in range(3)), _ZERO) for j in range(3)] for i in range(3)]
+    )
+
+
+def apply(a: Rotation, x: Triple) -> Triple:
+    """A x."""
+    first, second, third = (sum((row[k] * x[k] for k in range(3)), _ZERO) for row in a)
+    return first, second, third
+
+
+def conjugate(a: Rotation, tensor: Rotation) -> Rotation:
+    """A T Aᵀ."""
+    transposed = _rotation([[a[j][i] for j in range(3)] for i in range(3)])
+    return product(product(a, tensor), transposed)
+
+
+def _rotation(rows: list[list[Fraction]]) -> Rotation:
+    first, second, third = ((row[0], row[1], row[2]) for row in rows)
+    return first, second, third
