@@ -32,6 +32,17 @@ def harmonics(terms: Iterable[Term], n: int) -> Harmonics:
     return _real(total)
 
 
+Uncertain = dict[tuple[int, ...], Harmonics]
+"""A polynomial in uncertain parameters: their powers to a trigonometric polynomial."""
+
+
+def by_parameters(terms: Sequence[Term], n: int) -> Uncertain:
+    """The harmonics of a polynomial, by the powers of what it has beyond n sines and n cosines."""
+    found = sorted({powers[2 * n :] for powers, _ in terms})
+    parts = {p: harmonics([term for term in terms if term[0][2 * n :] == p], n) for p in found}
+    return {p: part for p, part in parts.items() if part}
+
+
 def derivative(terms: Mapping[Harmonic, Gaussian], i: int) -> Harmonics:
     """The derivative with respect to q_i, counted from 0."""
     return {k: (k[i] * b, -k[i] * a) for k, (a, b) in terms.items() if k[i] != 0}
@@ -77,6 +88,21 @@ def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int
                 if symbol:
                     found[i, j, k] = symbol
     return found
+
+
+def uncertain_christoffel(mass: Sequence[Sequence[Uncertain]]) -> dict[tuple[int, int, int], Uncertain]:
+    """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
+    found: dict[tuple[int, int, int], Uncertain] = {}
+    for powers in sorted({p for row in mass for entry in row for p in entry}):
+        for place, symbol in christoffel([[entry.get(powers, {}) for entry in row] for row in mass]).items():
+            found.setdefault(place, {})[powers] = symbol
+    return found
+
+
+def angles_in(mass: Sequence[Sequence[Uncertain]]) -> tuple[int, ...]:
+    """The joints whose angle occurs."""
+    parts = (part for row in mass for entry in row for part in entry.values())
+    return tuple(sorted({i for part in parts for k in part for i, factor in enumerate(k) if factor}))
 
 
 def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> dict[Harmonic, Gaussian]:

@@ -39,6 +39,7 @@ def command(
         str | None, typer.Option("--m", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
     ] = None,
     max_boxes: Annotated[int, typer.Option(help="Budget of branch and bound.", min=1)] = 400_000,
+    jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
     starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
     seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
     format: Annotated[EpsilonFormat, typer.Option(help="How to write it.")] = EpsilonFormat.TEXT,  # noqa: A002
@@ -58,7 +59,7 @@ def command(
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     with progress("epsilon") as advance:
-        results, seconds = _run(chosen, model, (max_boxes, starts, seed), advance)
+        results, seconds = _run(chosen, model, (max_boxes, jobs, starts, seed), advance)
     from lyapcheck.search.epsilon_formats import renderer
 
     sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
@@ -83,12 +84,12 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 
 def _run(
-    gains: list[GainSet], model: RobotModel, budget: tuple[int, int, int], advance: Advance
+    gains: list[GainSet], model: RobotModel, budget: tuple[int, int, int, int], advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
     from lyapcheck.search.epsilon import epsilon
 
-    max_boxes, starts, seed = budget
+    max_boxes, jobs, starts, seed = budget
     results: list[EpsilonResult] = []
     seconds: list[float] = []
     for done, gain_set in enumerate(gains):
@@ -98,7 +99,15 @@ def _run(
 
         began = perf_counter()
         results.append(
-            epsilon(gain_set, model, max_boxes=max_boxes, starts=starts, seed=seed, on_progress=tell)
+            epsilon(
+                gain_set,
+                model,
+                max_boxes=max_boxes,
+                jobs=jobs,
+                starts=starts,
+                seed=seed,
+                on_progress=tell,
+            )
         )
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -2,61 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import cached_property
-from itertools import product
 
+from lyapcheck.check.harmonics import (
+    Gaussian,
+    Harmonic,
+    Harmonics,
+    Uncertain,
+    angles_in,
+    by_parameters,
+    derivative,
+    uncertain_christoffel,
+)
 from lyapcheck.intervals.functions import cosine, sine
 from lyapcheck.intervals.interval import Interval
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.harmonics import Gaussian, Harmonic, Harmonics, derivative, harmonics
+from lyapcheck.robots.trig import to_terms
 
 Place = tuple[int, ...]
 Columns = dict[Harmonic, tuple[Interval, Interval]]
 
 
 class ArmIntervals:
-    """The exact polynomials of an arm without parameters, as harmonics evaluated over boxes.
+    """The exact polynomials of an arm, as harmonics evaluated over boxes.
 
-    An entry is enclosed twice: by the ranges of its harmonics, and by its value in the middle of the box
-    plus its slopes times the half widths (mean value form); both hold, so their intersection does.
+    Each power of the parameters is enclosed twice: by the ranges of its harmonics, and by its value in the
+    middle of the box plus its slopes times the half widths (mean value form); both hold, so their
+    intersection does.
 
     Args:
-        model: the arm; ``RobotModel.fixed`` has put its parameters to exact values.
+        model: the arm.
     """
 
     def __init__(self, model: RobotModel) -> None:
         self.model = model
         self.n = model.n
+        rows = [[by_parameters(to_terms(entry), self.n) for entry in row] for row in model.mass]
         joints = range(self.n)
-        self.mass = {
-            (i, j): harmonics(model.mass[i][j])
-            for i, j in product(joints, repeat=2)
-            if j <= i and model.mass[i][j] != 0
-        }
-        self.christoffel = {
-            (i, j, k): harmonics(model.christoffel[i][j][k])
-            for i, j, k in product(joints, repeat=3)
-            if k <= j and model.christoffel[i][j][k] != 0
-        }
-
-    @cached_property
-    def angles(self) -> tuple[int, ...]:
+        self.mass = {(i, j): rows[i][j] for i in joints for j in joints if j <= i and rows[i][j]}
+        self.christoffel = uncertain_christoffel(rows)
+        self.angles = angles_in(rows)
         """The joints whose angle M depends on; all others may be held at 0."""
-        used = {i for terms in self.mass.values() for k in terms for i, factor in enumerate(k) if factor}
-        return tuple(sorted(used))
 
-    def at(self, q: list[Interval]) -> ArmBox:
-        """The arm over a box: one interval of angles in rad for each joint, as arrays over many boxes."""
-        return ArmBox(self, q)
+    def at(self, q: list[Interval], parameters: Sequence[Interval] = ()) -> ArmBox:
+        """The arm over a box: angles in rad for each joint, and its parameters, as arrays over many boxes."""
+        return ArmBox(self, q, parameters)
 
 
 class ArmBox:
     """M and the Christoffel symbols over one array of boxes."""
 
-    def __init__(self, arm: ArmIntervals, q: list[Interval]) -> None:
+    def __init__(self, arm: ArmIntervals, q: list[Interval], parameters: Sequence[Interval] = ()) -> None:
         self.arm = arm
+        self._parameters = parameters
         self._wide = _columns(arm, q)
         centre = [Interval(x.mid, x.mid) for x in q]
         self._centre = _columns(arm, centre)
@@ -72,7 +71,17 @@ class ArmBox:
         """The Christoffel symbols c_ijk with k ≤ j that do not vanish identically; c_ijk = c_ikj."""
         return {place: self._enclosed(terms) for place, terms in self.arm.christoffel.items()}
 
-    def _enclosed(self, terms: Harmonics) -> Interval:
+    def _enclosed(self, entry: Uncertain) -> Interval:
+        total: Interval | None = None
+        for powers, terms in entry.items():
+            part = self._part(terms)
+            for parameter, power in zip(self._parameters, powers, strict=True):
+                for _ in range(power):
+                    part = part * parameter
+            total = part if total is None else total + part
+        return Interval.exact(0.0) if total is None else total
+
+    def _part(self, terms: Harmonics) -> Interval:
         natural = _combine(terms, self._wide)
         mean = _combine(terms, self._centre)
         for i in self.arm.angles:
@@ -93,14 +102,10 @@ def coriolis(symbols: Mapping[Place, Interval], h: list[Interval]) -> list[list[
     return rows
 
 
-def magnitude(terms: Harmonics) -> float:
-    """A rough bound of the size of a polynomial, for choosing where to split."""
-    return float(sum(abs(a) + abs(b) for a, b in terms.values()))
-
-
 def _columns(arm: ArmIntervals, q: list[Interval]) -> Columns:
     """cos and sin of every harmonic that occurs."""
-    used = {k for terms in (*arm.mass.values(), *arm.christoffel.values()) for k in terms if any(k)}
+    entries = (*arm.mass.values(), *arm.christoffel.values())
+    used = {k for entry in entries for terms in entry.values() for k in terms if any(k)}
     columns: Columns = {}
     for k in sorted(used):
         angle = _angle(k, q)

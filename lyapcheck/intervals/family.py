@@ -18,7 +18,7 @@ from lyapcheck.intervals.interval import Array, Interval
 
 @dataclass(frozen=True)
 class Extreme:
-    """An x ≥ 0 at which a function may turn, between two doubles, and its value there, between two doubles."""
+    """An x ≥ 0 at which a function may turn, and its value there, each between two doubles."""
 
     where: tuple[float, float]
     value: tuple[float, float]
@@ -52,7 +52,7 @@ def _range(function: Callable[[Array], Array], turning: list[Extreme], x: Interv
 
 
 def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Array]:
-    """The function at both ends; boxes made by halving share most of their ends, so equal ones are done once."""
+    """The function at both ends; boxes made by halving share most ends, and equal ones are done once."""
     ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
     distinct, index = np.unique(ends, return_inverse=True)
     values = function(distinct)[index.ravel()]

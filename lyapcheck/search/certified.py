@@ -5,77 +5,99 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
-from lyapcheck.family import named
-from lyapcheck.lyapunov.scalar import RobotBounds, scalar_form
+from lyapcheck.check.stability import Closure, proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, Progress
-from lyapcheck.search.schur import problem
-
-if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
-    from lyapcheck.robots import RobotModel
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
 
 SHARES = tuple(Fraction(n, 1000) for n in (500, 800, 900, 950, 980, 990, 995, 998, 999))
 """Shares of the falsified ε₀ that are tried one after the other."""
 
 DIGITS = 7
 MAX_BOXES = 400_000
+_UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A closure and the tree of boxes by which the checker found dV/dt < 0 for it."""
+
+    closure: Closure
+    tree: str
+
+    @property
+    def boxes(self) -> int:
+        """How many boxes cover the states."""
+        return self.tree.count(".")
 
 
 @dataclass(frozen=True)
 class Certified:
-    """The largest ε₀ proved, how many boxes that proof and all attempts took, and why it is not larger."""
+    """The proof of the largest ε₀, how many boxes all attempts looked at, and why ε₀ is not larger."""
 
-    eps0: Fraction | None
-    boxes: int
+    proof: Proof | None
     looked_at: int
     reason: str
 
+    @property
+    def eps0(self) -> Fraction | None:
+        """The largest ε₀ proved."""
+        return None if self.proof is None else self.proof.closure.eps0
+
 
 def certified_epsilon(
-    model: RobotModel,
-    gain_set: GainSet,
-    bounds: RobotBounds,
+    setting: Setting,
     ceiling: Fraction,
     max_boxes: int = MAX_BOXES,
+    jobs: int = 1,
     on_progress: Progress | None = None,
 ) -> Certified:
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
 
     Args:
-        model: the arm; uncertain parameters are taken at their nominal values.
-        gain_set: the controller.
-        bounds: proved bounds of the arm, for the states far away.
+        setting: gains and arm, with its ranges where the setting has them.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
+        jobs: processes for the checker.
         on_progress: told the share of the attempts done.
 
     Returns:
-        ``eps0`` is ``None`` where nothing was proved; ``reason`` says why the next share was not.
+        no proof where nothing was proved; ``reason`` says why the next share was not.
 
-    Soundness: ``lyapcheck.search.branch_and_bound``.
+    Soundness: every proof has been accepted by ``lyapcheck.check.stability``, in balls.
     """
-    fixed, family = model.fixed(), named(gain_set.family, gain_set.m)
-    form = scalar_form(gain_set, family.constants(), bounds)
-    if form is None:
-        return Certified(None, 0, 0, "h is unbounded: branch and bound needs its γ for the states far away")
-    best, boxes, total, reason = None, 0, 0, ""
+    if not setting.family.bounded:
+        return Certified(None, 0, _UNBOUNDED)
+    tell = on_progress or (lambda fraction, note: None)
+    found, looked_at, reason = _attempts(setting, ceiling, max_boxes, tell)
+    while found:
+        proof = found.pop()
+        tell(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
+        if proves(proof.closure, proof.tree, jobs):
+            return Certified(proof, looked_at, reason)
+        reason = f"the boxes found for ε₀ = {float(proof.closure.eps0):.6g} were refused by the checker"
+    return Certified(None, looked_at, reason)
+
+
+def _attempts(
+    setting: Setting, ceiling: Fraction, max_boxes: int, tell: Progress
+) -> tuple[list[Proof], int, str]:
+    """What the search believes to be proofs, of growing ε₀; boxes looked at; why it went no further."""
+    found: list[Proof] = []
+    looked_at = 0
     for index, share in enumerate(SHARES):
-        eps0 = _rounded_down(ceiling * share)
-        task = problem(fixed, family, gain_set.kp, gain_set.kv, eps0)
-        if task is None:
-            return Certified(best, boxes, total, f"K_p is too small beside K_v for ε₀ = {float(eps0):.6g}")
-        if on_progress is not None:
-            on_progress(index / len(SHARES), f"{float(share):.1%} of falsified")
-        outcome = certify(fixed, task, form, max_boxes - total)
-        total += outcome.boxes
+        closure = setting.closure(_rounded_down(ceiling * share))
+        if not closure.admissible:
+            return found, looked_at, f"K_p is too small beside K_v for ε₀ = {float(closure.eps0):.6g}"
+        tell(index / (len(SHARES) + 1), f"{float(share):.1%} of falsified")
+        outcome = certify(Problem(closure, setting.ranged), max_boxes - looked_at)
+        looked_at += outcome.boxes
         if not outcome.proved:
-            reason = _advice(outcome.reason, eps0, max_boxes)
-            break
-        best, boxes = eps0, outcome.boxes
-    return Certified(best, boxes, total, reason)
+            return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)
+        found.append(Proof(closure, outcome.tree))
+    return found, looked_at, ""
 
 
 def _advice(reason: str, eps0: Fraction, max_boxes: int) -> str:

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Boxes = Array
 """(count, 2, dimensions): lower and upper ends."""
+Indices = NDArray[np.intp]
 
 Progress = Callable[[float, str], None]
 Prover = Callable[[Boxes], NDArray[np.bool_]]
-Halver = Callable[[Boxes], Boxes]
+Chooser = Callable[[Boxes], Indices]
 
 CHUNK = 8192
 PROBES = 64
@@ -34,38 +35,41 @@ class Outcome:
         boxes: how many boxes were looked at.
         reason: why not, when not proved.
         point: the point that resisted, if one did.
+        tree: when proved, the cuts in preorder: a digit for a side, a dot for a box that was proved.
     """
 
     proved: bool
     boxes: int
     reason: str = ""
     point: Array | None = None
+    tree: str = ""
 
 
 def cover(
-    start: Boxes, prove: Prover, halves: Halver, max_boxes: int, on_progress: Progress | None = None
+    start: Boxes, prove: Prover, choose: Chooser, max_boxes: int, on_progress: Progress | None = None
 ) -> Outcome:
-    """Prove a property of every point of some boxes, halving those where it is not proved as a whole.
+    """Prove a property of every point of a box, halving it where it is not proved as a whole.
 
     Depth first in chunks, so that memory stays bounded. It ends early at a point, or a very small box, on
     which the property is not proved: halving would not help there.
 
     Args:
-        start: boxes that together hold every point meant.
+        start: one box.
         prove: for each box whether the property holds on all of it, proved.
-        halves: both halves of each box.
+        choose: the side of each box that should be halved.
         max_boxes: how many boxes may be looked at.
         on_progress: told the share of the volume decided.
 
     Soundness: halves cover their box; ``prove`` is taken at its word.
     """
-    stack, seen, done = [start], 0, 0.0
+    nodes = Nodes()
+    stack, seen, done = [(start, nodes.add(1))], 0, 0.0
     volume = float(np.sum(_volumes(start)))
     while stack:
-        boxes = stack.pop()
+        boxes, names = stack.pop()
         if len(boxes) > CHUNK:
-            stack.append(boxes[CHUNK:])
-            boxes = boxes[:CHUNK]
+            stack.append((boxes[CHUNK:], names[CHUNK:]))
+            boxes, names = boxes[:CHUNK], names[:CHUNK]
         seen += len(boxes)
         if seen > max_boxes:
             return Outcome(False, seen, EXHAUSTED)
@@ -78,8 +82,45 @@ def cover(
             point = _resisting(rest, prove)
             if point is not None:
                 return Outcome(False, seen, RESISTS, point)
-            stack.append(halves(rest))
-    return Outcome(True, seen)
+            sides = choose(rest)
+            stack.append((halve(rest, sides), nodes.cut(names[~proved], sides)))
+    return Outcome(True, seen, tree=nodes.preorder())
+
+
+class Nodes:
+    """The tree of cuts, as arrays that grow: of each box that was cut, the side and both halves."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.parts: list[tuple[Indices, Indices, Indices]] = []
+
+    def add(self, count: int) -> Indices:
+        """Names for new boxes."""
+        self.count += count
+        return np.arange(self.count - count, self.count)
+
+    def cut(self, names: Indices, sides: Indices) -> Indices:
+        """Note that boxes were cut; the names of all left halves, then of all right ones."""
+        halves = self.add(2 * len(names))
+        self.parts.append((names, sides, halves))
+        return halves
+
+    def preorder(self) -> str:
+        """The tree as text."""
+        side = np.full(self.count, -1, dtype=np.intp)
+        left, right = np.zeros((2, self.count), dtype=np.intp)
+        for names, sides, halves in self.parts:
+            side[names], left[names], right[names] = sides, halves[: len(names)], halves[len(names) :]
+        sides_of, lefts, rights = side.tolist(), left.tolist(), right.tolist()
+        text, stack = [], [0]
+        while stack:
+            node = stack.pop()
+            if sides_of[node] < 0:
+                text.append(".")
+            else:
+                text.append(chr(ord("0") + sides_of[node]))
+                stack += (rights[node], lefts[node])
+        return "".join(text)
 
 
 def _volumes(boxes: Boxes) -> Array:
@@ -87,7 +128,7 @@ def _volumes(boxes: Boxes) -> Array:
 
 
 def _resisting(boxes: Boxes, prove: Prover) -> Array | None:
-    """The middle of a box where the property is not even proved for that point, or of one too small to halve."""
+    """The middle of a box where not even that point is proved, or of a box too small to halve."""
     probes = boxes[:: max(1, len(boxes) // PROBES)]
     middles = probes.mean(axis=1)
     failed = ~prove(np.stack([middles, middles], axis=1))
@@ -97,8 +138,8 @@ def _resisting(boxes: Boxes, prove: Prover) -> Array | None:
     return np.asarray(boxes[small][0].mean(axis=0)) if small.any() else None
 
 
-def halve(boxes: Boxes, side: NDArray[np.intp]) -> Boxes:
-    """Both halves of every box, cut in the middle of the side chosen for it."""
+def halve(boxes: Boxes, side: Indices) -> Boxes:
+    """Both halves of every box, cut in the middle of its chosen side: all left ones, then all right ones."""
     rows = np.arange(len(boxes))
     middle = 0.5 * (boxes[rows, 0, side] + boxes[rows, 1, side])
     left, right = boxes.copy(), boxes.copy()

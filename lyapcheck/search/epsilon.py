@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.states import confirms_positive
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
-from lyapcheck.search.certified import MAX_BOXES, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, Proof, certified_epsilon
 from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
 from lyapcheck.search.robot_constants import robot_bounds
 from lyapcheck.search.scalar_program import scalar_epsilon
@@ -52,6 +52,7 @@ class EpsilonResult:
         witness: the state that refutes ``falsified``.
         boxes: how many boxes branch and bound looked at.
         certified_by: which certificate stands behind ``certified``.
+        proof: the boxes behind ``certified``, which the checker has accepted.
         reasons: why a number is missing, and what to try.
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
@@ -68,6 +69,7 @@ class EpsilonResult:
     witness: Witness | None
     boxes: int
     certified_by: str
+    proof: Proof | None = None
     reasons: Mapping[str, str] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
@@ -86,6 +88,7 @@ def epsilon(
     model: RobotModel,
     *,
     max_boxes: int = MAX_BOXES,
+    jobs: int = 1,
     starts: int = STARTS,
     seed: int = SEED,
     on_progress: Progress | None = None,
@@ -96,6 +99,7 @@ def epsilon(
         gain_set: the controller.
         model: the arm, taken at its nominal parameters.
         max_boxes: budget of branch and bound.
+        jobs: processes for the checker of its boxes.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         on_progress: told the fraction done and a few words.
@@ -121,11 +125,10 @@ def epsilon(
     reasons["scalar"] = scalar.reason
     hint = None if witness is None else witness.eps0
     found = certified_epsilon(
-        model,
-        gain_set,
-        bounds,
+        setting,
         hint or 10 * (sharp.eps0 or Fraction(1)),
         max_boxes,
+        jobs,
         lambda f, note: tell(0.35 + 0.65 * f, note),
     )
     reasons["certified"] = found.reason
@@ -141,6 +144,7 @@ def epsilon(
         falsified=hint,
         witness=witness,
         boxes=found.looked_at,
+        proof=found.proof,
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
         findings=tuple(_findings(setting, published, certified, witness)),

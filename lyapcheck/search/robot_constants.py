@@ -27,7 +27,9 @@ from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.lyapunov.scalar import RobotBounds
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.cover import Boxes, cover, halve
+from lyapcheck.search.cover import Boxes, cover
+
+Entries = list[list[Interval | float]]
 
 Array = NDArray[np.float64]
 
@@ -41,7 +43,7 @@ SEED = 20190301
 
 @dataclass(frozen=True)
 class RobotConstants:
-    """Enclosures of the constants of an arm at its nominal parameters, kg·m², with the states that show them."""
+    """Enclosures of an arm's constants at its nominal parameters, kg·m², with the states that show them."""
 
     lambda_min: Enclosure
     lambda_max: Enclosure
@@ -89,9 +91,7 @@ def _lambda_max(arm: ArmIntervals, at: Array) -> Enclosure:
     inside = _rational(_top(NumericModel(arm.model).mass(_angles(arm, at[None])))[0], Fraction(-1, 10**9))
     for gap in GAPS:
         bound = inside * (1 + gap)
-        if _proved(
-            arm, lambda M, s=bound: [[_shift(M, i, j, s, -1) for j in range(arm.n)] for i in range(arm.n)]
-        ):
+        if _proved(arm, _shifted(bound, -1)):
             return Enclosure(inside, bound)
     raise ArithmeticError(_HOPELESS)
 
@@ -100,14 +100,22 @@ def _lambda_min(arm: ArmIntervals, at: Array) -> Enclosure:
     inside = _rational(_bottom(NumericModel(arm.model).mass(_angles(arm, at[None])))[0], Fraction(1, 10**9))
     for gap in GAPS[:-1]:
         bound = inside * (1 - gap)
-        if _proved(
-            arm, lambda M, s=bound: [[_shift(M, i, j, s, 1) for j in range(arm.n)] for i in range(arm.n)]
-        ):
+        if _proved(arm, _shifted(bound, 1)):
             return Enclosure(bound, inside)
     return Enclosure(Fraction(0), inside)
 
 
 _HOPELESS = "no bound of the arm's constants was proved within the budget of boxes"
+
+
+def _shifted(s: Fraction, sign: int) -> Callable[[Entries], list[list[Interval]]]:
+    """The map from M to ±(M − s I)."""
+
+    def matrix(M: Entries) -> list[list[Interval]]:
+        joints = range(len(M))
+        return [[_shift(M, i, j, s, sign) for j in joints] for i in joints]
+
+    return matrix
 
 
 def _shift(M: list[list[Interval | float]], i: int, j: int, s: Fraction, sign: int) -> Interval:
@@ -117,9 +125,7 @@ def _shift(M: list[list[Interval | float]], i: int, j: int, s: Fraction, sign: i
     return moved if isinstance(moved, Interval) else Interval.exact(moved)
 
 
-def _proved(
-    arm: ArmIntervals, matrix: Callable[[list[list[Interval | float]]], list[list[Interval]]]
-) -> bool:
+def _proved(arm: ArmIntervals, matrix: Callable[[Entries], list[list[Interval]]]) -> bool:
     """Whether a matrix made of M is positive definite for all angles."""
     columns = max(len(arm.angles), 1)
     start = np.stack([np.full(columns, -PI_ABOVE), np.full(columns, PI_ABOVE)])[None]
@@ -182,8 +188,8 @@ def _boxes(arm: ArmIntervals, boxes: Boxes) -> list[Interval]:
     return q
 
 
-def _longest(boxes: Boxes) -> Boxes:
-    return halve(boxes, np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
+def _longest(boxes: Boxes) -> NDArray[np.intp]:
+    return np.asarray(np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
 
 
 def _angles(arm: ArmIntervals, x: Array) -> Array:
@@ -226,5 +232,5 @@ def _climb(n: int, columns: int, merit: Callable[[Array], Array]) -> Array:
 
 
 def _rational(value: float, shift: Fraction) -> Fraction:
-    """A rational a little inside of a computed extreme: rounding of that size is far larger than its error."""
+    """A rational a little inside of a computed extreme, by far more than that is wrong."""
     return Fraction(value) * (1 + shift)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.check.stability import Closure
 from lyapcheck.check.states import Arm, Controller, Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
@@ -23,16 +24,24 @@ if TYPE_CHECKING:
 
     from lyapcheck.check.states import Term
     from lyapcheck.control import GainSet
+    from lyapcheck.robots import Number
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A gain set on an arm whose uncertain parameters stand at their nominal values."""
+    """A gain set on an arm whose uncertain parameters stand at their nominal values.
+
+    Args:
+        gains: the controller.
+        model: the arm.
+        ranges: prove for all values of the uncertain parameters and friction, not only the nominal ones.
+    """
 
     gains: GainSet
     model: RobotModel
+    ranges: bool = False
 
     def __post_init__(self) -> None:
         n = self.model.n
@@ -100,9 +109,37 @@ class Setting:
         functions = Functions(self.family.ball_h, self.family.ball_dh, self.family.ball_potential)
         return Controller(functions, tuple(self.gains.kp), tuple(self.gains.kv), self.per_degree)
 
+    @cached_property
+    def ranged(self) -> RobotModel:
+        """The arm that certificates are about: with its parameters if they are to range."""
+        return self.model if self.ranges else self.fixed
+
+    def closure(self, eps0: Fraction) -> Closure:
+        """What a global certificate has to prove at one ε₀."""
+        model = self.ranged
+        mass = tuple(tuple(_terms(entry) for entry in row) for row in model.mass)
+        return Closure(
+            arm=Arm(mass, tuple(number.value for number in model.viscous)),
+            family=self.gains.family,
+            m=self.gains.m,
+            kp=tuple(self.gains.kp),
+            kv=tuple(self.gains.kv),
+            eps0=eps0,
+            parameters=tuple(_range(number) for number in model.parameters.values()),
+            viscous=tuple(_range(number) for number in model.viscous) if self.ranges else (),
+        )
+
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0
         return np.array([float(gain) * unit for gain in gains])
+
+
+def _range(number: Number) -> tuple[Fraction, Fraction]:
+    """The range of a number; the number itself where it has none."""
+    return (
+        number.value if number.low is None else number.low,
+        number.value if number.high is None else number.high,
+    )
 
 
 def _terms(entry: fmpq_mpoly) -> tuple[Term, ...]:

@@ -157,7 +157,7 @@ def _with(states: States, first: Array) -> Array:
 
 
 def _length(rows: Array) -> Array:
-    return np.maximum(np.linalg.norm(rows, axis=1), 1e-150)
+    return np.asarray(np.maximum(np.linalg.norm(rows, axis=1), 1e-150))
 
 
 def steepest_states(setting: Setting, eps0: float, starts: States) -> States:

@@ -8,9 +8,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from math import isqrt
+from math import isqrt, prod
 
-from lyapcheck.check.harmonics import Harmonics, christoffel, harmonics, largest, mirrored
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.harmonics import (
+    Uncertain,
+    angles_in,
+    by_parameters,
+    largest,
+    mirrored,
+    uncertain_christoffel,
+)
 from lyapcheck.check.members import Member, member
 from lyapcheck.check.scalar import ScalarForm, certifies
 from lyapcheck.check.stability.boxes import Box
@@ -19,18 +27,22 @@ from lyapcheck.check.states import Arm
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
 
+Range = tuple[Fraction, Fraction]
+
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """An arm under a bounded controller, at one ε₀.
+    """An arm under a bounded controller, at one ε₀, for all values of what is uncertain about the arm.
 
     Args:
-        arm: M(q) and B, exact.
+        arm: M(q) and B; after the sines and cosines its terms may have exponents of parameters.
         family: name of the function h.
         m: its member, where it has members.
         kp: diagonal of K_p, N·m.
         kv: diagonal of K_v, N·m.
         eps0: ε₀ of (12).
+        parameters: the range of each parameter in M.
+        viscous: the range of each diagonal entry of B, N·m·s/rad; none where B is that of the arm.
     """
 
     arm: Arm
@@ -39,6 +51,8 @@ class Closure:
     kp: tuple[Fraction, ...]
     kv: tuple[Fraction, ...]
     eps0: Fraction
+    parameters: tuple[Range, ...] = ()
+    viscous: tuple[Range, ...] = ()
 
     @property
     def n(self) -> int:
@@ -51,14 +65,19 @@ class Closure:
         return member(self.family, self.m)
 
     @cached_property
-    def mass(self) -> list[list[Harmonics]]:
-        """M as harmonics."""
-        return [[harmonics(entry, self.n) for entry in row] for row in self.arm.mass]
+    def friction(self) -> tuple[Range, ...]:
+        """The range of each diagonal entry of B."""
+        return self.viscous or tuple((b, b) for b in self.arm.viscous)
 
     @cached_property
-    def symbols(self) -> dict[tuple[int, int, int], Harmonics]:
-        """The Christoffel symbols as harmonics."""
-        return christoffel(self.mass)
+    def mass(self) -> list[list[Uncertain]]:
+        """M as harmonics, by powers of the parameters."""
+        return [[by_parameters(entry, self.n) for entry in row] for row in self.arm.mass]
+
+    @cached_property
+    def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
+        """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
+        return uncertain_christoffel(self.mass)
 
     @cached_property
     def stiffness(self) -> tuple[Fraction, ...]:
@@ -68,10 +87,7 @@ class Closure:
     @cached_property
     def angles(self) -> tuple[int, ...]:
         """The joints whose angle M depends on; the others may be held at 0."""
-        used = {
-            i for row in self.mass for entry in row for k in entry for i, factor in enumerate(k) if factor
-        }
-        return tuple(sorted(used))
+        return angles_in(self.mass)
 
     @cached_property
     def one_sided(self) -> tuple[int, ...]:
@@ -95,10 +111,11 @@ class Closure:
     def _symmetric(self, signs: Sequence[int]) -> bool:
         joints = range(self.n)
         return all(
-            mirrored(self.mass[i][j], signs) == {k: (s * a, s * b) for k, (a, b) in self.mass[i][j].items()}
+            mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}
             for i in joints
             for j in joints
-            for s in (signs[i] * signs[j],)
+            for sign in (signs[i] * signs[j],)
+            for part in self.mass[i][j].values()
         )
 
     @cached_property
@@ -107,17 +124,29 @@ class Closure:
 
         ‖M‖ is at most its largest row sum, and ‖C(q,x)y‖ ≤ (Σ c_ijk²)^½ ‖x‖ ‖y‖.
         """
-        rows = [sum((largest(entry) for entry in row), Fraction(0)) for row in self.mass]
+        rows = [sum(map(self._largest, row), Fraction(0)) for row in self.mass]
         squares = sum(
-            ((1 if j == k else 2) * largest(c) ** 2 for (_, j, k), c in self.symbols.items()), Fraction(0)
+            ((1 if j == k else 2) * self._largest(c) ** 2 for (_, j, k), c in self.symbols.items()),
+            Fraction(0),
         )
         reach, L = root_above(Fraction(self.n)) * self.member.gamma, self.member.L
         G = reach * L / (L + reach)
         return ScalarForm(
             stiffness=min(self.kp),
-            friction=min(self.arm.viscous),
+            friction=min(low for low, _ in self.friction),
             drift=max(rows) * (self.member.rho + G) + reach * root_above(squares),
-            cross=max(self.arm.viscous) + L * max(self.kv),
+            cross=max(high for _, high in self.friction) + L * max(self.kv),
+        )
+
+    def _largest(self, entry: Uncertain) -> Fraction:
+        """A bound of the absolute value for all parameters in their ranges."""
+        sizes = [max(abs(low), abs(high)) for low, high in self.parameters]
+        return sum(
+            (
+                largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
+                for powers, part in entry.items()
+            ),
+            Fraction(0),
         )
 
     @cached_property
@@ -131,17 +160,27 @@ class Closure:
     @property
     def admissible(self) -> bool:
         """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
-        sizes = {self.n, len(self.kp), len(self.kv), len(self.arm.mass), *map(len, self.arm.mass)}
-        if len(sizes) != 1 or min(*self.kp, *self.kv, *self.arm.viscous, self.eps0) <= 0:
+        ranges = (*self.parameters, *self.friction)
+        sizes = {self.n, len(self.kp), len(self.kv), len(self.friction)}
+        if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
             return False
+        if min(*self.kp, *self.kv, self.eps0, *(low for low, _ in self.friction)) <= 0:
+            return False
+        powers = {len(p) for row in self.mass for entry in row for p in entry}
         symmetric = all(self.mass[i][j] == self.mass[j][i] for i in range(self.n) for j in range(i))
-        return symmetric and min(self.stiffness) > 0
+        return symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
+
+    @cached_property
+    def free(self) -> tuple[Range, ...]:
+        """The ranges, of parameters and then of friction, that are more than a point: sides of the box."""
+        return tuple((low, high) for low, high in (*self.parameters, *self.friction) if low < high)
 
     @property
     def start(self) -> Box:
-        """The box of the angles that matter and of the errors, in rad."""
+        """The box of the angles that matter, the errors, in rad, and what is uncertain."""
         errors = [(0.0 if i in self.one_sided else -self.radius, self.radius) for i in range(self.n)]
-        return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors)
+        uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
+        return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 
 
 def root_above(value: Fraction) -> Fraction:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
+
 from lyapcheck.check.balls import precision
 from lyapcheck.check.scalar import certifies
 from lyapcheck.check.stability.boxes import Box, halves, leaves
@@ -10,16 +14,19 @@ from lyapcheck.check.stability.schur import Evaluator
 
 BITS = 64
 BLOCK = 64
+WORTH_SHARING = 20_000
+"""Characters of a tree from which a second process pays for its start."""
 MORE_HALVINGS = 12
 """How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
 
 
-def proves(closure: Closure, tree: str) -> bool:
+def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:
     """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
 
     Args:
         closure: arm, controller and ε₀.
         tree: in preorder, a digit for the side of ``closure.start`` that is cut, a dot for a leaf.
+        jobs: processes to share the leaves between.
 
     Returns:
         ``True`` only if proved; ``False`` says nothing about the statement.
@@ -29,7 +36,12 @@ def proves(closure: Closure, tree: str) -> bool:
 
     Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
     """
-    return proves_part(closure, tree, 0, 1)
+    if jobs <= 1 or len(tree) < WORTH_SHARING:
+        return proves_part(closure, tree, 0, 1)
+    # spawned processes import afresh; the copy leaves behind what the closure has computed for itself
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        parts = [pool.submit(proves_part, replace(closure), tree, part, jobs) for part in range(jobs)]
+        return all(part.result() for part in parts)
 
 
 def proves_part(closure: Closure, tree: str, part: int, parts: int) -> bool:

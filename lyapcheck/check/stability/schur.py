@@ -25,7 +25,10 @@ class Evaluator:
     def __init__(self, closure: Closure) -> None:
         self.closure = closure
         self.eps0 = to_arb(closure.eps0)
-        self.viscous = [to_arb(b) for b in closure.arm.viscous]
+        self.fixed = [
+            None if low < high else to_arb(low) for low, high in (*closure.parameters, *closure.friction)
+        ]
+        self.exact = [to_arb(low) for low, _ in (*closure.parameters, *closure.friction)]
         self.compliance = [1 / (4 * to_arb(k)) for k in closure.stiffness]
         self.mass = [[Polynomial(entry) for entry in row] for row in closure.mass]
         self.symbols = {place: Polynomial(terms) for place, terms in closure.symbols.items()}
@@ -35,23 +38,24 @@ class Evaluator:
         self.h = lru_cache(maxsize=_KEPT)(lambda side: closure.member.h(ball(side)))
         self.dh = lru_cache(maxsize=_KEPT)(lambda side: closure.member.dh(ball(side)))
         self.square = lru_cache(maxsize=_KEPT)(_square)
-        self.arms: dict[tuple[Side, ...], tuple[Rows, Symbols]] = {}
+        self.arms: dict[Box, tuple[Rows, Symbols]] = {}
 
     def proves(self, box: Box) -> bool:
         """Whether P ≻ 0 at every point of the box, or all of it lies beyond R."""
-        first = len(self.closure.angles)
-        errors = box[first:]
+        first, last = len(self.closure.angles), len(self.closure.angles) + self.closure.n
+        sides, errors = box[:first], box[first:last]
         r_squared = sum((self.square(side) for side in errors), arb(0))
         if r_squared >= arb(self.radius) ** 2:
             return True
-        return balls_positive_definite(self.schur(box[:first], errors, r_squared))
+        return balls_positive_definite(self.schur(sides, errors, box[last:], r_squared))
 
-    def schur(self, sides: tuple[Side, ...], errors: tuple[Side, ...], r_squared: arb) -> Rows:
+    def schur(self, sides: Box, errors: Box, uncertain: Box, r_squared: arb) -> Rows:
         """P, the entries on and below the diagonal."""
+        n, filled = self.closure.n, self._filled(uncertain)
+        B = filled[len(filled) - n :]
         shrink = _inverse_one_plus_root(r_squared)
         eps = self.eps0 * shrink
-        S = self._coupling(sides, errors, shrink)
-        n, B = self.closure.n, self.viscous
+        S = self._coupling(self._arm(sides, uncertain, filled), errors, shrink)
         X = [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in range(n)] for i in range(n)]
         weight = [eps * c for c in self.compliance]
         rows = []
@@ -64,10 +68,17 @@ class Evaluator:
             rows.append([*row, X[i][i] - slow])
         return rows
 
-    def _coupling(self, sides: tuple[Side, ...], errors: tuple[Side, ...], shrink: arb) -> Rows:
+    def _filled(self, uncertain: Box) -> list[arb]:
+        """All parameters and then B: sides of the box where they are uncertain."""
+        if not uncertain:
+            return self.exact
+        sides = iter(uncertain)
+        return [ball(next(sides)) if value is None else value for value in self.fixed]
+
+    def _coupling(self, arm: tuple[Rows, Symbols], errors: Box, shrink: arb) -> Rows:
         """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
         n = self.closure.n
-        M, symbols = self._arm(sides)
+        M, symbols = arm
         h, dh = [self.h(side) for side in errors], [self.dh(side) for side in errors]
         pushed = [sum((M[i][j] * h[j] for j in range(n)), arb(0)) for i in range(n)]
         pull = [unit * shrink for unit in _unit_vector(errors, self.square)]
@@ -78,24 +89,25 @@ class Evaluator:
                 rows[i][k] += symbol * h[j]
         return rows
 
-    def _arm(self, sides: tuple[Side, ...]) -> tuple[Rows, Symbols]:
-        """M and the Christoffel symbols over a box of angles."""
-        known = self.arms.get(sides)
+    def _arm(self, sides: Box, uncertain: Box, filled: list[arb]) -> tuple[Rows, Symbols]:
+        """M and the Christoffel symbols over a box of angles and parameters."""
+        place = sides + uncertain
+        known = self.arms.get(place)
         if known is None:
-            if len(self.arms) > 1 << 14:
+            if len(self.arms) > _KEPT // 4:
                 self.arms.clear()
-            known = self.arms[sides] = self._new_arm(sides)
+            known = self.arms[place] = self._new_arm(sides, filled[: len(self.closure.parameters)])
         return known
 
-    def _new_arm(self, sides: tuple[Side, ...]) -> tuple[Rows, Symbols]:
+    def _new_arm(self, sides: Box, parameters: list[arb]) -> tuple[Rows, Symbols]:
         n = self.closure.n
         q, middle = [arb(0)] * n, [arb(0)] * n
         for joint, side in zip(self.closure.angles, sides, strict=True):
             q[joint], middle[joint] = ball(side), arb(0.5 * (side[0] + side[1]))
-        wide, centre = waves(self.used, q), waves(self.used, middle)
         offset = [a - b for a, b in zip(q, middle, strict=True)]
-        M = [[f.over(wide, centre, offset) for f in row] for row in self.mass]
-        return M, {place: f.over(wide, centre, offset) for place, f in self.symbols.items()}
+        over = waves(self.used, q), waves(self.used, middle), offset, parameters
+        M = [[f.over(*over) for f in row] for row in self.mass]
+        return M, {place: f.over(*over) for place, f in self.symbols.items()}
 
 
 def ball(side: Side) -> arb:

@@ -8,22 +8,43 @@ from collections.abc import Sequence
 from flint import arb
 
 from lyapcheck.check.balls import to_arb
-from lyapcheck.check.harmonics import Harmonics, derivative
+from lyapcheck.check.harmonics import Harmonics, Uncertain, derivative
 
 Waves = dict[tuple[int, ...], tuple[arb, arb]]
 
 
 class Polynomial:
-    """A trigonometric polynomial and its slopes, enclosed over boxes by two forms that both hold."""
+    """A trigonometric polynomial and its slopes, enclosed over boxes by two forms that both hold.
+
+    Its coefficients are polynomials in the parameters; each power of those is enclosed on its own.
+    """
+
+    def __init__(self, entry: Uncertain) -> None:
+        self.parts = [(powers, Part(terms)) for powers, terms in entry.items()]
+        self.used = [k for terms in entry.values() for k in terms if any(k)]
+
+    def over(self, wide: Waves, centre: Waves, offset: list[arb], parameters: Sequence[arb]) -> arb:
+        """The values over a box of angles and parameters."""
+        total = arb(0)
+        for powers, part in self.parts:
+            value = part.over(wide, centre, offset)
+            for parameter, power in zip(parameters, powers, strict=True):
+                for _ in range(power):
+                    value *= parameter
+            total += value
+        return total
+
+
+class Part:
+    """One power of the parameters: the ranges of its harmonics, cut with the mean value form."""
 
     def __init__(self, terms: Harmonics) -> None:
         self.terms = _lifted(terms)
-        self.used = [k for k in terms if any(k)]
         joints = {i for k in terms for i, factor in enumerate(k) if factor}
         self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
 
     def over(self, wide: Waves, centre: Waves, offset: list[arb]) -> arb:
-        """The sum of the ranges of its harmonics, cut with the mean value form."""
+        """The values over a box of angles."""
         natural = _combined(self.terms, wide)
         if not self.slopes:
             return natural
