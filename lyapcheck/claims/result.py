@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from lyapcheck.check.certificates.statements import Statement
 from lyapcheck.claims.decision import Decision
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
@@ -13,7 +14,11 @@ SCHEMA = "lyapcheck/check/1"
 
 @dataclass(frozen=True)
 class ClaimResult:
-    """What was found out about one claim for one m (``None``: the claim does not depend on m)."""
+    """What was found out about one claim for one m (``None``: the claim does not depend on m).
+
+    ``statement`` is the claim in words, ``stated`` the same as data; ``step`` is the decision on that alone,
+    ``decision`` takes into account what the claim uses.
+    """
 
     id: str
     m: int | None
@@ -25,6 +30,8 @@ class ClaimResult:
     uses: tuple[str, ...]
     broken: tuple[str, ...]
     decision: Decision
+    step: Decision
+    stated: Statement
     seconds: float
 
     @property
@@ -56,7 +63,10 @@ class ClaimResult:
 
 @dataclass(frozen=True)
 class ProofResult:
-    """All rows of a proof, in the order of the text."""
+    """All rows of a proof, in the order of the text.
+
+    ``claims`` are the rows that were asked for, ``settled`` also those that they use.
+    """
 
     name: str
     title: str
@@ -65,6 +75,7 @@ class ProofResult:
     robot: str | None
     claims: tuple[ClaimResult, ...]
     assumptions: tuple[str, ...] = ()
+    settled: tuple[ClaimResult, ...] = ()
 
     @property
     def exit_code(self) -> Exit:

@@ -73,16 +73,16 @@ def run_proof(
                 settled[claim.id, result.m] = result
     places = {name: k for k, name in enumerate(proof.claims)}
     keep = set(only) or set(proof.claims)
-    rows = [r for r in settled.values() if r.id in keep]
-    rows.sort(key=lambda r: (places[r.id], r.m or 0))
+    every = sorted(settled.values(), key=lambda r: (places[r.id], r.m or 0))
     return ProofResult(
         proof.name,
         proof.title,
         tuple(ms),
         joints,
         model.name if model else None,
-        tuple(rows),
+        tuple(row for row in every if row.id in keep),
         model.assumptions if model else (),
+        tuple(every),
     )
 
 
@@ -97,14 +97,12 @@ def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResul
     begin = time.perf_counter()
     statement = _statement(claim, case, file)
     used = [settled.get((name, case.the_m)) or settled[name, None] for name in claim.uses]
-    if any(result.m is not None for result in used):
-        case.read.add("m")
+    case.read.update(name for name in "mn" if any(getattr(result, name) is not None for result in used))
     try:
         decision = decide(statement)
     except Exception as error:
         decision = Decision(Verdict.ERROR, Grade.NUMERIC, "", f"{type(error).__name__}: {error}")
     open_uses = tuple(result.id for result in used if result.verdict is not Verdict.PROVED)
-    decision = _chained(decision, used, open_uses)
     return ClaimResult(
         id=claim.id,
         m=case.the_m if "m" in case.read else None,
@@ -115,7 +113,9 @@ def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResul
         kind=type(statement).__name__,
         uses=claim.uses,
         broken=open_uses,
-        decision=decision,
+        decision=_chained(decision, used, open_uses),
+        step=decision,
+        stated=statement,
         seconds=time.perf_counter() - begin,
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -27,6 +28,9 @@ def command(
     gains: Annotated[str | None, typer.Option(help="A gain file. Default: the paper's Table 2.")] = None,
     only: Annotated[list[str] | None, typer.Option(help="Report this claim only; may be repeated.")] = None,
     format: Annotated[CheckFormat, typer.Option(help="How to write it.")] = CheckFormat.TEXT,  # noqa: A002
+    certificates: Annotated[
+        str | None, typer.Option(help="Write a certificate per decided claim there; see recheck.")
+    ] = None,
     timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each claim took.")] = False,
 ) -> None:
     """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
@@ -35,8 +39,10 @@ def command(
     undecided and nothing refuted.
     """
     from lyapcheck.claims import run_proof
+    from lyapcheck.claims.certificates import certificates as certificates_of
     from lyapcheck.claims.render import renderer
     from lyapcheck.cli.m_range import parse_m
+    from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.cli.progress import progress
     from lyapcheck.errors import argument_error
 
@@ -46,7 +52,11 @@ def command(
         )
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
+    folder = None if certificates is None else open_folder("--certificates", Path(certificates))
     with progress("check") as advance:
         result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
+    if folder is not None:
+        for name, certificate in certificates_of(result).items():
+            write_whole(folder / name, certificate.text())
     sys.stdout.write(renderer(format.value)(result, timings))
     raise typer.Exit(int(result.exit_code))

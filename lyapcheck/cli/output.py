@@ -26,6 +26,23 @@ def require_writable(option: str, path: Path) -> None:
         raise argument_error(option, path, f"{parent} cannot be written to", "name a file elsewhere")
 
 
+def open_folder(option: str, path: Path) -> Path:
+    """A directory that can be written, made if need be.
+
+    Raises:
+        InputError: there is a file of that name, or the file system refuses.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise argument_error(
+            option, path, f"cannot be made ({error.strerror})", "name another directory"
+        ) from error
+    if not os.access(path, os.W_OK):
+        raise argument_error(option, path, "cannot be written to", "name another directory")
+    return path
+
+
 def write_whole(path: Path, text: str) -> None:
     """Write a text file in one move: readers see the old file or the new one, never half of it.
 
