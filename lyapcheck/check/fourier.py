@@ -57,6 +57,13 @@ class Fourier:
         return sum((_modulus(re, im) for k, (re, im) in self.terms.items() if k), Fraction(0))
 
 
+@dataclass(frozen=True)
+class _Angle:
+    """An angle by its name; it has no arithmetic, so that sums of angles are refused."""
+
+    name: str
+
+
 class _FourierAlgebra(Algebra):
     """Angles are names; only sin and cos of an angle are functions."""
 
@@ -70,10 +77,10 @@ class _FourierAlgebra(Algebra):
         raise Unsupported("pi is not rational")
 
     def function(self, name: str, value: Any) -> Fourier:
-        if name not in ("sin", "cos") or not isinstance(value, str):
+        if name not in ("sin", "cos") or not isinstance(value, _Angle):
             raise Unsupported("not a polynomial in sines and cosines of single angles")
         half, zero = Fraction(1, 2), Fraction(0)
-        up, down = ((value, 1),), ((value, -1),)
+        up, down = ((value.name, 1),), ((value.name, -1),)
         if name == "cos":
             return Fourier({up: (half, zero), down: (half, zero)})
         return Fourier({up: (zero, -half), down: (zero, half)})
@@ -86,7 +93,7 @@ def fourier_sum(tree: Tree) -> Fourier:
         Unsupported: the expression is anything else.
     """
     try:
-        result = evaluate(tree, {name: name for name in variables(tree)}, _FourierAlgebra())
+        result = evaluate(tree, {name: _Angle(name) for name in variables(tree)}, _FourierAlgebra())
     except TypeError as error:
         raise Unsupported("a variable outside sin and cos has no bound") from error
     if not isinstance(result, Fourier):

@@ -62,7 +62,20 @@ def _read(hint: Any, data: Any, where: str) -> Any:
     if is_dataclass(hint):
         return _one_class(hint, data, where)
     require(type(data) is hint, where, data, f"must be of type {hint.__name__}")
+    if hint is str:
+        require(is_text(data), where, data, "is not Unicode text")
     return data
+
+
+def is_text(value: Any) -> bool:
+    """Whether a value is text that can be written in UTF-8."""
+    if not isinstance(value, str):
+        return False
+    try:
+        value.encode("utf-8")
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _optional(hint: Any, data: Any, where: str) -> Any:
@@ -92,7 +105,7 @@ def _tree(data: Any, where: str, depth: int) -> Any:
     require(depth > 0, where, "", f"is nested deeper than {MAX_DEPTH} levels")
     if isinstance(data, list):
         return tuple(_tree(part, where, depth - 1) for part in data)
-    require(type(data) in (str, int), where, data, "is not part of an expression")
+    require(type(data) is int or is_text(data), where, data, "is not part of an expression")
     return data
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NoReturn
 
-from lyapcheck.check.certificates.codec import from_json, require_keys, to_json
+from lyapcheck.check.certificates.codec import from_json, is_text, require_keys, to_json
 from lyapcheck.check.certificates.proofs import Proof
 from lyapcheck.check.certificates.refusal import Refused, require
 from lyapcheck.check.certificates.statements import AllOf, Statement, Theorem
@@ -169,6 +169,8 @@ def theorems_of(statement: Statement) -> list[Theorem]:
 
 def _texts(data: Any, where: str) -> dict[str, str]:
     require(isinstance(data, dict), where, data, "must be an object")
+    for key in data:
+        require(is_text(key), where, key, "is not Unicode text")
     return {key: from_json(str, value, f"{where}.{key}") for key, value in data.items()}
 
 

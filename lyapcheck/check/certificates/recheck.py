@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from lyapcheck.check.certificates.document import Certificate, judge, read, theorems_of
-from lyapcheck.check.certificates.refusal import Refused
+from lyapcheck.check.certificates.refusal import Refused, plain
 from lyapcheck.check.certificates.verify import weakest
 
 
@@ -108,10 +108,10 @@ def _with_uses(one: Checked, settled: dict[str, Checked]) -> Checked:
             given.append(claim)
             if one.complete:
                 return replace(
-                    one, reason=f"rests on {claim}, whose certificate ({digest[:12]}…) is not here"
+                    one, reason=f"rests on {plain(claim)}, whose certificate ({digest[:12]}…) is not here"
                 )
         elif (fault := _fault(one, used, claim)) is not None:
-            return replace(one, reason=f"rests on {claim}, {fault}")
+            return replace(one, reason=f"rests on {plain(claim)}, {fault}")
         else:
             grades.append(used.grade)
             given.extend(used.given)
@@ -128,7 +128,7 @@ def _fault(one: Checked, used: Checked, claim: str) -> str | None:
     assert used.certificate is not None
     mine, its = one.certificate.claim, used.certificate.claim
     if its.id != claim:
-        return f"but the certificate is about {its.id}"
+        return f"but the certificate is about {plain(its.id)}"
     for name in ("m", "n"):
         wanted, found = getattr(mine, name), getattr(its, name)
         if found is not None and found != wanted:

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from lyapcheck.check.certificates.recheck import Checked, Outcome
+from lyapcheck.check.certificates.refusal import plain
 
 SCHEMA = "lyapcheck/recheck/1"
 
@@ -38,9 +39,10 @@ def _line(one: Checked) -> str:
     if one.certificate is None or not one.accepted:
         return f"refused   {one.file}: {one.reason}"
     claim = one.certificate.claim
+    name = plain(claim.id)
     member = f" (m = {claim.m})" if claim.m is not None else ""
-    given = f", given {', '.join(one.given)}" if one.given else ""
-    return f"accepted  {one.file}: {claim.id}{member} is {one.certificate.verdict} [{one.grade}]{given}"
+    given = f", given {plain(', '.join(one.given))}" if one.given else ""
+    return f"accepted  {one.file}: {name}{member} is {one.certificate.verdict} [{one.grade}]{given}"
 
 
 def _theorem(name: str, files: tuple[str, ...]) -> str:
