@@ -11,18 +11,24 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from lyapcheck.intervals.interval import Array, Interval
+from lyapcheck.intervals.interval import Array, Interval, down, up
 
 LIBRARY_SLACK = 2.0**-49
 _TINY = 1e-300
 _ROUNDING = 1e-15
+_SQUARABLE = 1e-140
 
 
 def widened(low: Array, high: Array) -> Interval:
-    """The interval between two values of a library function, widened by what the library may be wrong."""
-    return Interval(
-        low - (np.abs(low) * LIBRARY_SLACK + _TINY), high + (np.abs(high) * LIBRARY_SLACK + _TINY)
-    )
+    """The interval between two values of a library function, widened by what the library may be wrong.
+
+    An undefined value becomes an infinite end.
+    """
+    with np.errstate(invalid="ignore"):
+        return Interval(
+            down(low - (np.abs(low) * LIBRARY_SLACK + _TINY)),
+            up(high + (np.abs(high) * LIBRARY_SLACK + _TINY)),
+        )
 
 
 def sine(x: Interval) -> Interval:
@@ -37,10 +43,11 @@ def cosine(x: Interval) -> Interval:
 
 def _periodic(function: Callable[[Array], Array], x: Interval, peak: float) -> Interval:
     """The range of a sine-like function whose maximum is at ``peak`` and whose period is 2π."""
-    a, b = function(x.lo), function(x.hi)
-    low, high = np.minimum(a, b), np.maximum(a, b)
-    high = np.where(_holds(x, peak), 1.0, high)
-    low = np.where(_holds(x, peak + math.pi), -1.0, low)
+    with np.errstate(invalid="ignore"):
+        a, b = function(x.lo), function(x.hi)
+        low, high = np.minimum(a, b), np.maximum(a, b)
+        high = np.where(_holds(x, peak), 1.0, high)
+        low = np.where(_holds(x, peak + math.pi), -1.0, low)
     wide = widened(low, high)
     return Interval(np.maximum(wide.lo, -1.0), np.minimum(wide.hi, 1.0))
 
@@ -85,9 +92,16 @@ def _component(e: Sequence[Interval], i: int) -> Interval:
 
 
 def _largest_share(x: Array, rest: Interval) -> Array:
-    """An upper bound of x/√(x² + rest)."""
-    side = np.where(x >= 0, rest.lo, rest.hi)
+    """An upper bound of x/√(x² + rest), which grows with x.
+
+    Squares of tiny x lose their digits: a tiny x is moved up, to 10⁻¹⁴⁰ or to 0. Where a sum of squares
+    overflows, the bound is that of the sign.
+    """
+    tiny = np.abs(x) < _SQUARABLE
+    x = np.where(tiny, np.where(x > 0, _SQUARABLE, 0.0), x)
     with np.errstate(all="ignore"):
-        share = x / np.sqrt(x * x + side)
+        square = x * x + np.where(x >= 0, rest.lo, rest.hi)
+        share = x / np.sqrt(square)
         bound = share + (np.abs(share) * LIBRARY_SLACK + _TINY)
+    bound = np.where(np.isfinite(square), bound, np.where(x < 0, 0.0, 1.0))
     return np.where(np.isnan(bound), 1.0, np.minimum(bound, 1.0))

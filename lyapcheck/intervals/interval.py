@@ -8,6 +8,8 @@ undefined end becomes an infinite one: such an interval contains everything and 
 
 from __future__ import annotations
 
+import math
+import sys
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NoReturn
@@ -16,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Number = float | int | Fraction
 
 _SLACK = 2.0**-51
 _TINY = 1e-300
@@ -37,6 +40,8 @@ def up(x: Array) -> Array:
 class Interval:
     """All reals between ``lo`` and ``hi``, elementwise; plain numbers in an operation are exact.
 
+    A plain ``int`` or ``Fraction`` that is no double stands for the narrowest interval of doubles around it.
+
     Soundness: for x in the first and y in the second interval, x ∘ y lies in the result, for every ∘ here.
     """
 
@@ -55,32 +60,33 @@ class Interval:
     @classmethod
     def of(cls, value: Fraction | int) -> Interval:
         """The narrowest interval of doubles around a rational."""
-        near = float(value)
-        below = near if Fraction(near) <= value else np.nextafter(near, -np.inf)
-        above = near if Fraction(near) >= value else np.nextafter(near, np.inf)
+        near = _nearest(value)
+        below = near if Fraction(near) <= value else math.nextafter(near, -math.inf)
+        above = near if Fraction(near) >= value else math.nextafter(near, math.inf)
         return cls(np.asarray(below), np.asarray(above))
 
-    def __add__(self, other: Interval | float) -> Interval:
+    def __add__(self, other: Interval | Number) -> Interval:
         o = _interval(other)
         with np.errstate(all="ignore"):
             return Interval(down(self.lo + o.lo), up(self.hi + o.hi))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Interval | float) -> Interval:
+    def __sub__(self, other: Interval | Number) -> Interval:
         o = _interval(other)
         with np.errstate(all="ignore"):
             return Interval(down(self.lo - o.hi), up(self.hi - o.lo))
 
-    def __rsub__(self, other: Interval | float) -> Interval:
+    def __rsub__(self, other: Interval | Number) -> Interval:
         return -self + other
 
     def __neg__(self) -> Interval:
         return Interval(-self.hi, -self.lo)
 
-    def __mul__(self, other: Interval | float) -> Interval:
-        if not isinstance(other, Interval):
-            return self._scaled(float(other))
+    def __mul__(self, other: Interval | Number) -> Interval:
+        if isinstance(other, float):
+            return self._scaled(other)
+        other = _interval(other)
         with np.errstate(all="ignore"):
             a, b = self.lo * other.lo, self.lo * other.hi
             c, d = self.hi * other.lo, self.hi * other.hi
@@ -127,8 +133,9 @@ class Interval:
 
     @property
     def mid(self) -> Array:
-        """The middle, rounded."""
-        return np.asarray(0.5 * self.lo + 0.5 * self.hi)
+        """The middle, rounded, but never outside; NaN where an end is undefined or both are infinite."""
+        with np.errstate(all="ignore"):
+            return np.clip(0.5 * self.lo + 0.5 * self.hi, self.lo, self.hi)
 
     @property
     def radius(self) -> Array:
@@ -140,5 +147,15 @@ class Interval:
         raise TypeError("an interval has no truth value; compare its ends")
 
 
-def _interval(value: Interval | float) -> Interval:
-    return value if isinstance(value, Interval) else Interval.exact(value)
+def _interval(value: Interval | Number) -> Interval:
+    if isinstance(value, Interval):
+        return value
+    return Interval.exact(value) if isinstance(value, float) else Interval.of(value)
+
+
+def _nearest(value: Fraction | int) -> float:
+    """A double next to a rational, and the largest of its sign where it is beyond all of them."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.copysign(sys.float_info.max, value)

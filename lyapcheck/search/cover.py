@@ -76,7 +76,7 @@ def cover(
         proved = prove(boxes)
         done += float(np.sum(_volumes(boxes[proved])))
         if on_progress is not None:
-            on_progress(min(done / volume, 1.0), f"{seen} boxes")
+            on_progress(min(done / volume, 1.0) if volume else 0.0, f"{seen} boxes")
         rest = boxes[~proved]
         if len(rest):
             point = _resisting(rest, prove)

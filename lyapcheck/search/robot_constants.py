@@ -1,11 +1,13 @@
 """Certified constants of an arm: λmin(M), λmax(M) = β_M and k_c, each from both sides.
 
-The inside bound is the value at a state found by sampling; the outside bound is proved by covering all angles
-(and, for k_c, all directions) with boxes on which an interval matrix is positive definite:
+The inside bound belongs to one state, evaluated in intervals (``lyapcheck.search.extreme_states``); the
+outside bound is proved by covering all angles (and, for k_c, all directions) with boxes on which an interval
+matrix is positive definite:
 
     β I − M(q) ≻ 0,      M(q) − λ I ≻ 0,      κ² ‖x‖² I − C(q,x)ᵀ C(q,x) ≻ 0.
 
-C(q,x) is linear in x, so that x need only run over the faces x_k = 1 of the cube, k = 1 … n.
+C(q,x) is linear in x, so that x need only run over the faces x_k = 1 of the cube, k = 1 … n. Where
+the budget of boxes does not reach, the outside bound is the coarse one of the whole torus as a single box.
 
 References: properties 2.1, 2.2 and 2.6 of reyes2019family.
 """
@@ -21,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.intervals import Interval
-from lyapcheck.intervals.arm import ArmIntervals, coriolis
+from lyapcheck.intervals import Interval, norm
+from lyapcheck.intervals.arm import ArmBox, ArmIntervals, coriolis
 from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.lyapunov.scalar import RobotBounds
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.cover import Boxes, cover
+from lyapcheck.search.extreme_states import ExtremeStates
 
 Entries = list[list[Interval | float]]
 
@@ -37,8 +39,6 @@ PI_ABOVE = 3.1415926535897936
 GAPS = tuple(Fraction(n, 1000) for n in (1, 10, 30, 100, 1000))
 """Relative gaps between the found and the proved bound that are tried, best first."""
 MAX_BOXES = 150_000
-SAMPLES = 4096
-SEED = 20190301
 
 
 @dataclass(frozen=True)
@@ -66,46 +66,36 @@ def robot_bounds(model: RobotModel) -> RobotBounds:
 def robot_constants(model: RobotModel) -> RobotConstants:
     """Certified constants of an arm whose uncertain parameters stand at their nominal values.
 
-    Raises:
-        ArithmeticError: not even a gap of 100 % could be proved (the arm is far beyond n = 3).
-
     Soundness: outward-rounded intervals and ``lyapcheck.search.cover``; the inside bounds are evaluated in
         the same intervals, at one point.
     """
     arm = ArmIntervals(model.fixed())
-    numeric = NumericModel(model)
-    largest = _climb(model.n, len(arm.angles), lambda x: _top(numeric.mass(_angles(arm, x))))
-    smallest = _climb(model.n, len(arm.angles), lambda x: -_bottom(numeric.mass(_angles(arm, x))))
-    whirl = _climb(model.n, len(arm.angles) + model.n, lambda x: _whirl(numeric, arm, x))
+    states = ExtremeStates(arm)
+    lambda_min_at, least = states.eigenvalue(0)
+    lambda_max_at, largest = states.eigenvalue(-1)
+    k_c_at, whirl = states.whirl()
     return RobotConstants(
-        lambda_min=_lambda_min(arm, smallest),
-        lambda_max=_lambda_max(arm, largest),
-        k_c=_k_c(arm, numeric, whirl),
-        lambda_min_at=tuple(float(x) for x in _angles(arm, smallest[None])[0]),
-        lambda_max_at=tuple(float(x) for x in _angles(arm, largest[None])[0]),
-        k_c_at=tuple(float(x) for x in _angles(arm, whirl[None])[0]),
+        lambda_min=_lambda_min(arm, Fraction(float(least.hi))),
+        lambda_max=_lambda_max(arm, Fraction(float(largest.lo))),
+        k_c=_k_c(arm, Fraction(float(whirl.lo))),
+        lambda_min_at=tuple(lambda_min_at.tolist()),
+        lambda_max_at=tuple(lambda_max_at.tolist()),
+        k_c_at=tuple(k_c_at.tolist()),
     )
 
 
-def _lambda_max(arm: ArmIntervals, at: Array) -> Enclosure:
-    inside = _rational(_top(NumericModel(arm.model).mass(_angles(arm, at[None])))[0], Fraction(-1, 10**9))
-    for gap in GAPS:
-        bound = inside * (1 + gap)
-        if _proved(arm, _shifted(bound, -1)):
-            return Enclosure(inside, bound)
-    raise ArithmeticError(_HOPELESS)
+def _lambda_max(arm: ArmIntervals, inside: Fraction) -> Enclosure:
+    bounds = (inside * (1 + gap) for gap in GAPS)
+    proved = next((bound for bound in bounds if _proved(arm, _shifted(bound, -1))), None)
+    coarse = coarse_eigenvalues(arm).upper
+    return Enclosure(inside, coarse if proved is None else min(proved, coarse))
 
 
-def _lambda_min(arm: ArmIntervals, at: Array) -> Enclosure:
-    inside = _rational(_bottom(NumericModel(arm.model).mass(_angles(arm, at[None])))[0], Fraction(1, 10**9))
-    for gap in GAPS[:-1]:
-        bound = inside * (1 - gap)
-        if _proved(arm, _shifted(bound, 1)):
-            return Enclosure(bound, inside)
-    return Enclosure(Fraction(0), inside)
-
-
-_HOPELESS = "no bound of the arm's constants was proved within the budget of boxes"
+def _lambda_min(arm: ArmIntervals, inside: Fraction) -> Enclosure:
+    bounds = (inside * (1 - gap) for gap in GAPS)
+    proved = next((bound for bound in bounds if _proved(arm, _shifted(bound, 1))), None)
+    coarse = coarse_eigenvalues(arm).lower
+    return Enclosure(coarse if proved is None else max(proved, coarse), inside)
 
 
 def _shifted(s: Fraction, sign: int) -> Callable[[Entries], list[list[Interval]]]:
@@ -137,14 +127,13 @@ def _proved(arm: ArmIntervals, matrix: Callable[[Entries], list[list[Interval]]]
     return cover(start, prove, _longest, MAX_BOXES).proved
 
 
-def _k_c(arm: ArmIntervals, numeric: NumericModel, at: Array) -> Enclosure:
+def _k_c(arm: ArmIntervals, inside: Fraction) -> Enclosure:
     if not arm.christoffel:
         return Enclosure.exact(0)
-    inside = _rational(_whirl(numeric, arm, at[None])[0], Fraction(-1, 10**9))
-    for gap in GAPS:
-        if all(_face_proved(arm, k, inside * (1 + gap)) for k in range(arm.n)):
-            return Enclosure(inside, inside * (1 + gap))
-    raise ArithmeticError(_HOPELESS)
+    bounds = (inside * (1 + gap) for gap in GAPS)
+    proved = next((b for b in bounds if all(_face_proved(arm, k, b) for k in range(arm.n))), None)
+    coarse = coarse_k_c(arm)
+    return Enclosure(inside, coarse if proved is None else min(proved, coarse))
 
 
 def _face_proved(arm: ArmIntervals, face: int, bound: Fraction) -> bool:
@@ -192,45 +181,29 @@ def _longest(boxes: Boxes) -> NDArray[np.intp]:
     return np.asarray(np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
 
 
-def _angles(arm: ArmIntervals, x: Array) -> Array:
-    """All joint angles from the columns that matter."""
-    q = np.zeros((len(x), arm.n))
-    for column, joint in enumerate(arm.angles):
-        q[:, joint] = x[:, column]
-    return q
+def coarse_eigenvalues(arm: ArmIntervals) -> Enclosure:
+    """All eigenvalues of all M(q), by Gershgorin's discs over the whole torus."""
+    discs = []
+    for i, row in enumerate(_torus(arm).mass()):
+        reach = sum((_size(x) for j, x in enumerate(row) if j != i), Interval.exact(0.0)).hi
+        discs.append(row[i] + Interval(-reach, reach))
+    return Enclosure(
+        min(Fraction(float(disc.lo)) for disc in discs), max(Fraction(float(disc.hi)) for disc in discs)
+    )
 
 
-def _top(M: Array) -> Array:
-    return np.asarray(np.linalg.eigvalsh(M)[:, -1])
+def coarse_k_c(arm: ArmIntervals) -> Fraction:
+    """(Σ c_ijk²)^½, which ‖C(q,x)y‖/(‖x‖‖y‖) never exceeds, over the whole torus."""
+    symbols = _torus(arm).symbols().items()
+    doubled = [symbol for (_, j, k), symbol in symbols for _ in range(1 if j == k else 2)]
+    return Fraction(float(norm(doubled).hi))
 
 
-def _bottom(M: Array) -> Array:
-    return np.asarray(np.linalg.eigvalsh(M)[:, 0])
+def _torus(arm: ArmIntervals) -> ArmBox:
+    return arm.at([Interval(np.asarray(-PI_ABOVE), np.asarray(PI_ABOVE))] * arm.n)
 
 
-def _whirl(numeric: NumericModel, arm: ArmIntervals, x: Array) -> Array:
-    """‖C(q, x)‖ for the unit vector along the last n columns."""
-    first = len(arm.angles)
-    direction = x[:, first:] / np.maximum(np.linalg.norm(x[:, first:], axis=1), 1e-9)[:, None]
-    C = numeric.coriolis(_angles(arm, x), direction)
-    return np.asarray(np.linalg.norm(C, ord=2, axis=(1, 2)))
-
-
-def _climb(n: int, columns: int, merit: Callable[[Array], Array]) -> Array:
-    """A point of large merit: the best of a sample, improved by random steps that shrink."""
-    rng = np.random.default_rng(SEED)
-    points = rng.uniform(-np.pi, np.pi, (SAMPLES, columns))
-    points[: 2 ** min(columns, 8)] = 0.0
-    best = points[np.argmax(merit(points))]
-    step = 0.5
-    for _ in range(60):
-        around = best + step * rng.standard_normal((64, columns))
-        around[0] = best
-        best = around[np.argmax(merit(around))]
-        step *= 0.75
-    return np.asarray(best)
-
-
-def _rational(value: float, shift: Fraction) -> Fraction:
-    """A rational a little inside of a computed extreme, by far more than that is wrong."""
-    return Fraction(value) * (1 + shift)
+def _size(entry: Interval | float) -> Interval:
+    """[0, max |x|]."""
+    zero = np.asarray(0.0)
+    return Interval(zero, np.maximum(-entry.lo, entry.hi) if isinstance(entry, Interval) else zero)
