@@ -140,7 +140,13 @@ def test_interval_of_a_rational(value: Fraction | int) -> None:
     assert math.nextafter(float(found.lo), math.inf) >= found.hi
 
 
-@given(x=boxes, y=boxes, inner=st.tuples(fractions, fractions), name=st.sampled_from(sorted(OPERATIONS)))
+moderate = st.tuples(st.floats(-1e150, 1e150), st.floats(-1e150, 1e150)).map(box_of)
+"""Boxes whose products do not overflow: a lower end that does is given up, and with it monotony."""
+
+
+@given(
+    x=moderate, y=moderate, inner=st.tuples(fractions, fractions), name=st.sampled_from(sorted(OPERATIONS))
+)
 def test_operations_are_monotone_in_their_boxes(
     x: Box, y: Box, inner: tuple[float, float], name: str
 ) -> None:
