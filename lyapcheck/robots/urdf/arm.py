@@ -16,7 +16,7 @@ from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.physics import impossible_state
 from lyapcheck.robots.urdf.assemble import Segment, segments
-from lyapcheck.robots.urdf.bodies import check_bodies, impossible
+from lyapcheck.robots.urdf.bodies import check_bodies, impossible, moved_links
 from lyapcheck.robots.urdf.fields import Triple, UrdfNotes
 from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
 from lyapcheck.robots.urdf.parts import UrdfJoint, read_parts
@@ -49,7 +49,7 @@ def read_urdf(
     notes = UrdfNotes(name)
     root = read_xml(path, name)
     tree, chain = _chain(root, tip, notes)
-    check_bodies(tree, notes)
+    check_bodies(moved_links(tree, chain), notes)
     if notes.problems:
         raise InputError(notes.problems)
     roundings = Roundings()
@@ -134,7 +134,7 @@ def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...]) -> tuple[str, ...]:
     unlimited = [joint.name for joint in chain if joint.effort is None]
     if unlimited:
         found.append(f"No torque limit is known where the file has none or 0: {', '.join(unlimited)}.")
-    strange = impossible(tree)
+    strange = impossible(moved_links(tree, chain))
     if strange:
         found.append(
             "No body has the inertia that the file gives, a principal moment above the sum of the others: "

@@ -6,13 +6,18 @@ from fractions import Fraction
 
 from lyapcheck.robots.bodies import positive_semidefinite
 from lyapcheck.robots.urdf.fields import UrdfNotes
-from lyapcheck.robots.urdf.parts import UrdfLink
-from lyapcheck.robots.urdf.tree import Tree
+from lyapcheck.robots.urdf.parts import UrdfJoint, UrdfLink
+from lyapcheck.robots.urdf.tree import Tree, carrier
 
 
-def check_bodies(tree: Tree, notes: UrdfNotes) -> None:
+def moved_links(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[UrdfLink]:
+    """The links that the chain moves; those of the base do not matter."""
+    return [tree.links[name] for name, joint in carrier(tree, chain).items() if joint is not None]
+
+
+def check_bodies(links: list[UrdfLink], notes: UrdfNotes) -> None:
     """Note every link whose inertia is not positive semidefinite: M would not be positive definite."""
-    for link in tree.links.values():
+    for link in links:
         if not positive_semidefinite(tensor(link)):
             repair = "check the signs and the point about which it is given (the centre of mass)"
             notes.fail(
@@ -20,9 +25,9 @@ def check_bodies(tree: Tree, notes: UrdfNotes) -> None:
             )
 
 
-def impossible(tree: Tree) -> list[str]:
+def impossible(links: list[UrdfLink]) -> list[str]:
     """The links with a principal moment above the sum of the others: no body has that, but many files do."""
-    return [link.name for link in tree.links.values() if not _triangle(tensor(link))]
+    return [link.name for link in links if not _triangle(tensor(link))]
 
 
 def tensor(link: UrdfLink) -> list[list[Fraction]]:
