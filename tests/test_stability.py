@@ -15,15 +15,20 @@ from numpy.typing import NDArray
 
 from lyapcheck.check import stability
 from lyapcheck.check.balls import precision
+from lyapcheck.check.enclosure import dyadic
 from lyapcheck.check.harmonics import christoffel, derivative, harmonics, mirrored
 from lyapcheck.check.stability import BrokenTree, Closure, leaves, proves, proves_part
+from lyapcheck.check.stability.arithmetic import BALLS, SPANS, Arithmetic
 from lyapcheck.check.stability.boxes import halves
 from lyapcheck.check.stability.schur import Evaluator
+from lyapcheck.check.stability.span import Span
 from lyapcheck.check.states import State, rate
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
-from lyapcheck.robots import load
+from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
 F = Fraction
@@ -43,9 +48,13 @@ def closure(robot: str, index: int, eps0: Fraction = TENTH) -> Closure:
 
 
 def exact_schur(robot: str, index: int, eps0: float, q: Array, e: Array) -> Array:
+    """P at one state of a built-in arm."""
+    return schur_of(load(robot), GAINS[robot][index], eps0, q, e)
+
+
+def schur_of(arm: RobotModel, gains: GainSet, eps0: float, q: Array, e: Array) -> Array:
     """P at one state, by NumPy from the definition and the numeric model."""
-    gains, model = GAINS[robot][index], NumericModel(load(robot))
-    family = named(gains.family, gains.m)
+    model, family = NumericModel(arm), named(gains.family, gains.m)
     h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
     M, B = model.mass(q), np.diag(model.viscous)
     unit = e / r if r else np.zeros_like(e)
@@ -62,14 +71,14 @@ def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> No
     generator = np.random.default_rng(index)
     joints, angles = range(case.n), case.angles
     with precision(64):
-        evaluator = Evaluator(case)
+        evaluator = Evaluator(case, BALLS)
         for _ in range(25):
             width = 10.0 ** generator.uniform(-3, 0.3)
             middle = generator.uniform(-2, 2, len(angles) + case.n)
             box = tuple((float(x - width), float(x + width)) for x in middle)
             sides, errors = box[: len(angles)], box[len(angles) :]
             r_squared = sum((evaluator.square(side) for side in errors), arb(0))
-            P = evaluator.schur(sides, errors, r_squared)
+            P = evaluator.schur(sides, errors, (), r_squared)
             for _ in range(8):
                 point = np.array([generator.uniform(*side) for side in box])
                 q = generator.uniform(-3, 3, case.n)
@@ -103,7 +112,7 @@ def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index
 def grown(case: Closure, deepest: int) -> str:
     """A tree by plain halving, side after side, as far as the checker's own evaluator needs."""
     with precision(64):
-        evaluator = Evaluator(case)
+        evaluator = Evaluator(case, BALLS)
 
         def grow(box: stability.Box, depth: int) -> str:
             if depth == deepest or evaluator.proves(box):
@@ -220,3 +229,76 @@ def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow() -> None:
     terms = {(1, -2): (F(1), F(2)), (0, 1): (F(0), F(3))}
     assert mirrored(mirrored(terms, (-1, 1)), (-1, 1)) == terms
     assert derivative(terms, 1) == {(1, -2): (F(-4), F(2)), (0, 1): (F(3), F(0))}
+
+
+@pytest.mark.parametrize("arithmetic", [BALLS, SPANS], ids=["balls", "spans"])
+def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic: Arithmetic) -> None:
+    model, gains = load("buap3"), GAINS["buap3"][1]
+    case = Setting(gains, model, ranges=True).closure(TENTH)
+    generator = np.random.default_rng(5)
+    first, last = len(case.angles), len(case.angles) + case.n
+    with precision(64):
+        evaluator = Evaluator(case, arithmetic)
+        for _ in range(20):
+            width = 10.0 ** generator.uniform(-2, 0)
+            middle = generator.uniform(-2, 2, last)
+            box = (*((float(x - width), float(x + width)) for x in middle), *case.start[last:])
+            r_squared = sum((evaluator.square(side) for side in box[first:last]), arb(0))
+            P = evaluator.schur(box[:first], box[first:last], box[last:], r_squared)
+            for _ in range(5):
+                point = [generator.uniform(*side) for side in box]
+                arm = at_random(model, point[last:])
+                q = np.array([0.7, *point[:first]])
+                exact = schur_of(arm, gains, 0.1, q, np.array(point[first:last]))
+                for i in range(3):
+                    for j in range(i + 1):
+                        entry = Span.of(P[i][j]) if isinstance(P[i][j], arb) else P[i][j]
+                        assert float(entry.low) - 1e-12 <= exact[i, j] <= float(entry.high) + 1e-12
+
+
+def at_random(model: RobotModel, values: list[float]) -> RobotModel:
+    """The arm with its uncertain numbers, parameters first and then friction, at given values."""
+    exact = iter(F(value) for value in values)
+    parameters = {name: replace(x, value=next(exact)) for name, x in model.parameters.items()}
+    viscous = tuple(replace(x, value=next(exact)) if x.ranged else x for x in model.viscous)
+    return replace(model, parameters=parameters, viscous=viscous)
+
+
+def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
+    gains, model = GAINS["buap3"][1], load("buap3")
+    case = Setting(gains, model, ranges=True).closure(F("0.055"))
+    outcome = certify(Problem(case, model), 20_000)
+    assert outcome.proved
+    assert proves(case, outcome.tree)
+    assert not proves(replace(case, viscous=((F(1, 100), F(3)),) * 3), outcome.tree)
+    assert not proves(replace(case, parameters=((F(1), F(90)), *case.parameters[1:])), outcome.tree)
+
+
+def test_reversed_or_missing_ranges_prove_nothing() -> None:
+    case = Setting(GAINS["buap3"][0], load("buap3"), ranges=True).closure(F(1, 10**9))
+    assert proves(case, ".")
+    low, high = case.parameters[0]
+    assert not proves(replace(case, parameters=((high, low), *case.parameters[1:])), ".")
+    assert not proves(replace(case, parameters=case.parameters[1:]), ".")
+
+
+numbers = st.floats(-1e3, 1e3)
+
+
+@given(numbers, numbers, numbers, numbers, st.floats(0, 1), st.floats(0, 1))
+def test_spans_hold_what_they_should(a: float, b: float, c: float, d: float, s: float, t: float) -> None:
+    first, second = (Span(arb(min(ends)), arb(max(ends))) for ends in ((a, b), (c, d)))
+    x, y = F(a) + F(s) * (F(b) - F(a)), F(c) + F(t) * (F(d) - F(c))
+    results = [(first + second, x + y), (first - second, x - y), (first * second, x * y)]
+    results += [(first.square(), x * x), (first.meet(first), x)]
+    if second.positive:
+        results.append((first / second, x / y))
+    for span, exact in results:
+        assert dyadic(span.low) <= exact <= dyadic(span.high)
+
+
+def test_undefined_spans_are_not_positive() -> None:
+    wide = Span(arb(1), arb(1)) / Span(arb(-1), arb(1))
+    assert not wide.positive
+    assert not (wide - wide).positive
+    assert not Span.of(arb("nan")).positive

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
@@ -29,6 +30,17 @@ class EpsilonFormat(StrEnum):
     MARKDOWN = "markdown"
 
 
+@dataclass(frozen=True)
+class Budget:
+    """How hard to search, and for which arms."""
+
+    max_boxes: int
+    jobs: int
+    ranges: bool
+    starts: int
+    seed: int
+
+
 def command(
     file: Annotated[Path, typer.Argument(help="A gain file.", metavar="FILE")],
     robot: Annotated[
@@ -40,6 +52,9 @@ def command(
     ] = None,
     max_boxes: Annotated[int, typer.Option(help="Budget of branch and bound.", min=1)] = 400_000,
     jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
+    ranges: Annotated[
+        bool, typer.Option("--ranges", help="For all values of what is uncertain about the arm.")
+    ] = False,
     starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
     seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
     format: Annotated[EpsilonFormat, typer.Option(help="How to write it.")] = EpsilonFormat.TEXT,  # noqa: A002
@@ -58,8 +73,9 @@ def command(
     model = load(robot_name(robot, [gain_file]))
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
+    budget = Budget(max_boxes, jobs, ranges, starts, seed)
     with progress("epsilon") as advance:
-        results, seconds = _run(chosen, model, (max_boxes, jobs, starts, seed), advance)
+        results, seconds = _run(chosen, model, budget, advance)
     from lyapcheck.search.epsilon_formats import renderer
 
     sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
@@ -84,12 +100,11 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 
 def _run(
-    gains: list[GainSet], model: RobotModel, budget: tuple[int, int, int, int], advance: Advance
+    gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
     from lyapcheck.search.epsilon import epsilon
 
-    max_boxes, jobs, starts, seed = budget
     results: list[EpsilonResult] = []
     seconds: list[float] = []
     for done, gain_set in enumerate(gains):
@@ -98,16 +113,6 @@ def _run(
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
         began = perf_counter()
-        results.append(
-            epsilon(
-                gain_set,
-                model,
-                max_boxes=max_boxes,
-                jobs=jobs,
-                starts=starts,
-                seed=seed,
-                on_progress=tell,
-            )
-        )
+        results.append(epsilon(gain_set, model, **asdict(budget), on_progress=tell))
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.states import confirms_positive
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.certified import MAX_BOXES, Proof, certified_epsilon
+from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
 from lyapcheck.search.robot_constants import robot_bounds
-from lyapcheck.search.scalar_program import scalar_epsilon
+from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting
 
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ class EpsilonResult:
         boxes: how many boxes branch and bound looked at.
         certified_by: which certificate stands behind ``certified``.
         proof: the boxes behind ``certified``, which the checker has accepted.
+        ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
+        corner: the uncertain numbers of the arm that ``witness`` is about, by name.
         reasons: why a number is missing, and what to try.
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
@@ -70,6 +73,8 @@ class EpsilonResult:
     boxes: int
     certified_by: str
     proof: Proof | None = None
+    ranges: bool = False
+    corner: Mapping[str, Fraction] = field(default_factory=dict)
     reasons: Mapping[str, str] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
@@ -89,6 +94,7 @@ def epsilon(
     *,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
+    ranges: bool = False,
     starts: int = STARTS,
     seed: int = SEED,
     on_progress: Progress | None = None,
@@ -97,9 +103,10 @@ def epsilon(
 
     Args:
         gain_set: the controller.
-        model: the arm, taken at its nominal parameters.
+        model: the arm.
         max_boxes: budget of branch and bound.
         jobs: processes for the checker of its boxes.
+        ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         on_progress: told the fraction done and a few words.
@@ -112,28 +119,29 @@ def epsilon(
         on the witness alone; ``published`` is what (18) claims, not what is true.
     """
     tell = on_progress or (lambda fraction, note: None)
-    setting, reasons = Setting(gain_set, model), {}
-    witness = falsify(setting, starts, seed=seed, on_progress=lambda f, note: tell(0.3 * f, note))
+    setting, reasons = Setting(gain_set, model, ranges), {}
+    at, witness = _falsified(setting, starts, seed, lambda f, note: tell(0.3 * f, note))
     if witness is None:
         reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
     tell(0.3, "scalar certificate")
     bounds, constants = robot_bounds(model), setting.family.constants()
     published, reasons["published"] = _published(gain_set, constants, bounds)
+    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
     sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds))
-    form = scalar_form(gain_set, constants, bounds)
-    scalar = sharp if form is None else scalar_epsilon(form)
+    scalar = _scalar(setting, bounds) or sharp
     reasons["scalar"] = scalar.reason
     hint = None if witness is None else witness.eps0
     found = certified_epsilon(
         setting,
-        hint or 10 * (sharp.eps0 or Fraction(1)),
+        hint or 10 * (scalar.eps0 or Fraction(1)),
         max_boxes,
         jobs,
         lambda f, note: tell(0.35 + 0.65 * f, note),
     )
     reasons["certified"] = found.reason
-    certified, by = _larger((found.eps0, "branch and bound"), (sharp.eps0, "scalar certificate"))
-    require_consistent(setting, witness, {"scalar": scalar.eps0, "certified": certified})
+    scalars = scalar.eps0 if ranges else sharp.eps0
+    certified, by = _larger((found.eps0, "branch and bound"), (scalars, "scalar certificate"))
+    require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
     return EpsilonResult(
         name=gain_set.name,
         m=gain_set.m,
@@ -145,12 +153,39 @@ def epsilon(
         witness=witness,
         boxes=found.looked_at,
         proof=found.proof,
+        ranges=ranges,
+        corner=_corner(at) if ranges else {},
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
         findings=tuple(_findings(setting, published, certified, witness)),
         assumptions=model.assumptions,
         seed=seed,
     )
+
+
+def _falsified(setting: Setting, starts: int, seed: int, tell: Progress) -> tuple[Setting, Witness | None]:
+    """The witness, and the arm it is about."""
+    if setting.ranges:
+        return falsify_corners(setting, starts, seed, tell)
+    return setting, falsify(setting, starts, seed=seed, on_progress=tell)
+
+
+def _scalar(setting: Setting, bounds: RobotBounds) -> ScalarResult | None:
+    """The scalar certificate of what the setting is about; ``None`` where h is unbounded."""
+    if not setting.family.bounded:
+        return None
+    if setting.ranges:
+        return scalar_epsilon(setting.closure(Fraction(1)).tail)
+    form = scalar_form(setting.gains, setting.family.constants(), bounds)
+    return None if form is None else scalar_epsilon(form)
+
+
+def _corner(setting: Setting) -> dict[str, Fraction]:
+    """The values of everything about the arm that has a range."""
+    joints = zip(setting.model.joints, setting.model.viscous, strict=True)
+    friction = {f"viscous friction of {joint}": number for joint, number in joints}
+    numbers = {**setting.model.parameters, **friction}
+    return {name: number.value for name, number in numbers.items() if number.ranged}
 
 
 def _published(

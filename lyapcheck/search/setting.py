@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from lyapcheck.check.states import Term
     from lyapcheck.control import GainSet
-    from lyapcheck.robots import Number
 
 Array = NDArray[np.float64]
 
@@ -125,21 +124,13 @@ class Setting:
             kp=tuple(self.gains.kp),
             kv=tuple(self.gains.kv),
             eps0=eps0,
-            parameters=tuple(_range(number) for number in model.parameters.values()),
-            viscous=tuple(_range(number) for number in model.viscous) if self.ranges else (),
+            parameters=tuple(number.bounds for number in model.parameters.values()),
+            viscous=tuple(number.bounds for number in model.viscous) if self.ranges else (),
         )
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0
         return np.array([float(gain) * unit for gain in gains])
-
-
-def _range(number: Number) -> tuple[Fraction, Fraction]:
-    """The range of a number; the number itself where it has none."""
-    return (
-        number.value if number.low is None else number.low,
-        number.value if number.high is None else number.high,
-    )
 
 
 def _terms(entry: fmpq_mpoly) -> tuple[Term, ...]:

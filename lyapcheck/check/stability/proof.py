@@ -8,6 +8,7 @@ from multiprocessing import get_context
 
 from lyapcheck.check.balls import precision
 from lyapcheck.check.scalar import certifies
+from lyapcheck.check.stability.arithmetic import BALLS, SPANS
 from lyapcheck.check.stability.boxes import Box, halves, leaves
 from lyapcheck.check.stability.closure import Closure
 from lyapcheck.check.stability.schur import Evaluator
@@ -54,20 +55,25 @@ def proves_part(closure: Closure, tree: str, part: int, parts: int) -> bool:
     if certifies(closure.tail, closure.eps0):
         return True
     with precision(BITS):
-        evaluator = Evaluator(closure)
+        evaluators = Evaluator(closure, BALLS), Evaluator(closure, SPANS)
         # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
         mine = (box for k, box in enumerate(leaves(closure.start, tree)) if k // BLOCK % parts == part)
-        return all(_shown(evaluator, box) for box in mine)
+        return all(_shown(evaluators, box) for box in mine)
 
 
-def _shown(evaluator: Evaluator, box: Box) -> bool:
-    """Whether P ≻ 0 is shown on a box, cut further where that is needed."""
+def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
+    """Whether P ≻ 0 is shown on a box, by one of the evaluators, cut further where that is needed.
+
+    The side that is cut is the widest beside what it was at the start.
+    """
+    whole = [high - low for low, high in evaluators[0].closure.start]
     stack = [(box, 0)]
     while stack:
         part, depth = stack.pop()
-        if evaluator.proves(part):
+        if any(evaluator.proves(part) for evaluator in evaluators):
             continue
         if depth == MORE_HALVINGS:
             return False
-        stack += [(half, depth + 1) for half in halves(part, depth % len(part))]
+        side = max(range(len(part)), key=lambda i: (part[i][1] - part[i][0]) / whole[i])
+        stack += [(half, depth + 1) for half in halves(part, side)]
     return True

@@ -1,16 +1,19 @@
-"""M(q) and the Christoffel symbols over boxes of joint angles, in balls."""
+"""M(q) and the Christoffel symbols over boxes of joint angles, in balls or spans."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from flint import arb
 
 from lyapcheck.check.balls import to_arb
 from lyapcheck.check.harmonics import Harmonics, Uncertain, derivative
+from lyapcheck.check.stability.arithmetic import Arithmetic
 
-Waves = dict[tuple[int, ...], tuple[arb, arb]]
+Value = Any
+Waves = dict[tuple[int, ...], tuple[Value, Value]]
 
 
 class Polynomial:
@@ -23,15 +26,17 @@ class Polynomial:
         self.parts = [(powers, Part(terms)) for powers, terms in entry.items()]
         self.used = [k for terms in entry.values() for k in terms if any(k)]
 
-    def over(self, wide: Waves, centre: Waves, offset: list[arb], parameters: Sequence[arb]) -> arb:
+    def over(
+        self, wide: Waves, centre: Waves, offset: list[Value], parameters: Sequence[Value], of: Arithmetic
+    ) -> Value:
         """The values over a box of angles and parameters."""
-        total = arb(0)
+        total = of.value(arb(0))
         for powers, part in self.parts:
-            value = part.over(wide, centre, offset)
+            value = part.over(wide, centre, offset, of)
             for parameter, power in zip(parameters, powers, strict=True):
                 for _ in range(power):
-                    value *= parameter
-            total += value
+                    value = value * parameter
+            total = total + value
         return total
 
 
@@ -43,15 +48,15 @@ class Part:
         joints = {i for k in terms for i, factor in enumerate(k) if factor}
         self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
 
-    def over(self, wide: Waves, centre: Waves, offset: list[arb]) -> arb:
+    def over(self, wide: Waves, centre: Waves, offset: list[Value], of: Arithmetic) -> Value:
         """The values over a box of angles."""
-        natural = _combined(self.terms, wide)
+        natural = _combined(self.terms, wide, of)
         if not self.slopes:
             return natural
-        mean = _combined(self.terms, centre)
+        mean = _combined(self.terms, centre, of)
         for i, slope in self.slopes:
-            mean += _combined(slope, wide) * offset[i]
-        return natural.intersection(mean)
+            mean = mean + _combined(slope, wide, of) * offset[i]
+        return of.meet(natural, mean)
 
 
 Lifted = list[tuple[tuple[int, ...], arb, arb]]
@@ -61,23 +66,23 @@ def _lifted(terms: Harmonics) -> Lifted:
     return [(k, to_arb(a), to_arb(b)) for k, (a, b) in terms.items()]
 
 
-def _combined(terms: Lifted, waves: Waves) -> arb:
-    total = arb(0)
+def _combined(terms: Lifted, waves: Waves, of: Arithmetic) -> Value:
+    total = of.value(arb(0))
     for k, a, b in terms:
         if k in waves:
             cosine, sine = waves[k]
-            total += a * cosine + b * sine
+            total = total + of.value(a) * cosine + of.value(b) * sine
         else:
-            total += a
+            total = total + of.value(a)
     return total
 
 
-def waves(used: Sequence[tuple[int, ...]], q: Sequence[arb]) -> Waves:
+def waves(used: Sequence[tuple[int, ...]], q: Sequence[arb], of: Arithmetic) -> Waves:
     """cos and sin of every harmonic."""
     found: Waves = {}
     for k in used:
         angle = sum((factor * x for factor, x in zip(k, q, strict=True) if factor), arb(0))
-        found[k] = cosine_range(angle), cosine_range(angle - arb.pi() / 2)
+        found[k] = of.value(cosine_range(angle)), of.value(cosine_range(angle - arb.pi() / 2))
     return found
 
 

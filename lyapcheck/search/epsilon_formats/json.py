@@ -40,6 +40,8 @@ def result_json(result: EpsilonResult) -> dict[str, Any]:
         "certified_by": result.certified_by or None,
         "witness": None if result.witness is None else _witness(result.witness),
         "boxes": result.boxes,
+        "ranges": result.ranges,
+        "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
         "findings": list(result.findings),
         "reasons": dict(result.reasons),

@@ -53,6 +53,9 @@ def remarks(result: EpsilonResult) -> list[str]:
     said += reasons(result)
     if result.witness is not None:
         said.append(witness_text(result.witness))
+    if result.witness is not None and result.corner:
+        values = ", ".join(f"{name} = {decimal_text(value)}" for name, value in result.corner.items())
+        said.append(f"that state is one of the arm with {values}.")
     return said
 
 
@@ -75,6 +78,12 @@ def witness_text(witness: Witness) -> str:
     return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W."
 
 
+def _extent(results: Sequence[EpsilonResult]) -> str:
+    if all(result.ranges for result in results):
+        return "certified for all values in its ranges"
+    return "at its nominal parameters"
+
+
 def notes(results: Sequence[EpsilonResult]) -> list[str]:
     """What holds for all results: robot, seed, assumptions."""
     if not results:
@@ -84,6 +93,6 @@ def notes(results: Sequence[EpsilonResult]) -> list[str]:
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
     return [
         LEGEND,
-        f"Arm: {robots}, at its nominal parameters. Seed: {seeds}.",
+        f"Arm: {robots}, {_extent(results)}. Seed: {seeds}.",
         *(f"Assumed: {text}." for text in assumed),
     ]

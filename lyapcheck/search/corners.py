@@ -1,0 +1,95 @@
+"""The arm, within what is uncertain about it, for which a gain set is worst."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.robots import RobotModel
+from lyapcheck.search.falsify import Progress, Witness, falsify
+from lyapcheck.search.sample import States, quadratic
+from lyapcheck.search.setting import Setting
+
+ROUNDS = 4
+"""How often the worst corner is looked for at a new witness."""
+
+Corner = dict[str, Fraction]
+"""Values by name: parameters of M, and ``viscous 0`` … for the friction of each joint."""
+
+
+def falsify_corners(
+    setting: Setting, starts: int, seed: int, on_progress: Progress | None = None
+) -> tuple[Setting, Witness | None]:
+    """The smallest ε₀ that a state refutes at some corner of the arm's ranges, and the arm at that corner.
+
+    From the nominal arm: find a witness, move every uncertain number to the end at which that state refutes
+    a smaller ε₀, look again there, until nothing gets smaller.
+
+    Soundness: the witness is proved for the arm that is handed back, which is one of those meant.
+    """
+    tell = on_progress or (lambda fraction, note: None)
+    best, witness = replace(setting, ranges=False), None
+    trial = best
+    for turn in range(ROUNDS):
+        found = falsify(trial, starts, seed=seed, on_progress=_part(tell, turn))
+        if found is None or (witness is not None and found.eps0 >= witness.eps0):
+            break
+        best, witness = trial, found
+        trial = replace(setting, model=worst_corner(setting.model, best, witness), ranges=False)
+    return best, witness
+
+
+def _part(tell: Progress, turn: int) -> Progress:
+    return lambda fraction, note: tell((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
+
+
+def worst_corner(model: RobotModel, at: Setting, witness: Witness) -> RobotModel:
+    """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
+    states = _states(witness)
+    corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
+    chosen, merit = at.model, _merit(at, states)
+    for moved in _moves(model, corner):
+        trial = at_corner(model, chosen, moved)
+        found = _merit(replace(at, model=trial), states)
+        if found > merit:
+            chosen, merit = trial, found
+            corner.update(moved)
+    return chosen
+
+
+def at_corner(model: RobotModel, near: RobotModel, moved: Corner) -> RobotModel:
+    """``near`` with some numbers moved; nominal values of ``near`` are those of its numbers."""
+    parameters = {
+        name: replace(number, value=moved.get(name, near.parameters[name].value))
+        for name, number in model.parameters.items()
+    }
+    viscous = tuple(
+        replace(number, value=moved.get(f"viscous {i}", number.value))
+        for i, number in enumerate(near.viscous)
+    )
+    return replace(near, parameters=parameters, viscous=viscous)
+
+
+def _moves(model: RobotModel, corner: Corner) -> Iterator[Corner]:
+    """Each end of each range, on its own."""
+    for name, number in model.parameters.items():
+        for end in number.bounds:
+            if number.ranged:
+                yield {name: end}
+    for i, number in enumerate(model.viscous):
+        for end in number.bounds:
+            if number.ranged:
+                yield {f"viscous {i}": end}
+
+
+def _states(witness: Witness) -> States:
+    parts = (witness.state.q, witness.state.e, witness.state.w)
+    return States(*(np.array([[float(x) for x in part]]) for part in parts))
+
+
+def _merit(setting: Setting, states: States) -> float:
+    """The 1/ε₀ that the state refutes."""
+    return float(quadratic(setting, states).reciprocal()[0])
