@@ -14,6 +14,7 @@ from flint import arb
 from lyapcheck.check import balls
 from lyapcheck.check.constants import hyperbolic_constants
 from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.states import Functions
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class Member:
     Args:
         h: contains h over a ball, dimensionless.
         dh: contains h' over a ball.
+        potential: contains U over a ball, U' = h, U(0) = 0.
         gamma: at least sup h.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
@@ -30,9 +32,15 @@ class Member:
 
     h: Callable[[arb], arb]
     dh: Callable[[arb], arb]
+    potential: Callable[[arb], arb]
     gamma: Fraction
     rho: Fraction
     L: Fraction
+
+    @property
+    def functions(self) -> Functions:
+        """h, h' and U, for the derivative of V at one state."""
+        return Functions(self.h, self.dh, self.potential)
 
 
 def member(name: str, m: int | None = None) -> Member:
@@ -51,7 +59,8 @@ def member(name: str, m: int | None = None) -> Member:
 def _hyperbolic(m: int) -> Member:
     found = hyperbolic_constants(m)
     bounds = found.gamma.upper, found.rho.upper, found.L.upper
-    return Member(lambda x: balls.h(m, x), lambda x: balls.dh(m, x), *bounds)
+    functions = (lambda x: balls.h(m, x)), (lambda x: balls.dh(m, x)), (lambda x: balls.potential(m, x))
+    return Member(*functions, *bounds)
 
 
 def arctan_h(x: arb) -> arb:
@@ -62,6 +71,11 @@ def arctan_h(x: arb) -> arb:
 def arctan_dh(x: arb) -> arb:
     """1/(1 + x²), falling away from 0."""
     return balls.even_range(lambda a: 1 / (1 + a * a), (), x)
+
+
+def arctan_potential(x: arb) -> arb:
+    """x arctan x − ½ ln(1 + x²), rising away from 0."""
+    return balls.even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
 
 
 def half_pi() -> Enclosure:
@@ -79,12 +93,17 @@ def algebraic_dh(x: arb) -> arb:
     return balls.even_range(lambda a: 1 / ((1 + a * a) * (1 + a * a).sqrt()), (), x)
 
 
+def algebraic_potential(x: arb) -> arb:
+    """√(1 + x²) − 1, without cancellation, rising away from 0."""
+    return balls.even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
+
+
 def _arctan() -> Member:
-    return Member(arctan_h, arctan_dh, half_pi().upper, Fraction(1), Fraction(1))
+    return Member(arctan_h, arctan_dh, arctan_potential, half_pi().upper, Fraction(1), Fraction(1))
 
 
 def _algebraic() -> Member:
-    return Member(algebraic_h, algebraic_dh, Fraction(1), Fraction(1), Fraction(1))
+    return Member(algebraic_h, algebraic_dh, algebraic_potential, Fraction(1), Fraction(1), Fraction(1))
 
 
 _SINGLE: dict[str, Callable[[], Member]] = {

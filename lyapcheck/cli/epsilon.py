@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
@@ -58,6 +59,9 @@ def command(
     starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
     seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
     format: Annotated[EpsilonFormat, typer.Option(help="How to write it.")] = EpsilonFormat.TEXT,  # noqa: A002
+    certificates: Annotated[
+        Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
+    ] = None,
     timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each gain set took.")] = False,
 ) -> None:
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
@@ -73,14 +77,25 @@ def command(
     model = load(robot_name(robot, [gain_file]))
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     budget = Budget(max_boxes, jobs, ranges, starts, seed)
     with progress("epsilon") as advance:
         results, seconds = _run(chosen, model, budget, advance)
+    if folder is not None:
+        _write_certificates(folder, results)
     from lyapcheck.search.epsilon_formats import renderer
 
     sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
+
+
+def _write_certificates(folder: Path, results: list[EpsilonResult]) -> None:
+    from lyapcheck.search.epsilon_certificates import certificates
+
+    for result in results:
+        for name, certificate in certificates(result).items():
+            write_whole(folder / name, certificate.text())
 
 
 def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:

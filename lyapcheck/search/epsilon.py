@@ -26,6 +26,7 @@ from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting
 
 if TYPE_CHECKING:
+    from lyapcheck.check.stability import Closure
     from lyapcheck.control import GainSet
     from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
@@ -36,6 +37,15 @@ _DIGITS = 9
 
 class Contradiction(RuntimeError):
     """A proved state refutes a proved ε₀: one of the two proofs is wrong, and nothing may be reported."""
+
+
+@dataclass(frozen=True)
+class Refutation:
+    """The closure that a witness refutes, and the values of what is uncertain at the arm it is a state of."""
+
+    closure: Closure
+    viscous: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
@@ -54,6 +64,7 @@ class EpsilonResult:
         boxes: how many boxes branch and bound looked at.
         certified_by: which certificate stands behind ``certified``.
         proof: the boxes behind ``certified``, which the checker has accepted.
+        against: what ``witness`` refutes, and the arm it is a state of.
         ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
         corner: the uncertain numbers of the arm that ``witness`` is about, by name.
         reasons: why a number is missing, and what to try.
@@ -73,6 +84,7 @@ class EpsilonResult:
     boxes: int
     certified_by: str
     proof: Proof | None = None
+    against: Refutation | None = None
     ranges: bool = False
     corner: Mapping[str, Fraction] = field(default_factory=dict)
     reasons: Mapping[str, str] = field(default_factory=dict)
@@ -153,6 +165,7 @@ def epsilon(
         witness=witness,
         boxes=found.looked_at,
         proof=found.proof,
+        against=_refutation(setting, at, witness),
         ranges=ranges,
         corner=_corner(at) if ranges else {},
         certified_by=by,
@@ -168,6 +181,14 @@ def _falsified(setting: Setting, starts: int, seed: int, tell: Progress) -> tupl
     if setting.ranges:
         return falsify_corners(setting, starts, seed, tell)
     return setting, falsify(setting, starts, seed=seed, on_progress=tell)
+
+
+def _refutation(setting: Setting, at: Setting, witness: Witness | None) -> Refutation | None:
+    """What the witness refutes; ``None`` for an unbounded h, of which there are no such certificates."""
+    if witness is None or not setting.family.bounded:
+        return None
+    values = tuple(number.value for number in at.model.parameters.values()) if setting.ranges else ()
+    return Refutation(setting.closure(witness.eps0), at.arm.viscous, values)
 
 
 def _scalar(setting: Setting, bounds: RobotBounds) -> ScalarResult | None:

@@ -193,6 +193,26 @@ class EntryWitness(Proof):
 
 
 @dataclass(frozen=True)
+class BoxTree(Proof):
+    """A tree of boxes of (q, e): in preorder, a digit for the side that is cut, a dot for a leaf."""
+
+    rule = "tree of boxes"
+    tree: str
+
+
+@dataclass(frozen=True)
+class StateWitness(Proof):
+    """An arm within the ranges and a state of it at which dV/dt > 0."""
+
+    rule = "state"
+    viscous: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
+    q: tuple[Fraction, ...]
+    e: tuple[Fraction, ...]
+    w: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
 class Application(Proof):
     """A theorem of the checker's list; its hypotheses are the claims that the certificate uses."""
 

@@ -175,6 +175,29 @@ class TrigonometricPositive(Statement):
     entries: tuple[Tree, ...]
 
 
+Ends = tuple[Fraction, Fraction]
+Monomials = tuple[tuple[tuple[int, ...], Fraction], ...]
+"""Exponents of s1 … sn, c1 … cn and the parameters, with the coefficient."""
+
+
+@dataclass(frozen=True)
+class Decreasing(Statement):
+    """dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
+
+    ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B, N·m·s/rad; ``parameters`` the
+    range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀.
+    """
+
+    mass: tuple[tuple[Monomials, ...], ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
+    family: str
+    m: int | None
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
+    eps0: Fraction
+
+
 @dataclass(frozen=True)
 class Theorem(Statement):
     """A theorem applied: each of its hypotheses is a claim that this one uses."""

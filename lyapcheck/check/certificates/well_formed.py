@@ -13,6 +13,8 @@ from lyapcheck.check.certificates.trees import require_expressions
 
 MAX_JOINTS = 100
 MAX_INPUTS = 16
+MAX_ARM = 9
+MAX_POWER = 40
 MAX_LENGTH = 400
 DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 
@@ -86,6 +88,22 @@ def _positive(statement: kinds.TrigonometricPositive) -> None:
     require_expressions(statement.entries)
 
 
+def _decreasing(statement: kinds.Decreasing) -> None:
+    n = len(statement.viscous)
+    require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    for subject in ("mass", "kp", "kv"):
+        size = len(getattr(statement, subject))
+        require(size == n, subject, size, f"must be {n}, one a joint")
+    require(all(len(row) == n for row in statement.mass), "mass", "a row", f"must have {n} entries")
+    length = 2 * n + len(statement.parameters)
+    for powers, _ in chain.from_iterable(chain.from_iterable(statement.mass)):
+        fits = len(powers) == length and all(0 <= p <= MAX_POWER for p in powers)
+        require(fits, "exponents", powers, f"must be {length} numbers from 0 to {MAX_POWER}")
+    for low, high in (*statement.viscous, *statement.parameters):
+        require(low <= high, "range", f"[{low}, {high}]", "is empty")
+    require(len(statement.parameters) <= MAX_INPUTS, "parameters", len(statement.parameters), "are too many")
+
+
 def _theorem(statement: kinds.Theorem) -> None:
     _distinct("hypotheses", [name for name, _ in statement.hypotheses])
 
@@ -105,6 +123,7 @@ FORMS: dict[type, Callable[[Any], None]] = {
     kinds.NormChain: _norm_chain,
     kinds.TrigonometricBound: _bounds,
     kinds.TrigonometricPositive: _positive,
+    kinds.Decreasing: _decreasing,
     kinds.Theorem: _theorem,
     kinds.AllOf: _all_of,
 }

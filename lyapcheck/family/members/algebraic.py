@@ -51,7 +51,7 @@ class Algebraic(ElementaryFamily):
 
     def ball_potential(self, x: arb) -> arb:
         """√(1 + x²) - 1, without cancellation."""
-        return even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
+        return members.algebraic_potential(x)
 
     def ball_secant(self, x: arb) -> arb:
         """1/√(1 + x²), falling away from 0."""

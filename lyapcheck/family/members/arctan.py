@@ -58,7 +58,7 @@ class Arctan(ElementaryFamily):
 
     def ball_potential(self, x: arb) -> arb:
         """U, rising away from 0."""
-        return even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
+        return members.arctan_potential(x)
 
     def ball_secant(self, x: arb) -> arb:
         """arctan(x)/x, falling away from 0."""

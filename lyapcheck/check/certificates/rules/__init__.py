@@ -3,6 +3,7 @@
 from lyapcheck.check.certificates.rules import (
     all_of,
     chain,
+    decreasing,
     identity,
     implication,
     interval,
@@ -17,6 +18,7 @@ from lyapcheck.check.certificates.rules import (
 __all__ = [
     "all_of",
     "chain",
+    "decreasing",
     "identity",
     "implication",
     "interval",

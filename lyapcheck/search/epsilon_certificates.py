@@ -1,0 +1,56 @@
+"""The certificates of ε₀: dV/dt < 0 everywhere for the certified one, a state against the falsified one."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from lyapcheck.check.certificates.document import About, Certificate
+from lyapcheck.check.certificates.proofs import BoxTree, Proof, StateWitness
+from lyapcheck.check.certificates.statements import Decreasing
+from lyapcheck.files import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.check.stability import Closure
+    from lyapcheck.search.epsilon import EpsilonResult
+
+PROOF = "epsilon"
+
+
+def certificates(result: EpsilonResult) -> dict[str, Certificate]:
+    """Certificates by file name; an ε₀ that the scalar form alone gives has none here."""
+    stem, found = quote(result.name, safe=""), {}
+    if result.proof is not None:
+        proof = BoxTree(result.proof.tree)
+        found[f"{stem}.certified.json"] = _certificate(result, result.proof.closure, "proved", proof)
+    if result.witness is not None and result.against is not None:
+        state, against = result.witness.state, result.against
+        proof_against = StateWitness(against.viscous, against.parameters, state.q, state.e, state.w)
+        found[f"{stem}.falsified.json"] = _certificate(result, against.closure, "refuted", proof_against)
+    return found
+
+
+def _certificate(result: EpsilonResult, closure: Closure, verdict: str, proof: Proof) -> Certificate:
+    arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
+    says = (
+        f"dV/dt < 0 at every state but the origin: {result.name} on {result.robot}, "
+        f"{arms}, ε₀ = {decimal_text(closure.eps0)}"
+    )
+    about = About(f"{result.name}.{verdict}", says, result.m, closure.n, PROOF)
+    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
+    return Certificate(about, statement(closure), verdict, "enclosure", proof, {}, used)
+
+
+def statement(closure: Closure) -> Decreasing:
+    """What a closure has to prove, as the certificate says it."""
+    return Decreasing(
+        mass=closure.arm.mass,
+        viscous=closure.friction,
+        parameters=closure.parameters,
+        family=closure.family,
+        m=closure.m,
+        kp=closure.kp,
+        kv=closure.kv,
+        eps0=closure.eps0,
+    )

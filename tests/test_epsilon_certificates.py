@@ -1,0 +1,144 @@
+"""Certificates of ε₀: accepted as they are written, refused when anything that matters is changed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.check.certificates import Refused
+from lyapcheck.check.certificates.document import Certificate, digest_of, judge, parse, read
+from lyapcheck.cli.main import build_app
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.robots import load
+from lyapcheck.search.epsilon import epsilon
+from lyapcheck.search.epsilon_certificates import certificates
+
+F = Fraction
+Document = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def pair() -> tuple[Certificate, Certificate]:
+    """The certificates for and against, of one gain set on the two-joint arm."""
+    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
+    made = certificates(epsilon(gains, load("reyes-kelly2"), starts=6, max_boxes=4_000))
+    return made["tau_m2.certified.json"], made["tau_m2.falsified.json"]
+
+
+def reread(certificate: Certificate, change: Callable[[Document], None] = lambda data: None) -> Certificate:
+    """The certificate from its text, changed by somebody who knows how to make a digest."""
+    data = json.loads(certificate.text())
+    change(data)
+    data["digest"] = digest_of({key: value for key, value in data.items() if key != "digest"})
+    return read(parse(json.dumps(data)))
+
+
+def test_both_are_accepted(pair: tuple[Certificate, Certificate]) -> None:
+    certified, falsified = pair
+    assert judge(reread(certified)).verdict == "proved"
+    assert judge(reread(falsified)).verdict == "refuted"
+
+
+def test_any_change_without_a_new_digest_is_refused(pair: tuple[Certificate, Certificate]) -> None:
+    data = json.loads(pair[0].text())
+    data["statement"]["eps0"] = "1/1000"
+    with pytest.raises(Refused, match="digest"):
+        read(parse(json.dumps(data)))
+
+
+def put(value: Any, *path: Any) -> Callable[[Document], None]:
+    """Put a value at a place."""
+
+    def change(data: Document) -> None:
+        for step in path[:-1]:
+            data = data[step]
+        data[path[-1]] = value
+
+    return change
+
+
+def scale(factor: Fraction, *path: Any) -> Callable[[Document], None]:
+    """Multiply a rational at a place."""
+
+    def change(data: Document) -> None:
+        for step in path[:-1]:
+            data = data[step]
+        data[path[-1]] = str(F(data[path[-1]]) * factor)
+
+    return change
+
+
+AGAINST_PROOF = {
+    "larger ε₀": scale(F(11, 10), "statement", "eps0"),
+    "negative ε₀": scale(F(-1), "statement", "eps0"),
+    "less friction": lambda data: [
+        data["statement"]["viscous"][i].__setitem__(k, "1/10") for i in (0, 1) for k in (0, 1)
+    ],
+    "a range of friction": put(["1/100", "3"], "statement", "viscous", 0),
+    "reversed range": put(["3", "1/100"], "statement", "viscous", 0),
+    "no proportional gain": put("0", "statement", "kp", 0),
+    "more inertia": scale(F(2), "statement", "mass", 0, 0, 0, 1),
+    "asymmetric inertia": scale(F(2), "statement", "mass", 0, 1, 0, 1),
+    "other function": put("linear", "statement", "family"),
+    "steeper member": put(9, "statement", "m"),
+    "member 0": put(0, "statement", "m"),
+    "fewer joints": lambda data: data["statement"]["kp"].pop(),
+    "a gap in the tree": lambda data: data["proof"].update(tree=data["proof"]["tree"][:-1]),
+    "one box for all": put(".", "proof", "tree"),
+    "unknown side": lambda data: data["proof"].update(tree="9" + data["proof"]["tree"][1:]),
+    "no tree": put("", "proof", "tree"),
+    "other verdict": put("refuted", "verdict"),
+    "better grade": put("exact", "grade"),
+    "negative exponent": put(-1, "statement", "mass", 0, 0, 0, 0, 0),
+    "unknown parameter": put([["0", "1"]], "statement", "parameters"),
+}
+
+
+@pytest.mark.parametrize("name", AGAINST_PROOF)
+def test_a_proof_changed_for_the_worse_is_refused(pair: tuple[Certificate, Certificate], name: str) -> None:
+    with pytest.raises(Refused):
+        judge(reread(pair[0], AGAINST_PROOF[name]))
+
+
+AGAINST_REFUTATION = {
+    "smaller ε₀": scale(F(9, 10), "statement", "eps0"),
+    "another rate": scale(F(-1), "proof", "w", 0),
+    "at the origin": lambda data: data["proof"].update(e=["0", "0"], w=["0", "0"]),
+    "no rates": put([], "proof", "w"),
+    "another arm": put("1", "proof", "viscous", 0),
+    "proved": put("proved", "verdict"),
+    "uses something": put({"x": "0" * 64}, "uses"),
+}
+
+
+@pytest.mark.parametrize("name", AGAINST_REFUTATION)
+def test_a_changed_refutation_is_refused(pair: tuple[Certificate, Certificate], name: str) -> None:
+    with pytest.raises(Refused):
+        judge(reread(pair[1], AGAINST_REFUTATION[name]))
+
+
+def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certificate, Certificate]) -> None:
+    certified, falsified = pair
+    moved = replace(certified, statement=falsified.statement)
+    with pytest.raises(Refused):
+        judge(moved)
+
+
+def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
+    app, folder = build_app(("epsilon", "recheck")), tmp_path / "certificates"
+    gains = str(paper_gain_file("table2_shoulder_elbow"))
+    options = ["--m", "1", "--starts", "4", "--max-boxes", "2000", "--ranges"]
+    first = CliRunner().invoke(app, ["epsilon", gains, *options, "--certificates", str(folder)])
+    assert first.exit_code == 0, first.output
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json"]
+    again = CliRunner().invoke(app, ["recheck", str(folder)])
+    assert again.exit_code == 0, again.output
+    assert "2 accepted" in again.output
