@@ -52,10 +52,14 @@ class Problem:
         object.__setattr__(self, "family", named(self.closure.family, self.closure.m))
 
     def proved(self, boxes: Array) -> NDArray[np.bool_]:
-        """Where P ≻ 0 on the whole box, or all of the box lies beyond the radius of the tail."""
+        """Where P ≻ 0 on the whole box, or all of the box lies beyond the radius of the tail.
+
+        A box with an undefined end, or with its ends the wrong way round, is not proved.
+        """
         sides = self.sides(boxes)
         inside: NDArray[np.bool_] = positive_definite(self.schur(sides))
-        return inside | (norm(sides.e).lo >= self.closure.radius)
+        ordered = np.all(boxes[:, 0] <= boxes[:, 1], axis=1)
+        return ordered & (inside | (norm(sides.e).lo >= self.closure.radius))
 
     def sides(self, boxes: Array) -> Sides:
         """Boxes taken apart."""
