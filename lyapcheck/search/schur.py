@@ -58,8 +58,9 @@ class Problem:
         """
         sides = self.sides(boxes)
         inside: NDArray[np.bool_] = positive_definite(self.schur(sides))
-        ordered = np.all(boxes[:, 0] <= boxes[:, 1], axis=1)
-        return ordered & (inside | (norm(sides.e).lo >= self.closure.radius))
+        ordered: NDArray[np.bool_] = np.all(boxes[:, 0] <= boxes[:, 1], axis=1)
+        beyond = norm(sides.e).lo >= self.closure.radius
+        return np.asarray(ordered & (inside | beyond))
 
     def sides(self, boxes: Array) -> Sides:
         """Boxes taken apart."""
