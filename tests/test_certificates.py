@@ -40,6 +40,7 @@ from lyapcheck.check.certificates.proofs import (
     Witness,
 )
 from lyapcheck.check.certificates.statements import Majorant, Relation, Statement
+from lyapcheck.check.functions import CONSTANTS, FAMILY, FUNCTIONS
 from lyapcheck.claims import (
     Constant,
     agrees,
@@ -182,15 +183,34 @@ def test_any_number_changed_is_refused_by_the_digest(made, published):
                 read(changed(data, path, lambda old: other_numbers(old)[0]))
 
 
-def survivors(made, changes):
-    """What is accepted after a change of one number and a new digest, and how many changes were refused."""
+def words(data, path=()):
+    """The places of all names of operations and relations, and of all truth values."""
+    if isinstance(data, dict):
+        return [place for key, value in data.items() for place in words(value, (*path, key))]
+    if isinstance(data, list):
+        return [place for k, value in enumerate(data) for place in words(value, (*path, k))]
+    return [path] if isinstance(data, bool) or other_words(data) else []
+
+
+KINDS = (FUNCTIONS, FAMILY, CONSTANTS, ("add", "mul"), ("<", "<="))
+
+
+def other_words(old):
+    """The names that may stand in the same place."""
+    if isinstance(old, bool):
+        return [not old]
+    return [name for kind in KINDS if old in kind for name in kind if name != old]
+
+
+def survivors(made, changes, places, others):
+    """What is accepted after one change and a new digest, and how many changes were refused."""
     refused, survived = 0, []
     for name, certificate in made.items():
         data = json.loads(certificate.text())
-        for path in numbers(data):
+        for path in places(data):
             if path[0] not in ("statement", "proof"):
                 continue
-            for new in other_numbers(reduce(getitem, path, data))[:changes]:
+            for new in others(reduce(getitem, path, data))[:changes]:
                 try:
                     forged = read(sealed(changed(data, path, lambda _, new=new: new)))
                     judge(forged)
@@ -204,12 +224,19 @@ def survivors(made, changes):
 @pytest.mark.parametrize("changes", [1, pytest.param(5, marks=pytest.mark.slow)])
 def test_with_a_new_digest_it_is_refused_or_still_true(made, changes):
     """The verdicts that survive are judged again by mpmath; most changes to a proof are refused."""
-    refused, survived = survivors(made, changes)
+    refused, survived = survivors(made, changes, numbers, other_numbers)
     for name, path, new, forged in survived:
         found = contradicts(forged.statement, forged.verdict, forged.proof)
         assert not found, (name, path, new)
     assert refused > 200 * changes
     assert len(survived) > 50 * changes, "changes that keep a statement true must be among them"
+
+
+def test_other_operations_are_refused_or_still_true(made):
+    refused, survived = survivors(made, 12, words, other_words)
+    for name, path, new, forged in survived:
+        assert not contradicts(forged.statement, forged.verdict, forged.proof), (name, path, new)
+    assert refused > len(survived) > 100
 
 
 @given(st.data())

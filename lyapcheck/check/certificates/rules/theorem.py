@@ -36,7 +36,7 @@ THEOREMS = {
             }
         ),
         "the equilibrium is globally asymptotically stable",
-        "khalil2002nonlinear, Theorem 4.2",
+        "kelly2005control, chapter 2",
     ),
 }
 """The theorems that a certificate may apply."""
