@@ -17,9 +17,19 @@ from fractions import Fraction
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpq_series
 
 from lyapcheck.check.enclosure import ball_of
-from lyapcheck.check.functions import Algebra, Tree, Unsupported, evaluate, taylor
+from lyapcheck.check.functions import (
+    FAMILY,
+    Algebra,
+    Tree,
+    Unsupported,
+    evaluate,
+    family_formula,
+    taylor,
+)
 from lyapcheck.check.normal_form import Ratio, normal_form
 from lyapcheck.check.polynomials import nonnegative_on, positive_on, rational
+
+ONE: Tree = ("num", "1")
 
 Terms = dict[tuple[int, int], fmpq | arb]
 """A polynomial in x and y = exp(x): exponents to coefficient, a ball where constants like γ or √3 come in."""
@@ -59,13 +69,59 @@ def exactly_zero_coefficients(tree: Tree, name: str, order: int) -> int:
 
 
 def positive_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96) -> bool:
-    """Whether f > 0 on (0, high], by f(x) = x^k · f^(k)(ξ)/k! with f(0), …, f^(k−1)(0) exactly zero."""
+    """Whether f > 0 on (0, high], by its own series or, for f = p/q, by the signs that p and q keep there."""
+    if sign_near_zero(tree, name, high, order) > 0:
+        return True
+    top, bottom = quotient(tree)
+    below = sign_near_zero(bottom, name, high, order)
+    return below != 0 and sign_near_zero(top, name, high, order) == below
+
+
+def sign_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96, more: int = 8) -> int:
+    """The sign that f keeps on (0, high], or 0 where that is not shown.
+
+    With f(0), …, f^(k−1)(0) exactly zero, f(x)/x^k = c_k + c_{k+1} x + … + c_K(ξ) x^{K−k}, K = k + ``more``.
+    """
     box = ball_of(Fraction(0)).union(ball_of(high))
     try:
         k = exactly_zero_coefficients(tree, name, order)
-        return k < order and bool(taylor(tree, name, box, k)[k] > 0)
+        coefficients = taylor(tree, name, arb(0), k + more - 1)[k:]
+        coefficients.append(taylor(tree, name, box, k + more)[k + more])
     except (ValueError, ZeroDivisionError):
-        return False
+        return 0
+    value = arb(0)
+    for coefficient in reversed(coefficients):
+        value = value * box + coefficient
+    return 0 if k == order else 1 if value > 0 else -1 if value < 0 else 0
+
+
+def quotient(tree: Tree) -> tuple[Tree, Tree]:
+    """Two expressions p, q with f = p/q wherever q is not zero, and no division outside of functions.
+
+    Every divisor is a factor of q, so that f is defined as far as its divisors go where q is not zero.
+    """
+    kind, *rest = tree
+    if kind in FAMILY:
+        return quotient(family_formula(kind, *rest))
+    if kind not in ("add", "mul", "neg", "div", "pow"):
+        return tree, ONE
+    top, bottom = quotient(rest[0])
+    if kind == "neg":
+        return ("neg", top), bottom
+    if kind == "pow":
+        return ("pow", top, rest[1]), ("pow", bottom, rest[1]) if bottom != ONE else ONE
+    for p, q in map(quotient, rest[1:]):
+        if kind == "add":
+            top, bottom = ("add", _times(top, q), _times(p, bottom)), _times(bottom, q)
+        elif kind == "mul":
+            top, bottom = _times(top, p), _times(bottom, q)
+        else:
+            top, bottom = _times(_times(top, q), q), _times(_times(bottom, p), q)
+    return top, bottom
+
+
+def _times(a: Tree, b: Tree) -> Tree:
+    return b if a == ONE else a if b == ONE else ("mul", a, b)
 
 
 def positive_on_box(tree: Tree, name: str, low: Fraction, high: Fraction, order: int = 8) -> bool:
