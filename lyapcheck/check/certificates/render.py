@@ -7,6 +7,7 @@ from typing import Any
 
 from lyapcheck.check.certificates.recheck import Checked, Outcome
 from lyapcheck.check.certificates.refusal import plain
+from lyapcheck.check.certificates.rules.theorem import THEOREMS
 
 SCHEMA = "lyapcheck/recheck/1"
 
@@ -47,7 +48,7 @@ def _line(one: Checked) -> str:
 
 def _theorem(name: str, files: tuple[str, ...]) -> str:
     claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
-    return f"{claims} on the theorem {name!r}: {', '.join(files)}"
+    return f"{claims} on {name} ({THEOREMS[name].reference}): {', '.join(files)}"
 
 
 def _tally(outcome: Outcome) -> str:
