@@ -15,7 +15,7 @@ from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search import certified
+from lyapcheck.search import certified, schur
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, cover
@@ -200,6 +200,18 @@ def test_every_state_lies_in_a_proved_leaf_or_in_the_tail(index: int) -> None:
     assert seen > 300
 
 
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (-0.6, 0.8), (0.6, 0.8)])
+def test_errors_are_left_to_the_tail_from_its_radius_on(
+    direction: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Seen with a P that is never found positive definite: only the tail is left to prove anything."""
+    monkeypatch.setattr(schur, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
+    task = problem("reyes-kelly2", 0, F(1, 2))
+    for share, left in ((0.5, False), (0.999, False), (1.001, True)):
+        point = np.array([0.0, *(share * task.closure.radius * np.array(direction))])
+        assert task.proved(np.stack([point, point])[None]).item() is left
+
+
 def test_certified_epsilon_comes_near_the_falsified_and_not_beyond() -> None:
     found = certified_epsilon(setting("reyes-kelly2", 0), FALSIFIED[0] * F(11, 10), 50_000)
     assert found.proof is not None
@@ -295,7 +307,15 @@ def test_what_is_false_somewhere_is_not_proved() -> None:
 
 @pytest.mark.parametrize("budget", [0, 1, 2, 10, 1000])
 def test_a_budget_ends_in_not_proved(budget: int) -> None:
-    outcome = cover(START, lambda boxes: small(boxes * 100.0), longest, budget)
+    sizes: list[int] = []
+
+    def prove(boxes: Array) -> NDArray[np.bool_]:
+        points = bool(np.all(boxes[:, 0] == boxes[:, 1]))
+        sizes.append(0 if points else len(boxes))  # points are probes, not boxes of the cover
+        return small(boxes * 100.0)
+
+    outcome = cover(START, prove, longest, budget)
+    assert sum(sizes) <= budget
     assert not outcome.proved
     assert outcome.reason == EXHAUSTED
     assert outcome.tree == ""

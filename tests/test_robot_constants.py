@@ -139,3 +139,8 @@ def test_an_indefinite_inertia_is_not_called_positive() -> None:
     found = robot_constants.__wrapped__(wrong)
     assert found.lambda_min.upper < 0
     assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= found.lambda_min.lower
+
+
+def test_coarse_bound_of_coriolis_counts_every_symbol() -> None:
+    """Two joints have c₁₁₂ = c₁₂₁ = c₁₂₂ = −c₂₁₁ = −k sin q₂: the root of the sum of squares is 2k."""
+    assert room.coarse_k_c(ArmIntervals(load("reyes-kelly2").fixed())) == pytest.approx(0.168, rel=1e-9)
