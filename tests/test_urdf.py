@@ -141,6 +141,19 @@ def test_seven_joints_keep_the_skew_symmetry_exactly() -> None:
                 assert slope == arm.christoffel[i][j][k] + arm.christoffel[j][i][k]
 
 
+def test_pivots_from_the_tip_are_never_below_the_link_alone() -> None:
+    """D_k = det of the trailing block over the next smaller one."""
+    for file, tip in (("ur5", None), ("panda", "panda_hand")):
+        arm = robots.load(ARMS / f"{file}.urdf", tip)
+        rng = np.random.default_rng(5)
+        for mass in NumericModel(arm).mass(rng.uniform(-3, 3, (20, arm.n))):
+            blocks = [np.linalg.det(mass[k:, k:]) for k in range(arm.n)] + [1.0]
+            pivots = [blocks[k] / blocks[k + 1] for k in range(arm.n)]
+            assert all(
+                p >= float(least) * (1 - 1e-9) > 0 for p, least in zip(pivots, arm.least_pivots, strict=True)
+            )
+
+
 # The chain -------------------------------------------------------------------------------------------------
 
 BRANCH = """\

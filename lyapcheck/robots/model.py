@@ -40,6 +40,9 @@ class RobotModel:
         gravity_bound: k_gi where the source prints them, N·m.
         numbers: every number of the arm with its provenance.
         parameters: the numbers with a range that enter M or the potential, in generator order.
+        remarks: what is taken for granted beyond assumed numbers, in sentences.
+        least_pivots: for a chain of exact links a lower bound of each pivot of M, kg·m², for all angles; see
+            `lyapcheck.robots.links.least_pivots`.
 
     Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
     that no source prints.
@@ -61,6 +64,7 @@ class RobotModel:
     numbers: dict[str, Number]
     parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
+    least_pivots: tuple[Fraction, ...] = ()
 
     @property
     def n(self) -> int:

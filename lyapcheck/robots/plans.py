@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
@@ -13,7 +14,7 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import Body, components, read_bodies
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
-from lyapcheck.robots.links import Link, chain
+from lyapcheck.robots.links import Link, chain, least_pivots
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.printed import Printed, is_angle, read_printed
 
@@ -41,6 +42,9 @@ class Plan(Protocol):
     def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
         """M and the potential, with the given polynomials for the numbers."""
 
+    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
+        """Lower bounds of the pivots of M where they are known."""
+
 
 @dataclass(frozen=True)
 class ChainPlan:
@@ -64,12 +68,18 @@ class ChainPlan:
 
     def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
         """M and the potential of the chain."""
-        links = [
-            _link(ring, joint.name, body, numbers)
-            for joint, body in zip(self.joints, self.bodies, strict=True)
-        ]
         zero = trig.constant(ring, 0)
-        return chain(ring, links, [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"])
+        return chain(
+            ring, self._links(ring, numbers), [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"]
+        )
+
+    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
+        """The moments of the links about their own joints."""
+        return least_pivots(self._links(ring, numbers))
+
+    def _links(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[Link]:
+        bodies = zip(self.joints, self.bodies, strict=True)
+        return [_link(ring, joint.name, body, numbers) for joint, body in bodies]
 
 
 @dataclass(frozen=True)
@@ -92,6 +102,10 @@ class PrintedPlan:
     def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
         """M and the potential as printed."""
         return self.printed.build(ring, numbers)
+
+    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
+        """None: what is printed need not come from bodies."""
+        return ()
 
 
 def read_plan(top: ArmFields) -> Plan | None:
