@@ -1,0 +1,25 @@
+"""Plants the faults, decides them, writes reports/refutations.md; exit code 1 if a false one is proved."""
+
+from __future__ import annotations
+
+import sys
+
+from tests.refutations.report import REPORT, markdown, summary
+from tests.refutations.suite import LEAST, outcomes, planted, wrongly_proved
+
+
+def main() -> int:
+    """Run the whole suite."""
+    plan = planted()
+    found = outcomes(plan.false)
+    REPORT.parent.mkdir(exist_ok=True)
+    REPORT.write_text(markdown(plan, found), encoding="utf-8")
+    print(summary(found))
+    wrong = wrongly_proved(found)
+    for name in wrong:
+        print(f"false, yet proved: {name}")
+    return int(bool(wrong) or len(found) < LEAST)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

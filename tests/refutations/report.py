@@ -1,0 +1,96 @@
+"""The report of the refutation suite: one table by kind of fault, one by proof, and what stayed undecided."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from lyapcheck.verdicts import Verdict
+from tests.refutations.mutations import RULES
+from tests.refutations.oracle import DIGITS, SEED
+from tests.refutations.statements import MEMBER
+from tests.refutations.suite import Outcome, Planted
+
+REPORT = Path(__file__).parents[2] / "reports" / "refutations.md"
+COLUMNS = (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED, Verdict.ERROR)
+INTRODUCTION = f"""\
+A program changes the statements of the proofs in `proofs/` in one place each (for the arm and the gains of the
+paper, m = {MEMBER}). A change counts as a planted fault if an independent evaluation to {DIGITS} digits finds a point
+at which the changed statement clearly fails (seed {SEED}); changes that leave a statement true, or that are
+not known to make it false, are not counted. `proved` must be 0. Written by `python -m tests.refutations`.
+"""
+
+
+def summary(found: list[Outcome]) -> str:
+    """One line with the figures."""
+    counts = Counter(outcome.verdict for outcome in found)
+    verdicts = ", ".join(f"{counts[verdict]} {verdict.value}" for verdict in COLUMNS)
+    return f"{len(found)} planted faults that are false: {verdicts}"
+
+
+def markdown(plan: Planted, found: list[Outcome]) -> str:
+    """The whole report."""
+    lines = [
+        "# Refutation suite",
+        "",
+        summary(found) + ".",
+        "",
+        *INTRODUCTION.splitlines(),
+        "",
+        "## By kind of fault",
+        "",
+        *_table("fault", RULES, found, lambda o: o.fault.kind, plan.others),
+        "",
+        "## By proof",
+        "",
+        *_table("proof", _proofs(found), found, lambda o: o.fault.part.proof, None),
+        "",
+        "## By kind of statement",
+        "",
+        *_table("statement", _kinds(found), found, _kind, None),
+        "",
+        *_listed("Undecided", [o.fault.name for o in found if o.verdict is Verdict.UNDECIDED]),
+        *_listed("False as they stand in the proofs, so not changed", plan.broken),
+        *_listed("No numbers to judge them by, so not changed", plan.unjudged),
+    ]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _table(
+    title: str,
+    rows: Iterable[str],
+    found: list[Outcome],
+    key: Callable[[Outcome], str],
+    others: Counter[str] | None,
+) -> list[str]:
+    counts = Counter((key(outcome), outcome.verdict) for outcome in found)
+    more = ["not known to be false"] if others is not None else []
+    heads = [title, "false", *(verdict.value for verdict in COLUMNS), *more]
+    lines = [_row(heads), _row(["---"] + ["---:"] * (len(heads) - 1))]
+    for row in rows:
+        cells = [counts[row, verdict] for verdict in COLUMNS]
+        tail = [others[row]] if others is not None else []
+        lines.append(_row([row, sum(cells), *cells, *tail]))
+    return lines
+
+
+def _row(cells: list[object] | list[str]) -> str:
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def _kind(outcome: Outcome) -> str:
+    return type(outcome.fault.statement).__name__
+
+
+def _kinds(found: list[Outcome]) -> list[str]:
+    return sorted({_kind(outcome) for outcome in found})
+
+
+def _proofs(found: list[Outcome]) -> list[str]:
+    return sorted({outcome.fault.part.proof for outcome in found})
+
+
+def _listed(title: str, names: Iterable[str]) -> list[str]:
+    items = [f"- {name}" for name in names]
+    return [f"## {title}", "", *items, ""] if items else []

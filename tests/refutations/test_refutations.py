@@ -1,0 +1,190 @@
+"""False statements are never proved: planted faults, and that the suite would see an unsound prover."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from mpmath import mp, mpf
+
+from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.claims import (
+    Constant,
+    Implies,
+    Relation,
+    Statement,
+    agrees,
+    dh,
+    diff,
+    expr,
+    for_all,
+    gamma,
+    h,
+    identity,
+    implies,
+    majorant,
+    nonnegative,
+    norm_bound,
+    norm_chain,
+    positive,
+    sqrt,
+    tanh,
+    var,
+)
+from lyapcheck.verdicts import Verdict
+from tests.refutations.mutations import RULES, faults_of
+from tests.refutations.oracle import DIGITS, family_number, is_false
+from tests.refutations.report import markdown, summary
+from tests.refutations.statements import Part, parts
+from tests.refutations.suite import LEAST, outcomes, planted, verdict_of, wrongly_proved
+
+SHARE = 6
+"""The fast test decides one planted fault in so many."""
+
+x, a, b = var("x"), var("a"), var("b")
+
+
+def test_there_are_enough_faults_of_every_kind() -> None:
+    kinds = Counter(fault.kind for fault in planted().false)
+    assert len(planted().false) >= LEAST
+    assert set(kinds) == set(RULES)
+
+
+def test_a_share_of_the_false_statements_is_not_proved() -> None:
+    found = outcomes(planted().false[::SHARE])
+    assert wrongly_proved(found) == []
+    assert Verdict.ERROR not in {outcome.verdict for outcome in found}
+    assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
+
+
+@pytest.mark.slow
+def test_no_false_statement_is_proved() -> None:
+    found = outcomes(planted().false)
+    assert wrongly_proved(found) == []
+    assert Verdict.ERROR not in {outcome.verdict for outcome in found}
+    assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
+    assert markdown(planted(), found) == markdown(planted(), outcomes(planted().false))
+
+
+def credulous(statement: Statement) -> Verdict:
+    """Proves everything."""
+    return Verdict.PROVED
+
+
+def blind_to_strictness(statement: Statement) -> Verdict:
+    """Takes < in what is claimed for ≤."""
+    if isinstance(statement, Implies) and statement.conclusion.strict:
+        statement = replace(statement, conclusion=_weak(statement.conclusion))
+    elif hasattr(statement, "relation"):
+        statement = replace(statement, relation=_weak(statement.relation))
+    return verdict_of(statement)
+
+
+def _weak(relation: Relation) -> Relation:
+    return replace(relation, operator="<=")
+
+
+def blind_to_constants(statement: Statement) -> Verdict:
+    """Compares the symbols of products of norms and forgets their constants."""
+    if hasattr(statement, "factors"):
+        statement = replace(statement, bound=replace(statement.bound, constant=("num", "1000000")))
+    return verdict_of(statement)
+
+
+def blind_to_digits(statement: Statement) -> Verdict:
+    """Takes numbers that differ by a hundredth for equal."""
+    if isinstance(statement, Constant):
+        left, right = statement.relation.left, statement.relation.right
+        raised = ("mul", ("num", "101/100"), right)
+        statement = Constant(replace(statement.relation, left=left, right=raised))
+    return verdict_of(statement)
+
+
+@pytest.mark.parametrize("unsound", [credulous, blind_to_strictness, blind_to_constants, blind_to_digits])
+def test_an_unsound_procedure_is_caught(unsound: object) -> None:
+    suspects = [f for f in planted().false if f.kind in SUSPECT]
+    assert wrongly_proved(outcomes(suspects, by=unsound))  # type: ignore[arg-type]
+
+
+SUSPECT = ("strict for weak", "factor of two", "√n missing", "constant rounded the wrong way")
+
+
+def test_the_suite_sees_one_proof_too_many() -> None:
+    """A verdict that is wrong for a single fault turns up, by the name of that fault."""
+    target = planted().false[7]
+
+    def nearly_sound(statement: Statement) -> Verdict:
+        return Verdict.PROVED if statement == target.statement else Verdict.REFUTED
+
+    assert wrongly_proved(outcomes(planted().false, by=nearly_sound)) == [target.name]
+
+
+FALSE = {
+    "an identity": identity(diff(h(2, x), "x"), dh(3, x)),
+    "below on part of the line": for_all(h(2, x) <= "1.05"),
+    "equality at an end": for_all(tanh(x) < x, 0),
+    "numbers": Constant(sqrt(3) < "1.732"),
+    "equal numbers": Constant(expr("0.5") < "1/2"),
+    "a norm": norm_bound(h(3, x), 4, gamma(3)),
+    "transitivity": implies(positive("a", "b"), (a <= b,), a < b),
+    "equality at a zero": implies(nonnegative("a", "b"), (), expr(0) < a + b),
+    "rounding": agrees(a * 2, "8", a="3"),
+    "norms": norm_chain([(majorant(2, w=1),)], majorant("1.9", w=1)),
+}
+TRUE = {
+    "an identity": identity(diff(h(2, x), "x"), dh(2, x)),
+    "below on the line": for_all(h(2, x) <= "1.054"),
+    "equality at an open end": for_all(tanh(x) < x, 0, open_low=True),
+    "numbers": Constant(sqrt(3) < "1.7321"),
+    "equal numbers": Constant(expr("0.5") <= "1/2"),
+    "a norm": norm_bound(h(3, x), 4, 2 * gamma(3)),
+    "a border that rounding only seems to cross": implies(
+        positive("a", "b"), (a < sqrt(3) * b,), a / sqrt(3) < b
+    ),
+    "rounding": agrees(a * b, "0.01", a="0.06", b="0.133"),
+    "norms": norm_chain([(majorant(eps=2),)], majorant(eps=1, eps0=1), (("eps", "eps0"),)),
+}
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_the_oracle_finds_what_is_false(name: str) -> None:
+    assert is_false(FALSE[name])
+
+
+@pytest.mark.parametrize("name", TRUE)
+def test_the_oracle_breaks_nothing_that_is_true(name: str) -> None:
+    assert not is_false(TRUE[name])
+
+
+@pytest.mark.parametrize("m", [2, 3, 5])
+def test_the_oracle_has_its_own_constants_and_they_agree(m: int) -> None:
+    certified = hyperbolic_constants(m)
+    with mp.workdps(DIGITS):
+        for name, enclosure in (("gamma", certified.gamma), ("rho", certified.rho), ("L", certified.L)):
+            own = Fraction(str(mpf(family_number(name, m))))
+            assert abs(own - enclosure.mid) < Fraction(1, 10**25), name
+
+
+def test_what_is_proved_of_the_proofs_is_not_broken_by_the_oracle() -> None:
+    """Two opinions on the statements as they stand: proved here, a failing point there, cannot both be."""
+    for part in parts():
+        if part.where in planted().broken:
+            assert verdict_of(part.statement) is not Verdict.PROVED, part.where
+
+
+def test_faults_change_one_place_and_keep_to_the_names_of_the_statement() -> None:
+    part = Part("example", "1", "", implies(positive("gamma", "b"), (var("gamma") < b,), var("gamma") <= b))
+    faults = faults_of(part)
+    assert {fault.kind for fault in faults} >= {"≥ for ≤", "strict for weak", "hypothesis dropped"}
+    assert all(fault.statement != part.statement for fault in faults)
+    assert not [fault for fault in faults if "rho" in str(fault.statement)]
+
+
+def test_the_same_input_gives_the_same_report() -> None:
+    found = outcomes(planted().false, by=credulous)
+    text = markdown(planted(), found)
+    assert text == markdown(planted(), outcomes(planted().false, by=credulous))
+    assert summary(found) in text
+    assert f"| {len(found)} |" not in text.splitlines()[0]
