@@ -12,7 +12,7 @@ import typer
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
 
-COMMANDS = ("check", "epsilon", "explain", "gate", "recheck", "report", "simulate", "table")
+COMMANDS = ("check", "epsilon", "explain", "gate", "recheck", "report", "robot", "simulate", "table")
 
 
 def _version(wanted: bool) -> None:

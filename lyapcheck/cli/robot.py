@@ -1,0 +1,48 @@
+"""``lyapcheck robot``."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from lyapcheck.cli.progress import progress
+
+
+class RobotFormat(StrEnum):
+    """How the report is written."""
+
+    TEXT = "text"
+    JSON = "json"
+    MARKDOWN = "markdown"
+
+
+def command(
+    robot: Annotated[
+        str, typer.Argument(help="A built-in arm, or an arm file (.toml, .urdf).", metavar="NAME|FILE")
+    ],
+    tip: Annotated[
+        str | None, typer.Option(help="For a URDF: the link that ends the chain. Default: the longest chain.")
+    ] = None,
+    max_boxes: Annotated[int, typer.Option(help="Budget of boxes for each constant.", min=1)] = 20_000,
+    format: Annotated[RobotFormat, typer.Option(help="How to write it.")] = RobotFormat.TEXT,  # noqa: A002
+) -> None:
+    """Decide properties 2.1–2.8 of an arm and certify its constants from both sides.
+
+    λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it; friction, torque
+    limits, and every number with its source. A constant whose budget of boxes ends is enclosed more widely.
+
+    Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
+    """
+    from lyapcheck.robots import load
+
+    model = load(robot, tip)
+    from lyapcheck.robot_report import build
+    from lyapcheck.robot_report.formats import renderer
+
+    with progress("robot") as advance:
+        report = build(model, max_boxes, advance)
+    sys.stdout.write(renderer(format.value)(report))
+    raise typer.Exit(int(report.exit_code))

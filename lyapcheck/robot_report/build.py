@@ -1,0 +1,57 @@
+"""Putting the report of an arm together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.robot_report.properties import Property, properties
+from lyapcheck.robots import RobotModel
+from lyapcheck.search.arm_constants import MAX_BOXES, Constant, arm_constants
+from lyapcheck.verdicts import Exit, exit_code
+
+Progress = Callable[[float, str], None]
+SMALL = 3
+"""Up to so many joints a search over directions pays for k_c, and the paper's script decides in seconds."""
+
+
+@dataclass(frozen=True)
+class RobotReport:
+    """An arm with what was decided and certified about it, at its nominal parameters."""
+
+    model: RobotModel
+    properties: tuple[Property, ...]
+    constants: tuple[Constant, ...]
+
+    @property
+    def exit_code(self) -> Exit:
+        """0 all properties proved, 1 one refuted, 3 one undecided."""
+        return exit_code(row.verdict for row in self.properties)
+
+
+def build(model: RobotModel, max_boxes: int = MAX_BOXES, on_progress: Progress | None = None) -> RobotReport:
+    """Certify the constants of an arm and decide its properties.
+
+    Args:
+        model: the arm.
+        max_boxes: budget of each constant.
+        on_progress: told the share of the work done.
+    """
+    constants = arm_constants(model, max_boxes, on_progress=on_progress)
+    if model.n <= SMALL:
+        constants = tuple(_sharper(model, item) if item.name == "k_c" else item for item in constants)
+    if on_progress is not None:
+        on_progress(1.0, "properties 2.1–2.8")
+    return RobotReport(model, properties(model, constants, by_script=model.n <= SMALL), constants)
+
+
+def _sharper(model: RobotModel, constant: Constant) -> Constant:
+    """k_c between the better ends of two searches, both of which hold."""
+    from lyapcheck.search.robot_constants import robot_constants
+
+    other = robot_constants(model)
+    lower = max(constant.enclosure.lower, other.k_c.lower)
+    upper = min(constant.enclosure.upper, other.k_c.upper)
+    state = constant.state if lower == constant.enclosure.lower else other.k_c_at
+    return replace(constant, enclosure=Enclosure(lower, upper), state=state)

@@ -1,0 +1,63 @@
+"""The inertia matrix, gravity and Christoffel symbols of an arm over boxes of angles."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.robots import RobotModel, trig
+from lyapcheck.search.torus import Torus
+from lyapcheck.search.waves import Waves, derivative, waves
+
+Array = NDArray[np.float64]
+
+
+class ArmWaves:
+    """The polynomials of an arm, its parameters at nominal values, ready for boxes."""
+
+    def __init__(self, model: RobotModel) -> None:
+        self.n = n = model.n
+        fixed = model.fixed()
+        self.places = [(i, j) for i in range(n) for j in range(i + 1)]
+        self.waves: dict[tuple[int, int], Waves] = {
+            (i, j): waves(trig.to_terms(fixed.mass[i][j]), n) for i, j in self.places
+        }
+        potential = waves(trig.to_terms(fixed.potential), n)
+        self.gravity = [derivative(potential, i) for i in range(n)]
+        self.mass = Torus([self.waves[place] for place in self.places], n)
+
+    @cached_property
+    def triples(self) -> list[tuple[int, int, int]]:
+        """The i, j, k with k ≤ j of the Christoffel symbols, in the order of ``symbols``."""
+        return [(i, j, k) for i, j, k in product(range(self.n), repeat=3) if k <= j]
+
+    @cached_property
+    def symbols(self) -> Torus:
+        """The Christoffel symbols c_ijk = c_ikj with k ≤ j."""
+        return Torus([self._symbol(*place) for place in self.triples], self.n)
+
+    def _symbol(self, i: int, j: int, k: int) -> Waves:
+        total: Waves = {}
+        parts = ((i, j, k, 1), (i, k, j, 1), (j, k, i, -1))
+        for row, column, angle, sign in parts:
+            for wave, value in derivative(self.waves[max(row, column), min(row, column)], angle).items():
+                total[wave] = total.get(wave, Fraction(0)) + value * sign / 2
+        return {wave: value for wave, value in total.items() if value}
+
+    def matrix(self, entries: Array) -> Array:
+        """The symmetric matrices of the entries on and below the diagonal."""
+        result = np.empty((*entries.shape[:-1], self.n, self.n))
+        for column, (i, j) in enumerate(self.places):
+            result[..., i, j] = result[..., j, i] = entries[..., column]
+        return result
+
+    def tensor(self, entries: Array) -> Array:
+        """The c_ijk of the symbols with k ≤ j, (..., n, n, n)."""
+        result = np.empty((*entries.shape[:-1], self.n, self.n, self.n))
+        for column, (i, j, k) in enumerate(self.triples):
+            result[..., i, j, k] = result[..., i, k, j] = entries[..., column]
+        return result

@@ -1,0 +1,99 @@
+"""Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
+
+Over a box with half widths r a wave with frequencies k turns by at most d = Σ k_i r_i from its value in the
+middle. It moves by at most min(2, d), and by at most d²/2 from its linear part. Waves that turn far are
+bounded by their size, waves that hardly turn by their slope and the square.
+
+Soundness: floating point with the error bounded beforehand: every value is trusted within ``SLACK`` times
+the sum of the sizes of all coefficients, far more than the rounding of sines, products and sums amounts to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.search.wave_basis import basis_of
+from lyapcheck.search.waves import Wave
+
+Array = NDArray[np.float64]
+SLACK = 1e-12
+_NEAR = 1.0
+"""Waves that turn by less than this many radians over half a box are bounded by their slope."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Polynomials on boxes: middle + Σ_i t_i linear_i with |t_i| ≤ 1, up to the radius.
+
+    Args:
+        middle: values in the middles, (boxes, entries).
+        linear: slopes times half widths, one an angle that matters, (boxes, angles, entries).
+        radius: what that leaves, (boxes, entries).
+    """
+
+    middle: Array
+    linear: Array
+    radius: Array
+
+    def corners(self) -> Array:
+        """middle + Σ_i ± linear_i for all signs, (boxes, 2 to the number of angles, entries).
+
+        A convex function of the entries is largest at one of them.
+        """
+        result = self.middle[:, None]
+        for i in range(self.linear.shape[1]):
+            step = self.linear[:, None, i]
+            result = np.concatenate([result + step, result - step], axis=1)
+        return result
+
+
+class Torus:
+    """Several polynomials on boxes of the coordinates that they depend on: angles, or sums of angles.
+
+    Args:
+        entries: the polynomials.
+        n: number of joints.
+    """
+
+    def __init__(self, entries: Sequence[Mapping[Wave, Fraction]], n: int) -> None:
+        self.n = n
+        self._basis, rows = basis_of(entries, n)
+        coefficients = np.zeros((len(self._basis.frequency), len(entries)))
+        for column, entry in enumerate(rows):
+            for row, value in entry.items():
+                coefficients[row, column] = float(value)
+        self._coefficients: Array = coefficients
+        self._sizes: Array = np.abs(coefficients)
+        self.slack: Array = SLACK * self._sizes.sum(axis=0)
+        used = self._sizes.any(axis=1)
+        self.angles = tuple(np.flatnonzero(self._basis.frequency[used].any(axis=0)).tolist())
+
+    def on(self, middle: Array, half: Array) -> Reach:
+        """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
+        at = self._basis.at(middle)
+        turn = half @ self._basis.frequency.T
+        near = turn < _NEAR
+        radius = np.where(near, 0.5 * turn * turn, np.minimum(turn, 2.0)) @ self._sizes + self.slack
+        linear = np.zeros((len(middle), 0, len(self.slack)))
+        if half.any():
+            parts = [
+                (np.where(near, at.slopes(i), 0.0) @ self._coefficients) * half[:, [i]] for i in self.angles
+            ]
+            linear = np.stack(parts, axis=1) if parts else linear
+        return Reach(at.values @ self._coefficients, linear, radius * (1.0 + 1e-9))
+
+    def angles_at(self, p: Array) -> Array:
+        """The joint angles of coordinates (n,), rad, each within one turn around 0."""
+        q = self._basis.back @ p
+        return np.asarray(q - 2 * np.pi * np.round(q / (2 * np.pi)))
+
+    def influence(self, half: Array, weight: Array) -> Array:
+        """How much of the reach each angle causes, roughly, (boxes, n); ``weight`` is one number an entry."""
+        turn = half @ self._basis.frequency.T
+        share = (np.minimum(turn, 2.0) / np.maximum(turn, 1e-300)) * (self._sizes @ weight)
+        return np.asarray(half * (share @ self._basis.frequency))
