@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache, partial
 
 from flint import arb
 
@@ -25,6 +26,7 @@ class Member:
         h: contains h over a ball, dimensionless.
         dh: contains h' over a ball.
         potential: contains U over a ball, U' = h, U(0) = 0.
+        secant: contains h(x)/x over a ball, h'(0) at x = 0.
         gamma: at least sup h.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
@@ -33,6 +35,7 @@ class Member:
     h: Callable[[arb], arb]
     dh: Callable[[arb], arb]
     potential: Callable[[arb], arb]
+    secant: Callable[[arb], arb]
     gamma: Fraction
     rho: Fraction
     L: Fraction
@@ -43,6 +46,7 @@ class Member:
         return Functions(self.h, self.dh, self.potential)
 
 
+@lru_cache(maxsize=256)
 def member(name: str, m: int | None = None) -> Member:
     """A function by name: ``hyperbolic`` with its m, ``tanh``, ``arctan`` or ``algebraic`` (x/√(1+x²)).
 
@@ -59,8 +63,8 @@ def member(name: str, m: int | None = None) -> Member:
 def _hyperbolic(m: int) -> Member:
     found = hyperbolic_constants(m)
     bounds = found.gamma.upper, found.rho.upper, found.L.upper
-    functions = (lambda x: balls.h(m, x)), (lambda x: balls.dh(m, x)), (lambda x: balls.potential(m, x))
-    return Member(*functions, *bounds)
+    h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
+    return Member(h, dh, potential, secant, *bounds)
 
 
 def arctan_h(x: arb) -> arb:
@@ -76,6 +80,11 @@ def arctan_dh(x: arb) -> arb:
 def arctan_potential(x: arb) -> arb:
     """x arctan x − ½ ln(1 + x²), rising away from 0."""
     return balls.even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
+
+
+def arctan_secant(x: arb) -> arb:
+    """arctan(x)/x, falling away from 0."""
+    return balls.even_range(lambda a: arb(1) if a == 0 else a.atan() / a, (), x)
 
 
 def half_pi() -> Enclosure:
@@ -98,12 +107,27 @@ def algebraic_potential(x: arb) -> arb:
     return balls.even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
 
 
+def algebraic_secant(x: arb) -> arb:
+    """1/√(1 + x²), falling away from 0."""
+    return balls.even_range(lambda a: 1 / (1 + a * a).sqrt(), (), x)
+
+
 def _arctan() -> Member:
-    return Member(arctan_h, arctan_dh, arctan_potential, half_pi().upper, Fraction(1), Fraction(1))
+    return Member(
+        arctan_h, arctan_dh, arctan_potential, arctan_secant, half_pi().upper, Fraction(1), Fraction(1)
+    )
 
 
 def _algebraic() -> Member:
-    return Member(algebraic_h, algebraic_dh, algebraic_potential, Fraction(1), Fraction(1), Fraction(1))
+    return Member(
+        algebraic_h,
+        algebraic_dh,
+        algebraic_potential,
+        algebraic_secant,
+        Fraction(1),
+        Fraction(1),
+        Fraction(1),
+    )
 
 
 _SINGLE: dict[str, Callable[[], Member]] = {

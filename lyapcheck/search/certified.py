@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
 from lyapcheck.check.stability import Closure, proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, Progress
@@ -17,20 +18,23 @@ SHARES = tuple(Fraction(n, 1000) for n in (500, 800, 900, 950, 980, 990, 995, 99
 
 DIGITS = 7
 MAX_BOXES = 400_000
+MOST_JOINTS = 3
+"""Boxes of (q, e) have 2n − 1 sides: with more joints the bounds in ‖e‖ alone are what can be had."""
+_MANY_JOINTS = f"boxes of (q, e) are looked at up to {MOST_JOINTS} joints only"
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
 
 
 @dataclass(frozen=True)
 class Proof:
-    """A closure and the tree of boxes by which the checker found dV/dt < 0 for it."""
+    """A closure and the data by which the checker found dV/dt < 0 for it."""
 
     closure: Closure
-    tree: str
+    by: BoxTree | RadialBounds
 
     @property
     def boxes(self) -> int:
-        """How many boxes cover the states."""
-        return self.tree.count(".")
+        """How many boxes the data consist of."""
+        return self.by.tree.count(".")
 
 
 @dataclass(frozen=True)
@@ -70,12 +74,14 @@ def certified_epsilon(
     """
     if not setting.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
+    if setting.n > MOST_JOINTS:
+        return Certified(None, 0, _MANY_JOINTS)
     tell = on_progress or (lambda fraction, note: None)
     found, looked_at, reason = _attempts(setting, ceiling, max_boxes, tell)
     while found:
         proof = found.pop()
         tell(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
-        if proves(proof.closure, proof.tree, jobs):
+        if proves(proof.closure, proof.by.tree, jobs):
             return Certified(proof, looked_at, reason)
         reason = f"the boxes found for ε₀ = {float(proof.closure.eps0):.6g} were refused by the checker"
     return Certified(None, looked_at, reason)
@@ -96,7 +102,7 @@ def _attempts(
         looked_at += outcome.boxes
         if not outcome.proved:
             return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)
-        found.append(Proof(closure, outcome.tree))
+        found.append(Proof(closure, BoxTree(outcome.tree)))
     return found, looked_at, ""
 
 

@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.states import confirms_positive
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
-from lyapcheck.search.certified import MAX_BOXES, Proof, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, Certified, Proof, certified_epsilon
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
+from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.robot_constants import robot_bounds
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting
@@ -150,9 +151,8 @@ def epsilon(
         jobs,
         lambda f, note: tell(0.35 + 0.65 * f, note),
     )
-    reasons["certified"] = found.reason
-    scalars = scalar.eps0 if ranges else sharp.eps0
-    certified, by = _larger((found.eps0, "branch and bound"), (scalars, "scalar certificate"))
+    proof, by, reasons["certified"] = _best(setting, found)
+    certified = proof.closure.eps0 if proof is not None else None if ranges else sharp.eps0
     require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
     return EpsilonResult(
         name=gain_set.name,
@@ -164,7 +164,7 @@ def epsilon(
         falsified=hint,
         witness=witness,
         boxes=found.looked_at,
-        proof=found.proof,
+        proof=proof,
         against=_refutation(setting, at, witness),
         ranges=ranges,
         corner=_corner(at) if ranges else {},
@@ -181,6 +181,15 @@ def _falsified(setting: Setting, starts: int, seed: int, tell: Progress) -> tupl
     if setting.ranges:
         return falsify_corners(setting, starts, seed, tell)
     return setting, falsify(setting, starts, seed=seed, on_progress=tell)
+
+
+def _best(setting: Setting, found: Certified) -> tuple[Proof | None, str, str]:
+    """The proof of the larger ε₀, what it is called, and what more could be tried."""
+    if found.proof is None:
+        radial = radial_epsilon(setting)
+        by = "scalar certificate" if radial is None else "bounds in ‖e‖ alone"
+        return radial, by, found.reason
+    return found.proof, "branch and bound", found.reason
 
 
 def _refutation(setting: Setting, at: Setting, witness: Witness | None) -> Refutation | None:
@@ -219,15 +228,6 @@ def _published(
     if limit is None:
         return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
     return round_down(limit.lower, _DIGITS), ""
-
-
-def _larger(*offers: tuple[Fraction | None, str]) -> tuple[Fraction | None, str]:
-    """The largest ε₀ that is certified at all, and by what."""
-    best: tuple[Fraction | None, str] = None, ""
-    for eps0, by in offers:
-        if eps0 is not None and (best[0] is None or eps0 > best[0]):
-            best = eps0, by
-    return best
 
 
 def require_consistent(

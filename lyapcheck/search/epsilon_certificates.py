@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from lyapcheck.check.certificates.document import About, Certificate
-from lyapcheck.check.certificates.proofs import BoxTree, Proof, StateWitness
+from lyapcheck.check.certificates.proofs import Proof, StateWitness
 from lyapcheck.check.certificates.statements import Decreasing
 from lyapcheck.files import decimal_text
 
@@ -22,8 +22,9 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     """Certificates by file name; an ε₀ that the scalar form alone gives has none here."""
     stem, found = quote(result.name, safe=""), {}
     if result.proof is not None:
-        proof = BoxTree(result.proof.tree)
-        found[f"{stem}.certified.json"] = _certificate(result, result.proof.closure, "proved", proof)
+        found[f"{stem}.certified.json"] = _certificate(
+            result, result.proof.closure, "proved", result.proof.by
+        )
     if result.witness is not None and result.against is not None:
         state, against = result.witness.state, result.against
         proof_against = StateWitness(against.viscous, against.parameters, state.q, state.e, state.w)

@@ -201,6 +201,18 @@ class BoxTree(Proof):
 
 
 @dataclass(frozen=True)
+class RadialBounds(Proof):
+    """Bounds of the parts of dV/dt in ‖e‖ alone: weights, μ, the boxes of some angles behind it, and cuts."""
+
+    rule = "bounds in ‖e‖"
+    weights: tuple[Fraction, ...]
+    inertia: Fraction
+    angles: tuple[int, ...]
+    tree: str
+    cuts: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
 class StateWitness(Proof):
     """An arm within the ranges and a state of it at which dV/dt > 0."""
 

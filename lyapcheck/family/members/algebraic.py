@@ -55,7 +55,7 @@ class Algebraic(ElementaryFamily):
 
     def ball_secant(self, x: arb) -> arb:
         """1/√(1 + x²), falling away from 0."""
-        return even_range(lambda a: (1 + a * a).rsqrt(), (), x)
+        return members.algebraic_secant(x)
 
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ = ρ = L = 1; h reaches γ only in the limit."""

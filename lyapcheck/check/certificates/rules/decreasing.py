@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lyapcheck.check.certificates.proofs import BoxTree, StateWitness
+from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds, StateWitness
 from lyapcheck.check.certificates.refusal import Refused, require
 from lyapcheck.check.certificates.statements import Decreasing, Ends, Monomials
 from lyapcheck.check.certificates.verify import Accepted, rule
 from lyapcheck.check.members import member
 from lyapcheck.check.stability import Closure, proves
+from lyapcheck.check.stability.radial import Radial, proves_radially
 from lyapcheck.check.states import Arm, Controller, State, confirms_positive
 
 
@@ -24,6 +25,15 @@ def by_tree(statement: Decreasing, proof: BoxTree) -> Accepted:
     require(closure.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
     if not proves(closure, proof.tree):
         raise Refused("tree", f"of {proof.tree.count('.')} boxes", "has a box on which P ≻ 0 is not shown")
+    return Accepted("proved", "enclosure")
+
+
+@rule(Decreasing, RadialBounds)
+def by_radial_bounds(statement: Decreasing, proof: RadialBounds) -> Accepted:
+    """Soundness: ``lyapcheck.check.stability.radial``."""
+    data = Radial(proof.weights, proof.inertia, proof.angles, proof.tree, proof.cuts)
+    if not proves_radially(closure_of(statement), data):
+        raise Refused("bounds", "", "do not show dV/dt < 0 at every ‖e‖")
     return Accepted("proved", "enclosure")
 
 

@@ -1,0 +1,176 @@
+"""Proofs in ‖e‖ alone: what they bound, and what they must refuse."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.balls import precision
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.proofs import RadialBounds
+from lyapcheck.check.stability import BrokenTree, Closure
+from lyapcheck.check.stability.closure import root_above
+from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, proves_radially
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.family import named
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.certified import Proof
+from lyapcheck.search.epsilon_certificates import statement
+from lyapcheck.search.radial import radial_epsilon
+from lyapcheck.search.setting import Setting
+
+F = Fraction
+CASES = [("reyes-kelly2", "table2_shoulder_elbow", index) for index in range(3)]
+CASES += [("buap3", "table2", index) for index in range(3)]
+FALSIFIED = {
+    ("reyes-kelly2", 0): "0.8105604",
+    ("reyes-kelly2", 1): "0.9263772",
+    ("reyes-kelly2", 2): "0.6361997",
+    ("buap3", 0): "0.1344734",
+    ("buap3", 1): "0.1665327",
+    ("buap3", 2): "0.1046635",
+}
+"""What an explicit state refutes, see the falsifier."""
+
+
+def setting(robot: str, gains: str, index: int) -> Setting:
+    return Setting(read_gain_file(paper_gain_file(gains)).gains[index], load(robot))
+
+
+@cache
+def proof(robot: str, gains: str, index: int) -> Proof:
+    found = radial_epsilon(setting(robot, gains, index))
+    assert found is not None
+    return found
+
+
+def data_of(found: Proof) -> Radial:
+    assert isinstance(found.by, RadialBounds)
+    by = found.by
+    return Radial(by.weights, by.inertia, by.angles, by.tree, by.cuts)
+
+
+@pytest.mark.parametrize(("robot", "gains", "index"), CASES)
+def test_it_proves_less_than_what_is_refuted(robot: str, gains: str, index: int) -> None:
+    found, limit = proof(robot, gains, index), F(FALSIFIED[robot, index])
+    assert 0 < found.closure.eps0 < limit
+    assert proves_radially(found.closure, data_of(found))
+    assert not proves_radially(replace(found.closure, eps0=limit), data_of(found))
+
+
+@pytest.mark.parametrize(("robot", "gains", "index"), CASES)
+def test_parts_bound_what_they_say_at_random_states(robot: str, gains: str, index: int) -> None:
+    """The parts of S, and wᵀPw, by NumPy at states of all sizes."""
+    case, found = setting(robot, gains, index), proof(robot, gains, index)
+    data, model, n = data_of(found), NumericModel(load(robot)), case.n
+    family = named(case.gains.family, case.gains.m)
+    d = np.array([float(x) for x in data.weights])
+    scale = 1 / np.outer(d, d)
+    with precision(BITS):
+        parts = Parts(found.closure, data)
+        kappa, coriolis = float(parts.turning.upper()), float(parts.coriolis.upper())
+    random = np.random.default_rng(index)
+    for _ in range(200):
+        q, e = random.uniform(-np.pi, np.pi, n), random.normal(size=n) * 10 ** random.uniform(-2, 1)
+        h = family.h(e)
+        C = model.coriolis(q, h) * scale
+        assert np.linalg.norm(model.mass(q) * scale, 2) < float(data.inertia)
+        assert np.linalg.norm(C, 2) <= coriolis * np.linalg.norm(h) + 1e-12
+        assert np.linalg.norm(C + C.T, 2) / 2 <= kappa * np.linalg.norm(h) + 1e-12
+
+
+@pytest.mark.parametrize(("robot", "gains", "index"), CASES[:4])
+def test_the_inequality_is_below_the_smallest_eigenvalue_of_P(robot: str, gains: str, index: int) -> None:
+    case, found = setting(robot, gains, index), proof(robot, gains, index)
+    model, n, eps0 = NumericModel(load(robot)), case.n, float(found.closure.eps0)
+    family = named(case.gains.family, case.gains.m)
+    d = np.array([float(x) for x in data_of(found).weights])
+    L, kp, kv = float(family.constants().L.upper), case.kp, case.kv
+    random = np.random.default_rng(index)
+    for _ in range(300):
+        q, e = random.uniform(-np.pi, np.pi, n), random.normal(size=n) * 10 ** random.uniform(-2, 1)
+        h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
+        M, B, eps = model.mass(q), np.diag(model.viscous), eps0 / (1 + r)
+        S = model.coriolis(q, h) + np.outer(M @ h, e / r) / (1 + r) - M @ np.diag(dh)
+        X = B + eps * S
+        P = B + eps * (S + S.T) / 2 - eps / 4 * X.T @ np.diag(1 / (kp - eps0 * L * kv / 4)) @ X
+        assert np.linalg.eigvalsh(P / np.outer(d, d))[0] > 0
+
+
+WORSE = {
+    "μ too small": lambda data: replace(data, inertia=data.inertia / 2),
+    "μ negative": lambda data: replace(data, inertia=-data.inertia),
+    "weights too large": lambda data: replace(data, weights=tuple(2 * d for d in data.weights)),
+    "a weight of 0": lambda data: replace(data, weights=(F(0), *data.weights[1:])),
+    "too few weights": lambda data: replace(data, weights=data.weights[1:]),
+    "cuts from 1": lambda data: replace(data, cuts=tuple(1 + x for x in data.cuts)),
+    "cuts that fall": lambda data: replace(data, cuts=(F(0), F(2), F(1))),
+    "no cuts": lambda data: replace(data, cuts=()),
+    "one wide cut": lambda data: replace(data, cuts=(F(0), F(50))),
+    "a joint twice": lambda data: replace(data, angles=(1, 1)),
+    "an unknown joint": lambda data: replace(data, angles=(1, 7)),
+}
+
+
+@pytest.mark.parametrize("name", WORSE)
+def test_data_changed_for_the_worse_prove_nothing(name: str) -> None:
+    found = proof(*CASES[3])
+    assert not proves_radially(found.closure, WORSE[name](data_of(found)))
+
+
+def test_a_broken_tree_is_refused() -> None:
+    found = proof(*CASES[3])
+    with pytest.raises(BrokenTree):
+        proves_radially(found.closure, replace(data_of(found), tree="0."))
+    with pytest.raises(Refused):
+        verify(statement(found.closure), replace(found.by, tree="0."))
+
+
+def test_certificates_are_judged_by_the_same_rule() -> None:
+    found = proof(*CASES[3])
+    assert verify(statement(found.closure), found.by).verdict == "proved"
+    larger = replace(found.closure, eps0=2 * found.closure.eps0)
+    with pytest.raises(Refused, match="do not show"):
+        verify(statement(larger), found.by)
+
+
+def test_parameters_with_ranges_are_not_covered() -> None:
+    found = proof(*CASES[3])
+    ranged = replace(setting(*CASES[3]), ranges=True)
+    assert not proves_radially(ranged.closure(found.closure.eps0), data_of(found))
+    assert radial_epsilon(ranged) is None
+
+
+def test_friction_of_0_has_no_proof() -> None:
+    found = proof(*CASES[0])
+    free = replace(found.closure, viscous=((F(0), F(0)),) * 2)
+    assert not proves_radially(free, data_of(found))
+
+
+def test_the_linear_function_has_no_proof() -> None:
+    gains = GainSet("pd", None, (F(60), F(5)), (F(2), F(1)), "linear")
+    assert radial_epsilon(Setting(gains, load("reyes-kelly2"))) is None
+
+
+def test_the_inequality_fails_once_eps0_is_large() -> None:
+    found = proof(*CASES[0])
+    with precision(BITS):
+        parts = Parts(found.closure, data_of(found))
+
+        def shown(closure: Closure) -> bool:
+            return Inequality(closure, parts).shown()
+
+        assert shown(found.closure)
+        assert not shown(replace(found.closure, eps0=found.closure.eps0 * 11 / 10))
+
+
+@pytest.mark.parametrize("value", [F(2), F(1, 3), F(0), F(10**12), F(1, 10**30)])
+def test_roots_are_rounded_up(value: Fraction) -> None:
+    root = root_above(value)
+    assert root * root >= value
+    assert root * root - value <= F(3, 10**12) * (1 + root)
