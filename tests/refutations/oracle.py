@@ -37,7 +37,8 @@ Point = dict[str, Any]
 DIGITS = 50
 SEED = 1871
 SAMPLES = 6_000
-CONFIRMED = 24
+CONFIRMED = 16
+BORDER = 3
 CLEAR = mpf(10) ** -20
 EQUAL = mpf(10) ** -40
 ALIAS = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
@@ -284,8 +285,8 @@ def _tried(variables: tuple[Variable, ...], given: tuple[Relation, ...], wanted:
     score = np.where(fits, _lowest(wanted, points), np.inf)
     order = np.argsort(score, kind="stable")[:CONFIRMED]
     yield from (_exactly(points, k) for k in order)
-    for k in range(CONFIRMED):
-        point = _exactly(points, int(order[k]) if k < CONFIRMED // 2 else k)
+    for k in (*order[:BORDER], *range(BORDER)):
+        point = _exactly(points, int(k))
         yield _to_border(point, given, variables)
     ends = {v.name: mpf(float(v.low or 0)) for v in variables if v.low is None or not v.strict}
     for at_end in [ends, *({name: end} for name, end in ends.items())]:
@@ -308,9 +309,14 @@ def _to_border(point: Point, given: tuple[Relation, ...], variables: tuple[Varia
     return point
 
 
+def _difference(relation: Relation, point: Point) -> mpf:
+    memo: dict[int, Any] = {}
+    return value(relation.right, point, mpmath, memo) - value(relation.left, point, mpmath, memo)
+
+
 def _root(point: Point, relation: Relation, variable: Variable) -> mpf | None:
     try:
-        at = [_gap(relation, point | {variable.name: mpf(t)})[0] for t in (1, 2, 3)]
+        at = [_difference(relation, point | {variable.name: mpf(t)}) for t in (1, 2, 3)]
     except (ZeroDivisionError, ValueError, OverflowError, TypeError):
         return None
     slope = at[1] - at[0]

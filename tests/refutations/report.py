@@ -15,10 +15,10 @@ from tests.refutations.suite import Outcome, Planted
 REPORT = Path(__file__).parents[2] / "reports" / "refutations.md"
 COLUMNS = (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED, Verdict.ERROR)
 INTRODUCTION = f"""\
-A program changes the statements of the proofs in `proofs/` in one place each (for the arm and the gains of the
-paper, m = {MEMBER}). A change counts as a planted fault if an independent evaluation to {DIGITS} digits finds a point
-at which the changed statement clearly fails (seed {SEED}); changes that leave a statement true, or that are
-not known to make it false, are not counted. `proved` must be 0. Written by `python -m tests.refutations`.
+A program changes the statements of the proofs in `proofs/` in one place each (m = {MEMBER}, the arm and
+gains of the paper). A change counts as a planted fault if an independent evaluation to {DIGITS} digits finds
+a point at which the changed statement clearly fails (seed {SEED}); changes that leave a statement true, or
+not known to be false, are not counted. `proved` must be 0. Written by `python -m tests.refutations`.
 """
 
 
