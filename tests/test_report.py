@@ -20,6 +20,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.bars import epsilon_figure, indices_figure
+from lyapcheck.report.figures.claims import claims_figure, layout, tied
 from lyapcheck.report.figures.motion import errors_figure, torques_figure
 from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Report
@@ -242,3 +243,14 @@ def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_pa
     assert expected in said
     assert result.exit_code != 0
     assert not out.exists()
+
+
+def test_claims_stand_right_of_what_they_use() -> None:
+    names = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["x"], "e": []}
+    rows = [{"id": name, "uses": uses, "broken": [], "verdict": "proved"} for name, uses in names.items()]
+    chosen = tied(rows)
+    places = layout(chosen)
+    assert sorted(places) == ["a", "b", "c"]
+    assert places["a"][0] < places["b"][0] < places["c"][0]
+    assert len(set(places.values())) == 3
+    assert claims_figure(rows) == claims_figure(rows)

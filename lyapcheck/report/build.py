@@ -82,7 +82,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         claims=claims,
         runs=runs,
         findings=findings(claims, gate, epsilon, runs),
-        figures=draw(subject.ms, epsilon, [part.run for part in parts]),
+        figures=draw(subject.ms, claims, epsilon, [part.run for part in parts]),
         versions={name: version(name) for name in PACKAGES},
         seed=SEED,
     )

@@ -13,12 +13,17 @@ if TYPE_CHECKING:
 KINDS = ("published", "scalar", "certified", "falsified")
 
 
-def draw(ms: Sequence[int], epsilon: Sequence[Data], runs: Sequence[RunData]) -> dict[str, str]:
+def draw(
+    ms: Sequence[int], claims: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[RunData]
+) -> dict[str, str]:
     """SVG text by file name; a comparison that has nothing to compare is left out."""
     from lyapcheck.family import hyperbolic
+    from lyapcheck.report.figures.claims import claims_figure
     from lyapcheck.report.figures.family import family_figure
 
     figures = {"family.svg": family_figure([(f"m = {m}", hyperbolic(m)) for m in ms])}
+    for m in ms:
+        figures[f"claims_m{m}.svg"] = claims_figure([row for row in claims if row["m"] in (m, None)])
     for run in runs:
         figures |= _of_run(run)
     return figures | _comparisons(epsilon, [run.facts for run in runs])
