@@ -150,7 +150,8 @@ def test_pivots_from_the_tip_are_never_below_the_link_alone() -> None:
             blocks = [np.linalg.det(mass[k:, k:]) for k in range(arm.n)] + [1.0]
             pivots = [blocks[k] / blocks[k + 1] for k in range(arm.n)]
             assert all(
-                p >= float(least) * (1 - 1e-9) > 0 for p, least in zip(pivots, arm.least_pivots, strict=True)
+                p >= float(least) * (1 - 1e-9) > 0
+                for p, least in zip(pivots, arm.chain_bounds.pivots, strict=True)
             )
 
 

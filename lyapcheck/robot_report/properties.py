@@ -61,10 +61,13 @@ def properties(model: RobotModel, constants: Sequence[Constant], by_script: bool
     Args:
         model: the arm.
         constants: its certified constants.
-        by_script: whether the paper's proof script decides; its determinants grow too large for many joints,
-            and then the same properties are decided on the polynomials themselves.
+        by_script: whether the paper's proof script is asked first; its determinants grow too large for many
+            joints, and what it leaves open is decided on the polynomials and the constants.
     """
-    rows = _by_script(model) if by_script else _by_polynomials(model, constants)
+    rows = _by_polynomials(model, constants)
+    if by_script:
+        scripted = _by_script(model)
+        rows |= {name: row for name, row in scripted.items() if row.verdict is not Verdict.UNDECIDED}
     if _friction_unknown(model):
         rows["2.7"] = _unknown_friction(model)
     return tuple(Property(name, SAYS[name], rows[name]) for name in IDS)
@@ -108,9 +111,10 @@ def _positive_definite(model: RobotModel, smallest: Constant) -> Finding:
     """Every link about its own joint has a positive moment, or else λmin(M) has a positive lower bound."""
     if any(model.mass[i][j] != model.mass[j][i] for i, j in product(range(model.n), repeat=2)):
         return _undecided("M is not symmetric as polynomials", "comparison of polynomials")
-    if model.least_pivots and min(model.least_pivots) > 0:
+    chain = model.chain_bounds
+    if chain is not None and min(chain.pivots) > 0:
         method = "M = UᵀDU from the tip, where D_k is at least the moment of link k about its own joint"
-        return _proved(Grade.EXACT, method, least_pivots=[decimal_text(x) for x in model.least_pivots])
+        return _proved(Grade.EXACT, method, least_pivots=[decimal_text(x) for x in chain.pivots])
     method = "lower bound of λmin(M) over boxes of angles"
     if smallest.enclosure.lower > 0:
         return _proved(Grade.ENCLOSURE, method, bound=smallest.enclosure.decimals(12)[0])

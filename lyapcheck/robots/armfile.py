@@ -127,5 +127,5 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan) -> Robot
         numbers=numbers,
         parameters=parameters,
         remarks=remarks,
-        least_pivots=plan.least_pivots(ring, polys),
+        chain_bounds=plan.bounds(ring, polys),
     )

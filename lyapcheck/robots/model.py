@@ -13,6 +13,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.robots import trig
+from lyapcheck.robots.chain_bounds import ChainBounds
 from lyapcheck.robots.number import Number
 
 T = TypeVar("T")
@@ -41,8 +42,7 @@ class RobotModel:
         numbers: every number of the arm with its provenance.
         parameters: the numbers with a range that enter M or the potential, in generator order.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
-        least_pivots: for a chain of exact links a lower bound of each pivot of M, kg·m², for all angles; see
-            `lyapcheck.robots.links.least_pivots`.
+        chain_bounds: for a chain of exact links what masses and distances say for all angles.
 
     Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
     that no source prints.
@@ -64,7 +64,7 @@ class RobotModel:
     numbers: dict[str, Number]
     parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
-    least_pivots: tuple[Fraction, ...] = ()
+    chain_bounds: ChainBounds | None = None
 
     @property
     def n(self) -> int:

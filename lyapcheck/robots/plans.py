@@ -5,16 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import Body, components, read_bodies
+from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
-from lyapcheck.robots.links import Link, chain, least_pivots
+from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.printed import Printed, is_angle, read_printed
 
@@ -42,8 +42,8 @@ class Plan(Protocol):
     def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
         """M and the potential, with the given polynomials for the numbers."""
 
-    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
-        """Lower bounds of the pivots of M where they are known."""
+    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
+        """What masses and distances say of M and gravity, where they are known."""
 
 
 @dataclass(frozen=True)
@@ -68,14 +68,15 @@ class ChainPlan:
 
     def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
         """M and the potential of the chain."""
-        zero = trig.constant(ring, 0)
-        return chain(
-            ring, self._links(ring, numbers), [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"]
-        )
+        return chain(ring, self._links(ring, numbers), self._gravity(ring, numbers))
 
-    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
-        """The moments of the links about their own joints."""
-        return least_pivots(self._links(ring, numbers))
+    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
+        """The bounds of the links."""
+        return chain_bounds(self._links(ring, numbers), self._gravity(ring, numbers))
+
+    def _gravity(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[fmpq_mpoly]:
+        zero = trig.constant(ring, 0)
+        return [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"]
 
     def _links(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[Link]:
         bodies = zip(self.joints, self.bodies, strict=True)
@@ -103,9 +104,9 @@ class PrintedPlan:
         """M and the potential as printed."""
         return self.printed.build(ring, numbers)
 
-    def least_pivots(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[Fraction, ...]:
+    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
         """None: what is printed need not come from bodies."""
-        return ()
+        return None
 
 
 def read_plan(top: ArmFields) -> Plan | None:

@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import prod, sqrt
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,9 +38,9 @@ PI_ABOVE = 3.1415926535897936
 GAP = 1e-3
 MAX_BOXES = 60_000
 SEED = 20190301
-_SAMPLES = 2048
-_BLOCK = 128
-_ROUNDS = 60
+_SAMPLES = 1024
+_BLOCK = 64
+_ROUNDS = 40
 _TURNS = 5
 
 
@@ -98,17 +98,26 @@ def arm_constants(
 
         tell(0.0, "sampling")
         found.append(_solve(task, arm.n, max_boxes, gap, tell))
-    least = _from_pivots(model, found[1].enclosure.upper)
-    lower = min(max(found[0].enclosure.lower, least), found[0].enclosure.upper)
-    found[0] = replace(found[0], enclosure=Enclosure(lower, found[0].enclosure.upper))
-    return tuple(found)
+    return tuple(_with_chain(model, constant) for constant in found)
 
 
-def _from_pivots(model: RobotModel, largest: Fraction) -> Fraction:
-    """λmin ≥ det M / λmax^{n−1} ≥ Π d_k / λmax^{n−1} for a chain of links, weak but positive; else 0."""
-    if not model.least_pivots:
-        return Fraction(0)
-    return prod(model.least_pivots, start=Fraction(1)) / largest ** (model.n - 1)
+def _with_chain(model: RobotModel, constant: Constant) -> Constant:
+    """The enclosure met with what the links alone say, which wins where the budget is far too small."""
+    chain, old = model.chain_bounds, constant.enclosure
+    if chain is None:
+        return constant
+    if constant.name == "lambda_min":
+        return replace(constant, enclosure=Enclosure(max(old.lower, chain.lambda_min), old.upper))
+    tops = {"lambda_max": chain.lambda_max, "k_g": _length(chain.gravity)}
+    tops |= {f"k_g{i + 1}": top for i, top in enumerate(chain.gravity)}
+    top = min(old.upper, tops.get(constant.name, old.upper))
+    return replace(constant, enclosure=Enclosure(old.lower, top))
+
+
+def _length(vector: Sequence[Fraction]) -> Fraction:
+    """The length of a vector, rounded up."""
+    square = sum((x * x for x in vector), Fraction(0))
+    return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from flint import fmpq_mpoly_ctx
 
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
-from lyapcheck.robots.links import Link, chain, least_pivots
+from lyapcheck.robots.chain_bounds import chain_bounds
+from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.physics import impossible_state
@@ -87,7 +88,8 @@ class _Read:
 def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
     ring = trig.trig_ring(len(read.chain))
     links = [_link(ring, body) for body in read.bodies]
-    mass, potential = chain(ring, links, [trig.constant(ring, entry.value) for entry in gravity])
+    free_fall = [trig.constant(ring, entry.value) for entry in gravity]
+    mass, potential = chain(ring, links, free_fall)
     file, motors = read.path.name, [motor_of(joint, read.path.name) for joint in read.chain]
     numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", gravity, strict=True) if x.value}
     numbers |= link_numbers(read.tree, file) | joint_numbers(read.tree, read.chain, motors, file)
@@ -106,7 +108,7 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
         gravity_bound=nothing,
         numbers=numbers,
         remarks=read.remarks,
-        least_pivots=least_pivots(links),
+        chain_bounds=chain_bounds(links, free_fall),
     )
 
 

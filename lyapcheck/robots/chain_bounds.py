@@ -1,0 +1,154 @@
+"""Bounds that hold for a chain of links in every state, from masses and distances alone, exactly.
+
+They are coarse but need no search, so that they hold up for any number of joints. With y_k = |ω_k| the
+rate at which link k turns, j_k and J_k the ends of the spectrum of its inertia, and ρ_ik the largest
+distance of its centre of mass from joint i:
+
+    xᵀMx ≥ Σ j_k y_k²,          x_i² ≤ (y_i + y_{i−1})²,
+    xᵀMx ≤ |x|ᵀ B |x|,          B_ij = Σ_{k≥i,j} (m_k ρ_ik ρ_jk + J_k),
+    |g_i| ≤ |γ| Σ_{k≥i} m_k ρ_ik.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import fmpq_mpoly
+
+from lyapcheck.robots import trig
+from lyapcheck.robots.links import Link, least_pivots
+
+_DIGITS = 10**12
+_HALVINGS = 30
+_STEPS = 30
+Tensor = list[list[Fraction]]
+
+
+@dataclass(frozen=True)
+class ChainBounds:
+    """Bounds for all angles.
+
+    Args:
+        pivots: lower bounds of the pivots of M from the tip, kg·m²; see ``least_pivots`` of the links.
+        lambda_min: lower bound of λmin(M), kg·m².
+        lambda_max: upper bound of λmax(M), kg·m².
+        gravity: upper bound of every |g_i|, N·m.
+    """
+
+    pivots: tuple[Fraction, ...]
+    lambda_min: Fraction
+    lambda_max: Fraction
+    gravity: tuple[Fraction, ...]
+
+
+def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainBounds | None:
+    """The bounds of a chain, ``None`` where uncertain parameters enter.
+
+    Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side.
+    """
+    entries = [x for link in links for x in (*link.axis, *link.origin, *link.com, link.mass)]
+    entries += [x for link in links for row in link.inertia for x in row]
+    if not all(x.is_constant() for x in (*entries, *gravity)):
+        return None
+    masses = [_value(link.mass) for link in links]
+    spectra = [_spectrum([[_value(x) for x in row] for row in link.inertia]) for link in links]
+    reach = _reach(links)
+    return ChainBounds(
+        least_pivots(links),
+        _smallest([low for low, _ in spectra]),
+        _largest(masses, [high for _, high in spectra], reach),
+        tuple(
+            _norm([_value(x) for x in gravity])
+            * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
+            for row in reach
+        ),
+    )
+
+
+def _reach(links: Sequence[Link]) -> list[list[Fraction]]:
+    """ρ_ik, 0 for links before the joint."""
+    arms = [_norm([_value(x) for x in link.com]) for link in links]
+    steps = [_norm([_value(x) for x in link.origin]) for link in links]
+    n = len(links)
+    return [
+        [arms[k] + sum(steps[i + 1 : k + 1], Fraction(0)) if k >= i else Fraction(0) for k in range(n)]
+        for i in range(n)
+    ]
+
+
+def _smallest(inertia: Sequence[Fraction]) -> Fraction:
+    """1/ρ(J⁻¹T) with T = Σ (e_i + e_{i−1})(e_i + e_{i−1})ᵀ."""
+    if min(inertia) <= 0:
+        return Fraction(0)
+    n = len(inertia)
+    rows = [[Fraction(0)] * n for _ in range(n)]
+    for i in range(n):
+        rows[i][i] = Fraction(2 if i < n - 1 else 1) / inertia[i]
+        for k in (i - 1, i + 1):
+            if 0 <= k < n:
+                rows[i][k] = 1 / inertia[i]
+    return 1 / _radius(rows)
+
+
+def _largest(
+    masses: Sequence[Fraction], inertia: Sequence[Fraction], reach: Sequence[Sequence[Fraction]]
+) -> Fraction:
+    """ρ(B)."""
+    joints = range(len(masses))
+
+    def entry(i: int, j: int) -> Fraction:
+        moved = [k for k in joints if k >= max(i, j)]
+        return sum((masses[k] * reach[i][k] * reach[j][k] + inertia[k] for k in moved), Fraction(0))
+
+    return _radius([[entry(i, j) for j in joints] for i in joints])
+
+
+def _radius(rows: Sequence[Sequence[Fraction]]) -> Fraction:
+    """An upper bound of the spectral radius of a matrix without negative entries (Collatz and Wielandt)."""
+    w = [Fraction(1)] * len(rows)
+    for _ in range(_STEPS):
+        image = [sum((a * x for a, x in zip(row, w, strict=True)), Fraction(0)) for row in rows]
+        largest = max(image) or Fraction(1)
+        w = [Fraction(max(round(x / largest * _DIGITS), 1), _DIGITS) for x in image]
+    image = [sum((a * x for a, x in zip(row, w, strict=True)), Fraction(0)) for row in rows]
+    return _above(max(y / x for x, y in zip(w, image, strict=True)))
+
+
+def _spectrum(tensor: Tensor) -> tuple[Fraction, Fraction]:
+    """A lower bound of the smallest and an upper bound of the largest eigenvalue, by halving."""
+    trace = sum((tensor[i][i] for i in range(3)), Fraction(0))
+    low, high, step = Fraction(0), _above(trace), _above(trace)
+    for _ in range(_HALVINGS):
+        step /= 2
+        if _definite(tensor, low + step, 1):
+            low += step
+        if _definite(tensor, high - step, -1):
+            high -= step
+    return low, high
+
+
+def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
+    """Whether ±(A − shift I) is positive definite, by its leading minors."""
+    a = [[sign * (x - (shift if i == k else 0)) for k, x in enumerate(row)] for i, row in enumerate(tensor)]
+    pair = a[0][0] * a[1][1] - a[0][1] ** 2
+    whole = a[2][2] * pair - a[0][0] * a[1][2] ** 2 - a[1][1] * a[0][2] ** 2 + 2 * a[0][1] * a[0][2] * a[1][2]
+    return a[0][0] > 0 and pair > 0 and whole > 0
+
+
+def _norm(vector: Sequence[Fraction]) -> Fraction:
+    """The length, rounded up."""
+    square = sum((x * x for x in vector), Fraction(0))
+    root = math.isqrt(math.ceil(square * _DIGITS**2))
+    return Fraction(root if Fraction(root, _DIGITS) ** 2 >= square else root + 1, _DIGITS)
+
+
+def _above(value: Fraction) -> Fraction:
+    """A short rational that is not smaller."""
+    return Fraction(math.ceil(value * _DIGITS**2), _DIGITS**2)
+
+
+def _value(poly: fmpq_mpoly) -> Fraction:
+    return trig.fraction(poly.leading_coefficient()) if poly != 0 else Fraction(0)
