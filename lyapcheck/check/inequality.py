@@ -3,6 +3,7 @@
 - everywhere, exactly: f is a quotient of polynomials in x alone or in y = exp(x) alone (Sturm);
 - on a box: Taylor's formula about its middle, the remainder enclosed over the whole box;
 - next to 0, where f may vanish: the first Taylor coefficient that is not exactly zero, enclosed over the box;
+- next to 0, where f has no Taylor series, and on [X, ∞): the dominant term of its asymptotic scale;
 - on [X, ∞): one term of a polynomial in x and y outweighs the sum of all others from X on.
 
 Each step returns ``True`` only if it is a proof; ``False`` says nothing.
@@ -18,18 +19,16 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpq_series
 
 from lyapcheck.check.enclosure import ball_of
 from lyapcheck.check.functions import (
-    FAMILY,
     Algebra,
     Tree,
     Unsupported,
+    ball,
     evaluate,
-    family_formula,
     taylor,
 )
 from lyapcheck.check.normal_form import Ratio, normal_form
 from lyapcheck.check.polynomials import nonnegative_on, positive_on, rational
-
-ONE: Tree = ("num", "1")
+from lyapcheck.check.scales import sign_beside, sign_from
 
 Terms = dict[tuple[int, int], fmpq | arb]
 """A polynomial in x and y = exp(x): exponents to coefficient, a ball where constants like γ or √3 come in."""
@@ -68,13 +67,22 @@ def exactly_zero_coefficients(tree: Tree, name: str, order: int) -> int:
     return zeros.index(False) if False in zeros else min(len(zeros), order)
 
 
-def positive_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96) -> bool:
-    """Whether f > 0 on (0, high], by its own series or, for f = p/q, by the signs that p and q keep there."""
+def positive_near_zero(
+    tree: Tree, name: str, high: Fraction, order: int = 96, zero_included: bool = False
+) -> bool:
+    """Whether f > 0 on (0, high]; with ``zero_included`` f must also be defined at 0, so that f(0) >= 0."""
     if sign_near_zero(tree, name, high, order) > 0:
         return True
-    top, bottom = quotient(tree)
-    below = sign_near_zero(bottom, name, high, order)
-    return below != 0 and sign_near_zero(top, name, high, order) == below
+    if zero_included and not _is_defined(tree, name, Fraction(0)):
+        return False
+    return sign_beside(tree, name, Fraction(0), high) > 0
+
+
+def _is_defined(tree: Tree, name: str, point: Fraction) -> bool:
+    try:
+        return bool(ball(tree, {name: ball_of(point)}).is_finite())
+    except (ValueError, ZeroDivisionError):
+        return False
 
 
 def sign_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96, more: int = 8) -> int:
@@ -93,35 +101,6 @@ def sign_near_zero(tree: Tree, name: str, high: Fraction, order: int = 96, more:
     for coefficient in reversed(coefficients):
         value = value * box + coefficient
     return 0 if k == order else 1 if value > 0 else -1 if value < 0 else 0
-
-
-def quotient(tree: Tree) -> tuple[Tree, Tree]:
-    """Two expressions p, q with f = p/q wherever q is not zero, and no division outside of functions.
-
-    Every divisor is a factor of q, so that f is defined as far as its divisors go where q is not zero.
-    """
-    kind, *rest = tree
-    if kind in FAMILY:
-        return quotient(family_formula(kind, *rest))
-    if kind not in ("add", "mul", "neg", "div", "pow"):
-        return tree, ONE
-    top, bottom = quotient(rest[0])
-    if kind == "neg":
-        return ("neg", top), bottom
-    if kind == "pow":
-        return ("pow", top, rest[1]), ("pow", bottom, rest[1]) if bottom != ONE else ONE
-    for p, q in map(quotient, rest[1:]):
-        if kind == "add":
-            top, bottom = ("add", _times(top, q), _times(p, bottom)), _times(bottom, q)
-        elif kind == "mul":
-            top, bottom = _times(top, p), _times(bottom, q)
-        else:
-            top, bottom = _times(_times(top, q), q), _times(_times(bottom, p), q)
-    return top, bottom
-
-
-def _times(a: Tree, b: Tree) -> Tree:
-    return b if a == ONE else a if b == ONE else ("mul", a, b)
 
 
 def positive_on_box(tree: Tree, name: str, low: Fraction, high: Fraction, order: int = 8) -> bool:
@@ -143,8 +122,36 @@ def positive_on_box(tree: Tree, name: str, low: Fraction, high: Fraction, order:
 def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None, strict: bool) -> bool | None:
     """Whether f > 0 (or >= 0) on [low, high], exactly; ``None`` where f is not in x or y alone.
 
-    With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0.
+    With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0. No divisor may vanish.
     """
+    if not all(_has_no_zero(divisor, name, low, high, strict) for divisor in divisors(tree)):
+        return None
+    return _sign_of_quotient(tree, name, low, high, strict)
+
+
+def divisors(tree: Tree) -> list[Tree]:
+    """What an expression divides by, anywhere."""
+    found = [part for child in tree[1:] if isinstance(child, tuple) for part in divisors(child)]
+    return [*found, tree[2]] if tree[0] == "div" and tree[2][0] != "num" else found
+
+
+def _has_no_zero(tree: Tree, name: str, low: Fraction, high: Fraction | None, zero_left_out: bool) -> bool:
+    """Whether an expression without poles keeps a sign, exactly; at 0 too unless that is left out."""
+    signs = (tree, ("neg", tree))
+    if not zero_left_out and low == 0 and not _is_not_zero(tree, name, low):
+        return False
+    return any(_sign_of_quotient(side, name, low, high, True) for side in signs)
+
+
+def _is_not_zero(tree: Tree, name: str, point: Fraction) -> bool:
+    value = ball(tree, {name: ball_of(point)})
+    return bool(value > 0 or value < 0)
+
+
+def _sign_of_quotient(
+    tree: Tree, name: str, low: Fraction, high: Fraction | None, strict: bool
+) -> bool | None:
+    """The same in lowest terms, where common zeros of top and bottom have gone."""
     found = _in_x_and_y(tree, name)
     if found is None or any(isinstance(c, arb) for terms in found for c in terms.values()):
         return None
@@ -166,12 +173,13 @@ def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None,
 
 
 def positive_from(tree: Tree, name: str, start: Fraction) -> bool:
-    """Whether f > 0 on [start, ∞), start >= 1, for a quotient of polynomials in x and y = exp(x)."""
+    """Whether f > 0 on [start, ∞), start >= 1, by a dominant term in x and exp(x), or in the wider scale."""
     found = _in_x_and_y(tree, name)
-    if found is None:
-        return False
-    signs = [dominant_sign(terms, start) for terms in found]
-    return 0 not in signs and signs[0] == signs[1]
+    if found is not None:
+        signs = [dominant_sign(terms, start) for terms in found]
+        if 0 not in signs:
+            return signs[0] == signs[1]
+    return sign_from(tree, name, start) > 0
 
 
 def dominant_sign(terms: Terms, start: Fraction) -> int:
@@ -218,9 +226,9 @@ def _terms(polynomial: fmpq_mpoly, x: int | None, y: int | None, constants: dict
     for exponents, coefficient in polynomial.to_dict().items():
         key = (int(exponents[x]) if x is not None else 0, int(exponents[y]) if y is not None else 0)
         value: fmpq | arb = coefficient
-        for index, ball in constants.items():
+        for index, number in constants.items():
             if exponents[index]:
-                value = arb(value) * ball ** int(exponents[index])
+                value = arb(value) * number ** int(exponents[index])
         result[key] = result[key] + value if key in result else value
     return {key: value for key, value in result.items() if isinstance(value, arb) or value != 0}
 
