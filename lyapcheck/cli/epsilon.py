@@ -38,6 +38,7 @@ class Budget:
     max_boxes: int
     jobs: int
     ranges: bool
+    weights: bool
     starts: int
     seed: int
 
@@ -55,6 +56,9 @@ def command(
     jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
     ranges: Annotated[
         bool, typer.Option("--ranges", help="For all values of what is uncertain about the arm.")
+    ] = False,
+    weights: Annotated[
+        bool, typer.Option("--weights", help="Also search weights Λ in y = w − εΛh, joint by joint.")
     ] = False,
     starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
     seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
@@ -78,7 +82,7 @@ def command(
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
-    budget = Budget(max_boxes, jobs, ranges, starts, seed)
+    budget = Budget(max_boxes, jobs, ranges, weights, starts, seed)
     with progress("epsilon") as advance:
         results, seconds = _run(chosen, model, budget, advance)
     if folder is not None:

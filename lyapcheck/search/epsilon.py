@@ -25,6 +25,7 @@ from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.robot_constants import robot_bounds
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting
+from lyapcheck.search.weights import Weighted, weighted_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.check.stability import Closure
@@ -66,6 +67,7 @@ class EpsilonResult:
         certified_by: which certificate stands behind ``certified``.
         proof: the boxes behind ``certified``, which the checker has accepted.
         against: what ``witness`` refutes, and the arm it is a state of.
+        weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
         ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
         corner: the uncertain numbers of the arm that ``witness`` is about, by name.
         reasons: why a number is missing, and what to try.
@@ -86,6 +88,7 @@ class EpsilonResult:
     certified_by: str
     proof: Proof | None = None
     against: Refutation | None = None
+    weighted: Weighted | None = None
     ranges: bool = False
     corner: Mapping[str, Fraction] = field(default_factory=dict)
     reasons: Mapping[str, str] = field(default_factory=dict)
@@ -108,6 +111,7 @@ def epsilon(
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
     ranges: bool = False,
+    weights: bool = False,
     starts: int = STARTS,
     seed: int = SEED,
     on_progress: Progress | None = None,
@@ -120,6 +124,7 @@ def epsilon(
         max_boxes: budget of branch and bound.
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
+        weights: look for weights Λ as well, joint by joint.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         on_progress: told the fraction done and a few words.
@@ -149,10 +154,16 @@ def epsilon(
         hint or 10 * (scalar.eps0 or Fraction(1)),
         max_boxes,
         jobs,
-        lambda f, note: tell(0.35 + 0.65 * f, note),
+        lambda f, note: tell(0.35 + (0.55 if weights else 0.65) * f, note),
     )
     proof, by, reasons["certified"] = _best(setting, found)
     certified = proof.closure.eps0 if proof is not None else None if ranges else sharp.eps0
+    weighted = None
+    if weights and certified is not None and setting.family.bounded:
+        weighted = weighted_epsilon(
+            setting, certified, max_boxes, jobs, on_progress=lambda f, note: tell(0.9 + 0.1 * f, note)
+        )
+        reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
     require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
     return EpsilonResult(
         name=gain_set.name,
@@ -165,6 +176,7 @@ def epsilon(
         witness=witness,
         boxes=found.looked_at,
         proof=proof,
+        weighted=weighted,
         against=_refutation(setting, at, witness),
         ranges=ranges,
         corner=_corner(at) if ranges else {},

@@ -25,6 +25,9 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
         found[f"{stem}.certified.json"] = _certificate(
             result, result.proof.closure, "proved", result.proof.by
         )
+    if result.weighted is not None:
+        proof = result.weighted.proof
+        found[f"{stem}.weighted.json"] = _certificate(result, proof.closure, "proved", proof.by)
     if result.witness is not None and result.against is not None:
         state, against = result.witness.state, result.against
         proof_against = StateWitness(against.viscous, against.parameters, state.q, state.e, state.w)
@@ -38,7 +41,10 @@ def _certificate(result: EpsilonResult, closure: Closure, verdict: str, proof: P
         f"dV/dt < 0 at every state but the origin: {result.name} on {result.robot}, "
         f"{arms}, ε₀ = {decimal_text(closure.eps0)}"
     )
-    about = About(f"{result.name}.{verdict}", says, result.m, closure.n, PROOF)
+    weights = ", ".join(decimal_text(scale) for scale in closure.coupling)
+    says += f", Λ = diag({weights})" if weights else ""
+    kind = "weighted" if weights else verdict
+    about = About(f"{result.name}.{kind}", says, result.m, closure.n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
     return Certificate(about, statement(closure), verdict, "enclosure", proof, {}, used)
 
@@ -54,4 +60,5 @@ def statement(closure: Closure) -> Decreasing:
         kp=closure.kp,
         kv=closure.kv,
         eps0=closure.eps0,
+        coupling=closure.coupling,
     )

@@ -90,7 +90,11 @@ class Problem:
         """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
         box = self.arm.at(sides.q, sides.parameters)
         M = box.mass()
-        h, dh = ([f(self.family, x) for x in sides.e] for f in (h_range, dh_range))
+        weights = [Interval.of(scale) for scale in self.closure.Lambda]
+        h, dh = (
+            [f(self.family, x) * scale for x, scale in zip(sides.e, weights, strict=True)]
+            for f in (h_range, dh_range)
+        )
         Ch = coriolis(box.symbols(), h)
         pushed = [_dot(row, h) for row in M]
         pull = [unit * shrink for unit in unit_vector(sides.e)]

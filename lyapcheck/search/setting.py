@@ -113,8 +113,8 @@ class Setting:
         """The arm that certificates are about: with its parameters if they are to range."""
         return self.model if self.ranges else self.fixed
 
-    def closure(self, eps0: Fraction) -> Closure:
-        """What a global certificate has to prove at one ε₀."""
+    def closure(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> Closure:
+        """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given."""
         model = self.ranged
         mass = tuple(tuple(_terms(entry) for entry in row) for row in model.mass)
         return Closure(
@@ -126,6 +126,7 @@ class Setting:
             eps0=eps0,
             parameters=tuple(number.bounds for number in model.parameters.values()),
             viscous=tuple(number.bounds for number in model.viscous) if self.ranges else (),
+            coupling=coupling,
         )
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:

@@ -185,7 +185,8 @@ class Decreasing(Statement):
     """dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
 
     ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B, N·m·s/rad; ``parameters`` the
-    range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀.
+    range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀;
+    ``coupling`` is the diagonal of Λ in y = w − εΛh, empty for (13).
     """
 
     mass: tuple[tuple[Monomials, ...], ...]
@@ -196,6 +197,7 @@ class Decreasing(Statement):
     kp: tuple[Fraction, ...]
     kv: tuple[Fraction, ...]
     eps0: Fraction
+    coupling: tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,8 @@ def _decreasing(statement: kinds.Decreasing) -> None:
     for subject in ("mass", "kp", "kv"):
         size = len(getattr(statement, subject))
         require(size == n, subject, size, f"must be {n}, one a joint")
+    coupling = len(statement.coupling)
+    require(coupling in (0, n), "coupling", coupling, f"must be empty or {n}, one a joint")
     require(all(len(row) == n for row in statement.mass), "mass", "a row", f"must have {n} entries")
     length = 2 * n + len(statement.parameters)
     for powers, _ in chain.from_iterable(chain.from_iterable(statement.mass)):

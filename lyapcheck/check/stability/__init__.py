@@ -9,6 +9,9 @@ complement. What remains is
 
 and P ≻ 0 for all q and e is enough, whatever w is. Where r ≥ R the scalar form at ε₀/(1+R) is enough as well.
 
+With weights, y = w − εΛh, each h and h' becomes Λh and Λh', and K_p becomes K_p Λ⁻¹; the damping ratios stay
+those of h.
+
 References: ``reyes2019family`` (11), (12), (15).
 """
 

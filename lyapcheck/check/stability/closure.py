@@ -43,6 +43,7 @@ class Closure:
         eps0: ε₀ of (12).
         parameters: the range of each parameter in M.
         viscous: the range of each diagonal entry of B, N·m·s/rad; none where B is that of the arm.
+        coupling: diagonal of Λ in y = w − εΛh, dimensionless; none for (13), where Λ = I.
     """
 
     arm: Arm
@@ -53,6 +54,7 @@ class Closure:
     eps0: Fraction
     parameters: tuple[Range, ...] = ()
     viscous: tuple[Range, ...] = ()
+    coupling: tuple[Fraction, ...] = ()
 
     @property
     def n(self) -> int:
@@ -81,8 +83,14 @@ class Closure:
 
     @cached_property
     def stiffness(self) -> tuple[Fraction, ...]:
-        """Diagonal of K̃, from below."""
-        return tuple(p - self.eps0 * self.member.L * v / 4 for p, v in zip(self.kp, self.kv, strict=True))
+        """Diagonal of K̃ = K_p Λ⁻¹ − ¼ ε₀ L K_v, from below."""
+        rows = zip(self.kp, self.kv, self.Lambda, strict=True)
+        return tuple(p / scale - self.eps0 * self.member.L * v / 4 for p, v, scale in rows)
+
+    @property
+    def Lambda(self) -> tuple[Fraction, ...]:
+        """Diagonal of Λ."""
+        return self.coupling or (Fraction(1),) * self.n
 
     @cached_property
     def angles(self) -> tuple[int, ...]:
@@ -129,13 +137,15 @@ class Closure:
             ((1 if j == k else 2) * self._largest(c) ** 2 for (_, j, k), c in self.symbols.items()),
             Fraction(0),
         )
-        reach, L = root_above(Fraction(self.n)) * self.member.gamma, self.member.L
-        G = reach * L / (L + reach)
+        largest_coupling = max(self.Lambda)
+        reach = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
+        rho, slope = self.member.rho * largest_coupling, self.member.L * largest_coupling
+        G = reach * slope / (slope + reach)
         return ScalarForm(
-            stiffness=min(self.kp),
+            stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
             friction=min(low for low, _ in self.friction),
-            drift=max(rows) * (self.member.rho + G) + reach * root_above(squares),
-            cross=max(high for _, high in self.friction) + L * max(self.kv),
+            drift=max(rows) * (rho + G) + reach * root_above(squares),
+            cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
         )
 
     def _largest(self, entry: Uncertain) -> Fraction:
@@ -151,7 +161,13 @@ class Closure:
 
     @cached_property
     def radius(self) -> float:
-        """A double R ≥ 0 beyond which the scalar form is enough."""
+        """A double R ≥ 0 beyond which the scalar form is enough.
+
+        Raises:
+            ValueError: the closure is not admissible, and there may be no such radius.
+        """
+        if not self.admissible:
+            raise ValueError("a closure that is not admissible has no radius")
         radius = Fraction(1, 64)
         while not certifies(self.tail, self.eps0 / (1 + radius)):
             radius = radius * 5 / 4
@@ -161,10 +177,10 @@ class Closure:
     def admissible(self) -> bool:
         """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
         ranges = (*self.parameters, *self.friction)
-        sizes = {self.n, len(self.kp), len(self.kv), len(self.friction)}
+        sizes = {self.n, len(self.kp), len(self.kv), len(self.friction), len(self.Lambda)}
         if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
             return False
-        if min(*self.kp, *self.kv, self.eps0, *(low for low, _ in self.friction)) <= 0:
+        if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
             return False
         powers = {len(p) for row in self.mass for entry in row for p in entry}
         symmetric = all(self.mass[i][j] == self.mass[j][i] for i in range(self.n) for j in range(i))

@@ -63,7 +63,7 @@ def proves_radially(closure: Closure, radial: Radial) -> bool:
     """Whether dV/dt < 0 is shown at every state but the origin.
 
     Args:
-        closure: arm, controller and ε₀; its parameters must be points.
+        closure: arm, controller and ε₀, without parameters and with Λ = I.
         radial: untrusted data.
 
     Returns:
@@ -72,7 +72,8 @@ def proves_radially(closure: Closure, radial: Radial) -> bool:
     Raises:
         BrokenTree: the text is not a tree of the angles.
     """
-    if not closure.admissible or closure.parameters or not fits(closure, radial):
+    covered = not closure.parameters and not closure.coupling
+    if not closure.admissible or not covered or not fits(closure, radial):
         return False
     with precision(BITS):
         parts = Parts(closure, radial)

@@ -40,6 +40,7 @@ class Evaluator:
         self.fixed = [None if low < high else of.value(to_arb(low)) for low, high in ranges]
         self.compliance = [of.value(1 / (4 * to_arb(k))) for k in closure.stiffness]
         self.half = of.value(arb(1) / 2)
+        self.coupling = [of.value(to_arb(scale)) for scale in closure.coupling]
         self.mass = [[Polynomial(entry) for entry in row] for row in closure.mass]
         self.symbols = {place: Polynomial(terms) for place, terms in closure.symbols.items()}
         self.radius_squared = arb(closure.radius) ** 2
@@ -88,10 +89,10 @@ class Evaluator:
         return [self.of.value(ball(next(sides))) if value is None else value for value in self.fixed]
 
     def _coupling(self, arm: tuple[Rows, Symbols], errors: Box, shrink: Value) -> Rows:
-        """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
+        """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
         n = self.closure.n
         M, symbols = arm
-        h, dh = [self.h(side) for side in errors], [self.dh(side) for side in errors]
+        h, dh = self._coupled(self.h, errors), self._coupled(self.dh, errors)
         pushed = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
         pull = [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)]
         rows = [[pushed[i] * pull[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
@@ -100,6 +101,13 @@ class Evaluator:
             if k != j:
                 rows[i][k] = rows[i][k] + symbol * h[j]
         return rows
+
+    def _coupled(self, form: Callable[[Side], Value], errors: Box) -> list[Value]:
+        """Λh or Λh'."""
+        values = [form(side) for side in errors]
+        return (
+            [x * scale for x, scale in zip(values, self.coupling, strict=True)] if self.coupling else values
+        )
 
     def _arm(self, sides: Box, uncertain: Box, filled: list[Value]) -> tuple[Rows, Symbols]:
         """M and the Christoffel symbols over a box of angles and parameters."""

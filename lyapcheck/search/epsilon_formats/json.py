@@ -12,6 +12,7 @@ from lyapcheck.search.epsilon_formats.words import KINDS, exact, ratio_text
 if TYPE_CHECKING:
     from lyapcheck.search.epsilon import EpsilonResult
     from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.weights import Weighted
 
 SCHEMA = "lyapcheck/epsilon/1"
 _DIGITS = 20
@@ -40,12 +41,24 @@ def result_json(result: EpsilonResult) -> dict[str, Any]:
         "certified_by": result.certified_by or None,
         "witness": None if result.witness is None else _witness(result.witness),
         "boxes": result.boxes,
+        "weighted": None if result.weighted is None else _weighted(result.weighted),
         "ranges": result.ranges,
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
         "findings": list(result.findings),
         "reasons": dict(result.reasons),
         "assumptions": list(result.assumptions),
+    }
+
+
+def _weighted(weighted: Weighted) -> dict[str, Any]:
+    closure = weighted.proof.closure
+    return {
+        "eps0": exact(closure.eps0),
+        "lambda": [exact(scale) for scale in closure.Lambda],
+        "eps0_lambda": [exact(value) for value in weighted.products],
+        "boxes": weighted.proof.boxes,
+        "states": weighted.states,
     }
 
 

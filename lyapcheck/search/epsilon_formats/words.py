@@ -12,6 +12,7 @@ from lyapcheck.files import decimal_text
 if TYPE_CHECKING:
     from lyapcheck.search.epsilon import EpsilonResult
     from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.weights import Weighted
 
 KINDS = ("published", "scalar", "certified", "falsified")
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified/falsified", "boxes")
@@ -51,6 +52,8 @@ def remarks(result: EpsilonResult) -> list[str]:
     """Findings, reasons for missing numbers, and the witness, a sentence each."""
     said = [f"{finding}." for finding in result.findings]
     said += reasons(result)
+    if result.weighted is not None:
+        said.append(weighted_text(result.weighted))
     if result.witness is not None:
         said.append(witness_text(result.witness))
     if result.witness is not None and result.corner:
@@ -65,6 +68,15 @@ def reasons(result: EpsilonResult) -> list[str]:
         f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"{kind} ε₀: {reason}."
         for kind, reason in result.reasons.items()
     ]
+
+
+def weighted_text(weighted: Weighted) -> str:
+    """What a proof with weights shows, in one line."""
+    products = ", ".join(map(decimal_text, weighted.products))
+    return (
+        f"with weights, y = w − εΛh, dV/dt < 0 is proved for ε₀Λ = diag({products}) "
+        f"({weighted.proof.boxes} boxes, {weighted.states} worst states in the program)."
+    )
 
 
 def witness_text(witness: Witness) -> str:

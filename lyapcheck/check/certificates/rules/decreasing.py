@@ -40,6 +40,7 @@ def by_radial_bounds(statement: Decreasing, proof: RadialBounds) -> Accepted:
 @rule(Decreasing, StateWitness)
 def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
     """Soundness: dV/dt > 0 in balls, by the plain chain rule, at one state of one arm within the ranges."""
+    require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
     _require_within("viscous", proof.viscous, statement.viscous)
     _require_within("parameters", proof.parameters, statement.parameters)
     mass = tuple(
@@ -65,6 +66,7 @@ def closure_of(statement: Decreasing) -> Closure:
         eps0=statement.eps0,
         parameters=statement.parameters,
         viscous=statement.viscous,
+        coupling=statement.coupling,
     )
 
 

@@ -1,0 +1,214 @@
+"""Weights Λ in y = w − εΛh: a convex program over worst states, guided by counterexamples.
+
+P of ``lyapcheck.check.stability`` is, but for its last part, linear in λ = ε₀Λ: with s = 1/(1+r),
+
+    P(λ) = B + ½ s (S(λ) + S(λ)ᵀ) − ¼ s Σ_i (λ_i/k_i) x_i x_iᵀ,   x_i the rows of B + s S,
+
+so with the x_i of the last turn it is a linear matrix inequality at each state. The program makes Σ ln λ_i as
+large as it can under those of the states at hand; states where the result fails join them, until none is
+found. What comes out is a proposal: branch and bound, and then the checker, decide.
+
+References: ``boyd1994lmi``, section 2.5 (cutting planes).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.check.certificates.proofs import BoxTree
+from lyapcheck.check.stability import proves
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import MAX_BOXES, Proof
+from lyapcheck.search.cover import Progress
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
+
+Array = NDArray[np.float64]
+
+SAMPLES = 20_000
+KEPT = 12
+TURNS = 12
+CLIMBS = 40
+MARGIN = 0.02
+"""P(λ) ⪰ MARGIN·B is asked for: what lies between the sampled states needs some room."""
+SHARES = tuple(Fraction(n, 100) for n in (100, 98, 95, 90, 80, 60, 40))
+"""Shares of the proposed λ that are tried one after the other, from the largest."""
+
+
+@dataclass(frozen=True)
+class Weighted:
+    """A proof with weights, and what Λ = I would have to give up for it.
+
+    Args:
+        proof: accepted by the checker; its closure holds ε₀ and Λ, the smallest entry of Λ being 1.
+        states: how many states the program saw.
+        looked_at: boxes of all attempts.
+    """
+
+    proof: Proof
+    states: int
+    looked_at: int
+
+    @property
+    def products(self) -> tuple[Fraction, ...]:
+        """ε₀Λ, joint by joint."""
+        closure = self.proof.closure
+        return tuple(closure.eps0 * scale for scale in closure.Lambda)
+
+
+@dataclass(frozen=True)
+class States:
+    """States (q, e) with what P needs there: S of each unit weight (count, joint, n, n), and s (count,)."""
+
+    S: Array
+    s: Array
+
+    def at(self, chosen: NDArray[np.intp]) -> States:
+        """Some of the states."""
+        return States(self.S[chosen], self.s[chosen])
+
+    def joined(self, other: States) -> States:
+        """Both lists of states."""
+        return States(np.concatenate([self.S, other.S]), np.concatenate([self.s, other.s]))
+
+
+def weighted_epsilon(
+    setting: Setting,
+    eps0: Fraction,
+    max_boxes: int = MAX_BOXES,
+    jobs: int = 1,
+    seed: int = 20190301,
+    on_progress: Progress | None = None,
+) -> Weighted | None:
+    """Weights whose ε₀Λ is as large as possible in the sense of Σ ln(ε₀λ_i), with a proof; ``None`` if none.
+
+    Args:
+        setting: gains and arm, at its nominal numbers.
+        eps0: an ε₀ certified with Λ = I, where the search begins.
+        max_boxes: budget of all attempts together.
+        jobs: processes for the checker.
+        seed: of the sampled states.
+        on_progress: told the share done.
+
+    Soundness: ``lyapcheck.check.stability`` has accepted what is handed back.
+    """
+    tell = on_progress or (lambda fraction, note: None)
+    found, states = _proposal(setting, float(eps0), seed, lambda f, note: tell(0.5 * f, note))
+    looked_at = 0
+    for index, share in enumerate(SHARES):
+        tell(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")
+        closure = setting.closure(*_rounded([Fraction(float(x)) * share for x in found]))
+        if not closure.admissible:
+            continue
+        outcome = certify(Problem(closure, setting.ranged), max(0, max_boxes // len(SHARES)))
+        looked_at += outcome.boxes
+        if outcome.proved and proves(closure, outcome.tree, jobs):
+            return Weighted(Proof(closure, BoxTree(outcome.tree)), states, looked_at)
+    return None
+
+
+def _rounded(products: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
+    """ε₀ and Λ from ε₀Λ, as short decimals from below; the smallest entry of Λ is 1."""
+    eps0 = Fraction(int(min(products) * 10**6), 10**6)
+    return eps0, tuple(max(Fraction(1), Fraction(int(x / eps0 * 1000), 1000)) for x in products)
+
+
+def _proposal(setting: Setting, eps0: float, seed: int, tell: Progress) -> tuple[Array, int]:
+    """λ = ε₀Λ, and how many states it was made for."""
+    random = np.random.default_rng(seed)
+    q, e = _sample(setting, random)
+    states = _evaluated(setting, q, e)
+    found = np.full(setting.n, eps0)
+    active = states.at(_worst(setting, states, found))
+    for turn in range(TURNS):
+        tell(turn / TURNS, f"convex program over {len(active.s)} states")
+        found = _program(setting, active, found)
+        chosen = _worst(setting, states, found)
+        climbed = _climbed(setting, q[chosen], e[chosen], found, random)
+        seen = states.at(chosen).joined(climbed)
+        failing = _smallest(setting, seen, found) < MARGIN / 2
+        if not failing.any() and turn > 2:
+            break
+        active = active.joined(seen.at(np.flatnonzero(failing)))
+    return found, len(active.s)
+
+
+def _program(setting: Setting, states: States, near: Array) -> Array:
+    """The weights that the convex program gives for some states, starting from ``near``."""
+    import cvxpy as cp
+
+    B, k = np.diag(setting.viscous), setting.kp
+    x = B + states.s[:, None, None] * np.einsum("i,cijk->cjk", near, states.S)
+    weights = cp.Variable(setting.n, pos=True)
+    constraints: list[Any] = [weights <= 3 * near, weights >= near / 3]
+    root = np.sqrt(setting.viscous)
+    for S, s, rows in zip(states.S, states.s, x, strict=True):
+        P = B
+        for i in range(setting.n):
+            linear = s * (S[i] + S[i].T) / 2 - s / (4 * k[i]) * np.outer(rows[i], rows[i])
+            P = P + weights[i] * linear
+        constraints.append((P / np.outer(root, root)) - MARGIN * np.eye(setting.n) >> 0)
+    problem = cp.Problem(cp.Maximize(cp.sum(cp.log(weights))), constraints)
+    problem.solve(solver=cp.CLARABEL)
+    if problem.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE) or weights.value is None:
+        return near * 0.9
+    return np.asarray(weights.value)
+
+
+def _smallest(setting: Setting, states: States, weights: Array) -> Array:
+    """λmin(B^−½ P B^−½) at each state."""
+    B, root = np.diag(setting.viscous), np.sqrt(setting.viscous)
+    S = np.einsum("i,cijk->cjk", weights, states.S)
+    s = states.s[:, None, None]
+    X = B + s * S
+    L = float(setting.family.constants().L.upper)
+    compliance = 1 / np.maximum(setting.kp / weights - L * setting.kv / 4, 1e-12)
+    P = B + s * (S + np.swapaxes(S, 1, 2)) / 2 - s / 4 * np.einsum("cki,k,ckj->cij", X, compliance, X)
+    return np.asarray(np.linalg.eigvalsh(P / np.outer(root, root))[:, 0])
+
+
+def _worst(setting: Setting, states: States, weights: Array) -> NDArray[np.intp]:
+    return np.asarray(np.argsort(_smallest(setting, states, weights), kind="stable")[:KEPT])
+
+
+def _climbed(setting: Setting, q: Array, e: Array, weights: Array, random: np.random.Generator) -> States:
+    """The states after random steps towards smaller eigenvalues; the steps shrink."""
+    value = _smallest(setting, _evaluated(setting, q, e), weights)
+    for step in range(CLIMBS):
+        size = 0.3 * 0.85**step
+        moved = q + size * random.normal(size=q.shape), e * np.exp(size * random.normal(size=e.shape))
+        moved = moved[0], moved[1] + 0.1 * size * random.normal(size=e.shape)
+        found = _smallest(setting, _evaluated(setting, *moved), weights)
+        better = found < value
+        q, e = np.where(better[:, None], moved[0], q), np.where(better[:, None], moved[1], e)
+        value = np.where(better, found, value)
+    return _evaluated(setting, q, e)
+
+
+def _sample(setting: Setting, random: np.random.Generator) -> tuple[Array, Array]:
+    """Random states, errors of all sizes in each joint."""
+    shape = (SAMPLES, setting.n)
+    e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 0.7, shape)
+    return random.uniform(-np.pi, np.pi, shape), e
+
+
+def _evaluated(setting: Setting, q: Array, e: Array) -> States:
+    """S of each unit weight: (M e_i h_i) êᵀ s + C(q, e_i h_i) − M e_i h_i' e_iᵀ."""
+    h, dh, r = setting.family.h(e), setting.family.dh(e), np.linalg.norm(e, axis=1)
+    s, unit = 1 / (1 + r), e / np.maximum(r, 1e-300)[:, None]
+    M = setting.numeric.mass(q)
+    parts = []
+    for i in range(setting.n):
+        only = np.zeros_like(h)
+        only[:, i] = h[:, i]
+        turning = setting.numeric.coriolis(q, only)
+        pushed = M[:, :, i] * h[:, i : i + 1]
+        S = turning + pushed[:, :, None] * unit[:, None, :] * s[:, None, None]
+        S[:, :, i] -= M[:, :, i] * dh[:, i : i + 1]
+        parts.append(S)
+    return States(np.stack(parts, axis=1), s)

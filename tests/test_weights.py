@@ -1,0 +1,124 @@
+"""Weights Λ in y = w − εΛh: what is proved with them, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+from flint import arb
+
+from lyapcheck.check.balls import precision
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.proofs import BoxTree, StateWitness
+from lyapcheck.check.stability import proves
+from lyapcheck.check.stability.arithmetic import BALLS
+from lyapcheck.check.stability.schur import Evaluator
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.family import named
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.epsilon_certificates import statement
+from lyapcheck.search.radial import radial_epsilon
+from lyapcheck.search.setting import Setting
+from lyapcheck.search.weights import Weighted, weighted_epsilon
+
+F = Fraction
+CERTIFIED = {0: F("0.802"), 1: F("0.917"), 2: F("0.629")}
+"""What is proved with Λ = I on the two-joint arm."""
+
+
+def setting(index: int) -> Setting:
+    return Setting(
+        read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[index], load("reyes-kelly2")
+    )
+
+
+@cache
+def weighted(index: int) -> Weighted:
+    found = weighted_epsilon(setting(index), CERTIFIED[index], max_boxes=60_000)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_some_joint_gains_much_and_the_product_grows(index: int) -> None:
+    found = weighted(index)
+    assert max(found.products) > F(13, 10) * CERTIFIED[index]
+    assert np.prod([float(x) for x in found.products]) > float(CERTIFIED[index]) ** 2
+    assert min(found.proof.closure.Lambda) == 1
+
+
+def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
+    """dV/dt by differences of V along the closed loop; nothing of the derivation is used."""
+    case, found = setting(1), weighted(1)
+    closure, model = found.proof.closure, NumericModel(case.model)
+    family, scale = named(case.gains.family, case.gains.m), np.array([float(x) for x in closure.Lambda])
+    eps0, random = float(closure.eps0), np.random.default_rng(2)
+
+    def V(q: np.ndarray, e: np.ndarray, w: np.ndarray) -> float:
+        y = w - eps0 / (1 + np.linalg.norm(e)) * scale * family.h(e)
+        return float(y @ model.mass(q) @ y / 2 + case.kp @ family.potential(e))
+
+    for _ in range(60):
+        q, e = random.uniform(-3, 3, 2), random.normal(size=2) * 10 ** random.uniform(-0.5, 0.5)
+        w = random.normal(size=2) * 10 ** random.uniform(-1, 1)
+        force = case.kp * family.h(e) - case.kv * family.h(w) - model.viscous * w - model.coriolis(q, w) @ w
+        a = np.linalg.solve(model.mass(q), force)
+        t = 1e-6
+        rate = (V(q + t * w, e - t * w, w + t * a) - V(q - t * w, e + t * w, w - t * a)) / (2 * t)
+        assert rate < 1e-7 * (1 + w @ w)
+
+
+def test_P_over_boxes_holds_P_with_weights() -> None:
+    case, closure = setting(1), weighted(1).proof.closure
+    model, family = NumericModel(case.model), named("hyperbolic", 2)
+    scale, eps0 = np.array([float(x) for x in closure.Lambda]), float(closure.eps0)
+    random, L = np.random.default_rng(3), float(family.constants().L.upper)
+    with precision(64):
+        evaluator = Evaluator(closure, BALLS)
+        for _ in range(100):
+            q, e = random.uniform(-3, 3, 2), random.uniform(-2, 2, 2)
+            h, dh, r = scale * family.h(e), scale * family.dh(e), float(np.linalg.norm(e))
+            M, B, eps = model.mass(q), np.diag(model.viscous), eps0 / (1 + r)
+            S = model.coriolis(q, h) + np.outer(M @ h, e / r) / (1 + r) - M @ np.diag(dh)
+            X = B + eps * S
+            K = np.diag(1 / (case.kp / scale - eps0 * L * case.kv / 4))
+            exact = B + eps * (S + S.T) / 2 - eps / 4 * X.T @ K @ X
+            box = tuple((float(x) - 1e-4, float(x) + 1e-4) for x in (q[1], *e))
+            r_squared = sum((evaluator.square(side) for side in box[1:]), arb(0))
+            P = evaluator.schur(box[:1], box[1:], (), r_squared)
+            for i in range(2):
+                for j in range(i + 1):
+                    assert float(P[i][j].lower()) <= exact[i, j] <= float(P[i][j].upper())
+
+
+def test_larger_weights_are_refused_for_the_same_tree() -> None:
+    proof = weighted(0).proof
+    assert isinstance(proof.by, BoxTree)
+    closure = proof.closure
+    assert proves(closure, proof.by.tree)
+    for factors in ((2, 1), (1, 2), (2, 2)):
+        coupling = tuple(x * f for x, f in zip(closure.Lambda, factors, strict=True))
+        assert not proves(replace(closure, coupling=coupling), proof.by.tree)
+
+
+def test_certificates_hold_the_weights() -> None:
+    proof = weighted(0).proof
+    assert verify(statement(proof.closure), proof.by).verdict == "proved"
+    for coupling in ((F(1),), (F(-1), F(1)), (F(0), F(1))):
+        with pytest.raises(Refused):
+            verify(statement(replace(proof.closure, coupling=coupling)), proof.by)
+
+
+def test_states_and_radial_bounds_are_about_no_weights() -> None:
+    closure, nothing = weighted(0).proof.closure, (F(0), F(0))
+    witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
+    with pytest.raises(Refused):
+        verify(statement(closure), witness)
+    radial = radial_epsilon(setting(0))
+    assert radial is not None
+    with pytest.raises(Refused):
+        verify(statement(replace(radial.closure, coupling=(F(1), F(1)))), radial.by)
