@@ -1,1 +1,158 @@
-"""lyapcheck: the Lyapunov proof of bounded hyperbolic robot controllers, checked equation by equation."""
+"""lyapcheck: the Lyapunov proof of bounded hyperbolic robot controllers, checked equation by equation.
+
+The names below are the whole public interface. Each is imported from its home when it is first used, so that
+``import lyapcheck`` costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lyapcheck.check.certificates.recheck import recheck
+    from lyapcheck.check.constants import Constants, gamma_less_than, hyperbolic_constants
+    from lyapcheck.check.enclosure import Enclosure
+    from lyapcheck.claims.claim import Claim, Proof
+    from lyapcheck.claims.decision import Decision
+    from lyapcheck.claims.explain import explain
+    from lyapcheck.claims.result import ClaimResult, ProofResult
+    from lyapcheck.claims.run import run_proof
+    from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
+    from lyapcheck.control.gate import GateResult, gate
+    from lyapcheck.control.limits import Limits, limits_for
+    from lyapcheck.control.paper import paper_gain_file
+    from lyapcheck.errors import InputError, Problem
+    from lyapcheck.family.base import Family
+    from lyapcheck.family.registry import named as named_family
+    from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
+    from lyapcheck.lyapunov.numeric import LyapunovNumeric
+    from lyapcheck.report.build import build as build_report
+    from lyapcheck.robots.model import RobotModel
+    from lyapcheck.robots.number import Number
+    from lyapcheck.robots.numeric import NumericModel
+    from lyapcheck.robots.registry import load as load_robot
+    from lyapcheck.robots.registry import names as robot_names
+    from lyapcheck.search.epsilon import EpsilonResult, epsilon
+    from lyapcheck.search.robot_constants import RobotConstants, robot_constants
+    from lyapcheck.simulate.closed_loop import simulate as run_simulation
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.trial import experiment as run_experiment
+    from lyapcheck.verdicts import Exit, Grade, Verdict
+
+    __version__: str
+
+__all__ = [
+    "Bounds",
+    "Claim",
+    "ClaimResult",
+    "Constants",
+    "Decision",
+    "Enclosure",
+    "EpsilonResult",
+    "Exit",
+    "Family",
+    "GainFile",
+    "GainSet",
+    "GateResult",
+    "Grade",
+    "InputError",
+    "Limits",
+    "LyapunovGraph",
+    "LyapunovNumeric",
+    "Number",
+    "NumericModel",
+    "Problem",
+    "Proof",
+    "ProofResult",
+    "RobotConstants",
+    "RobotModel",
+    "Run",
+    "Verdict",
+    "__version__",
+    "build_report",
+    "epsilon",
+    "explain",
+    "gamma_less_than",
+    "gate",
+    "hyperbolic_constants",
+    "limits_for",
+    "load_robot",
+    "lyapunov_graph",
+    "named_family",
+    "paper_gain_file",
+    "read_gain_file",
+    "recheck",
+    "robot_constants",
+    "robot_names",
+    "run_experiment",
+    "run_proof",
+    "run_simulation",
+]
+
+_HOMES = {
+    "Bounds": "control.gains",
+    "Claim": "claims.claim",
+    "ClaimResult": "claims.result",
+    "Constants": "check.constants",
+    "Decision": "claims.decision",
+    "Enclosure": "check.enclosure",
+    "EpsilonResult": "search.epsilon",
+    "Exit": "verdicts",
+    "Family": "family.base",
+    "GainFile": "control.gains",
+    "GainSet": "control.gains",
+    "GateResult": "control.gate",
+    "Grade": "verdicts",
+    "InputError": "errors",
+    "Limits": "control.limits",
+    "LyapunovGraph": "lyapunov.graph",
+    "LyapunovNumeric": "lyapunov.numeric",
+    "Number": "robots.number",
+    "NumericModel": "robots.numeric",
+    "Problem": "errors",
+    "Proof": "claims.claim",
+    "ProofResult": "claims.result",
+    "RobotConstants": "search.robot_constants",
+    "RobotModel": "robots.model",
+    "Run": "simulate.run",
+    "Verdict": "verdicts",
+    "build_report": "report.build:build",
+    "epsilon": "search.epsilon",
+    "explain": "claims.explain",
+    "gamma_less_than": "check.constants",
+    "gate": "control.gate",
+    "hyperbolic_constants": "check.constants",
+    "limits_for": "control.limits",
+    "load_robot": "robots.registry:load",
+    "lyapunov_graph": "lyapunov.graph",
+    "named_family": "family.registry:named",
+    "paper_gain_file": "control.paper",
+    "read_gain_file": "control.gains",
+    "recheck": "check.certificates.recheck",
+    "robot_constants": "search.robot_constants",
+    "robot_names": "robots.registry:names",
+    "run_experiment": "simulate.trial:experiment",
+    "run_proof": "claims.run",
+    "run_simulation": "simulate.closed_loop:simulate",
+}
+"""The module of each public name, and its name there if that is another."""
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for, and keep it."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        value: Any = version("lyapcheck")
+    elif name in _HOMES:
+        module, _, inside = _HOMES[name].partition(":")
+        value = getattr(import_module(f"{__name__}.{module}"), inside or name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
