@@ -146,6 +146,8 @@ def test_masses_and_distances_bound_every_chain(tmp_path: Path, seed: int) -> No
     values = np.linalg.eigvalsh(model.mass(q))
     assert 0 < bounds.lambda_min <= values[:, 0].min()
     assert values[:, -1].max() <= bounds.lambda_max
+    x = np.random.default_rng(seed + 1).normal(size=(500, arm.n))
+    assert bounds.k_c is None or whirl(model, q, x).max() <= bounds.k_c
     assert all(np.abs(model.gravity(q)).max(axis=0) <= [float(x) + 1e-9 for x in bounds.gravity])
 
 

@@ -72,15 +72,18 @@ def limits_for(gain_file: GainFile, robot: str | None = None) -> Limits:
 
 
 def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
-    """k_gi of each joint: as the source prints it, else the sum of the coefficients of g_i in size.
+    """k_gi of each joint: as the source prints it, else the smaller of two bounds.
+
+    The sum of the coefficients of g_i in size, and for a chain of links what masses and distances say.
 
     Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
-    most the larger end of their range.
+    most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other.
     """
     printed = (None if bound is None else bound.bounds[1] for bound in model.gravity_bound)
+    sums = [_coefficient_sum(model, torque) for torque in model.gravity]
+    chain = sums if model.chain_bounds is None else model.chain_bounds.gravity
     return tuple(
-        _coefficient_sum(model, torque) if bound is None else bound
-        for bound, torque in zip(printed, model.gravity, strict=True)
+        min(a, b) if bound is None else bound for bound, a, b in zip(printed, sums, chain, strict=True)
     )
 
 

@@ -9,6 +9,7 @@ from itertools import product
 
 from lyapcheck.robots.fields import ArmFields, Sign
 from lyapcheck.robots.number import Number
+from lyapcheck.robots.tensors import positive_semidefinite
 
 _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _PLACE = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
@@ -116,14 +117,6 @@ def _corners(tensor: dict[str, Number]) -> Iterator[list[list[Fraction]]]:
             i, k = _PLACE[key]
             matrix[i][k] = matrix[k][i] = value
         yield matrix
-
-
-def positive_semidefinite(a: list[list[Fraction]]) -> bool:
-    """All principal minors of a symmetric 3 × 3 matrix are non-negative."""
-    pairs = [a[i][i] * a[k][k] - a[i][k] ** 2 for i, k in ((0, 1), (0, 2), (1, 2))]
-    cofactors = (pairs[2], a[1][2] * a[0][2] - a[0][1] * a[2][2], a[0][1] * a[1][2] - a[0][2] * a[1][1])
-    determinant = sum(x * y for x, y in zip(a[0], cofactors, strict=True))
-    return min(*(a[i][i] for i in range(3)), *pairs, determinant) >= 0
 
 
 def _parallel(a: list[Fraction], b: list[Fraction]) -> bool:

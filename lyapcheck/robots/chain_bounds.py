@@ -6,7 +6,10 @@ distance of its centre of mass from joint i:
 
     xᵀMx ≥ Σ j_k y_k²,          x_i² ≤ (y_i + y_{i−1})²,
     xᵀMx ≤ |x|ᵀ B |x|,          B_ij = Σ_{k≥i,j} (m_k ρ_ik ρ_jk + J_k),
-    |g_i| ≤ |γ| Σ_{k≥i} m_k ρ_ik.
+    |g_i| ≤ |γ| Σ_{k≥i} m_k ρ_ik,    |c_ijk| ≤ N_ijk = Σ_{l≥i,j,k} (m_l ρ_il ρ_{max(j,k),l} + J_l).
+
+The last one is c_ijk = ∫ ∂p/∂q_i · ∂²p/∂q_j∂q_k dm over the points p of the links, where the second
+derivative is a_j × (a_k × (p − o_k)) for j ≤ k; it takes bodies whose mass is nowhere negative.
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from flint import fmpq_mpoly
 
 from lyapcheck.robots import trig
 from lyapcheck.robots.links import Link, least_pivots
+from lyapcheck.robots.tensors import positive_semidefinite
 
 _DIGITS = 10**12
 _HALVINGS = 30
@@ -36,12 +40,14 @@ class ChainBounds:
         lambda_min: lower bound of λmin(M), kg·m².
         lambda_max: upper bound of λmax(M), kg·m².
         gravity: upper bound of every |g_i|, N·m.
+        k_c: upper bound of ‖C(q,x)y‖/(‖x‖‖y‖), kg·m²; ``None`` where a link has an inertia that no body has.
     """
 
     pivots: tuple[Fraction, ...]
     lambda_min: Fraction
     lambda_max: Fraction
     gravity: tuple[Fraction, ...]
+    k_c: Fraction | None
 
 
 def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainBounds | None:
@@ -54,7 +60,8 @@ def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainB
     if not all(x.is_constant() for x in (*entries, *gravity)):
         return None
     masses = [_value(link.mass) for link in links]
-    spectra = [_spectrum([[_value(x) for x in row] for row in link.inertia]) for link in links]
+    tensors = [[[_value(x) for x in row] for row in link.inertia] for link in links]
+    spectra = [_spectrum(tensor) for tensor in tensors]
     reach = _reach(links)
     return ChainBounds(
         least_pivots(links),
@@ -65,6 +72,7 @@ def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainB
             * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
             for row in reach
         ),
+        _whirl(masses, [high for _, high in spectra], reach) if all(map(_bodily, tensors)) else None,
     )
 
 
@@ -106,6 +114,30 @@ def _largest(
     return _radius([[entry(i, j) for j in joints] for i in joints])
 
 
+def _whirl(
+    masses: Sequence[Fraction], inertia: Sequence[Fraction], reach: Sequence[Sequence[Fraction]]
+) -> Fraction:
+    """ρ(Σ_i N_i²)^½ with N_i = (N_ijk)_jk, which bounds Σ N_ijk z_i x_j y_k for unit vectors."""
+    joints = range(len(masses))
+
+    def entry(i: int, j: int, k: int) -> Fraction:
+        moved = [m for m in joints if m >= max(i, j, k)]
+        return sum((masses[m] * reach[i][m] * reach[max(j, k)][m] + inertia[m] for m in moved), Fraction(0))
+
+    layers = [[[entry(i, j, k) for k in joints] for j in joints] for i in joints]
+    squares = [
+        [sum((n[j][m] * n[m][k] for n in layers for m in joints), Fraction(0)) for k in joints]
+        for j in joints
+    ]
+    return _root(_radius(squares))
+
+
+def _bodily(tensor: Tensor) -> bool:
+    """Whether the second moments ½tr(I) − I are positive semidefinite."""
+    half = (tensor[0][0] + tensor[1][1] + tensor[2][2]) / 2
+    return positive_semidefinite([[half * (i == k) - tensor[i][k] for k in range(3)] for i in range(3)])
+
+
 def _radius(rows: Sequence[Sequence[Fraction]]) -> Fraction:
     """An upper bound of the spectral radius of a matrix without negative entries (Collatz and Wielandt)."""
     w = [Fraction(1)] * len(rows)
@@ -140,7 +172,11 @@ def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
 
 def _norm(vector: Sequence[Fraction]) -> Fraction:
     """The length, rounded up."""
-    square = sum((x * x for x in vector), Fraction(0))
+    return _root(sum((x * x for x in vector), Fraction(0)))
+
+
+def _root(square: Fraction) -> Fraction:
+    """The square root, rounded up."""
     root = math.isqrt(math.ceil(square * _DIGITS**2))
     return Fraction(root if Fraction(root, _DIGITS) ** 2 >= square else root + 1, _DIGITS)
 

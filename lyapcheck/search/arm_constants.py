@@ -110,6 +110,8 @@ def _with_chain(model: RobotModel, constant: Constant) -> Constant:
         return replace(constant, enclosure=Enclosure(max(old.lower, chain.lambda_min), old.upper))
     tops = {"lambda_max": chain.lambda_max, "k_g": _length(chain.gravity)}
     tops |= {f"k_g{i + 1}": top for i, top in enumerate(chain.gravity)}
+    if chain.k_c is not None:
+        tops["k_c"] = chain.k_c
     top = min(old.upper, tops.get(constant.name, old.upper))
     return replace(constant, enclosure=Enclosure(old.lower, top))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.robots.bodies import positive_semidefinite
+from lyapcheck.robots.tensors import positive_semidefinite
 from lyapcheck.robots.urdf.fields import UrdfNotes
 from lyapcheck.robots.urdf.parts import UrdfJoint, UrdfLink
 from lyapcheck.robots.urdf.tree import Tree, carrier

@@ -45,12 +45,12 @@ class Roundings:
             worst = max(self.snapped, key=lambda place: self.snapped[place])
             found.append(
                 f"Angles within {float(SNAP):.0e} rad of a multiple of π/2 are taken as that multiple; "
-                f"the largest difference is {float(self.snapped[worst]):.1e} rad ({worst})."
+                f"the largest difference is {float(self.snapped[worst]):.1e} rad ({worst})"
             )
         if self.rounded:
             found.append(
                 f"Rotations and axes that no exact rational can give are rounded by less than "
-                f"{float(CLOSE):.0e} rad: {', '.join(self.rounded)}."
+                f"{float(CLOSE):.0e} rad: {', '.join(self.rounded)}"
             )
         return tuple(found)
 
