@@ -1,4 +1,4 @@
-"""Elementary functions of sums in the scale of ``asymptotic``, and the signs they keep near ∞ and near points.
+"""Elementary functions of sums in the scale of ``asymptotic``, and their signs near infinity and near points.
 
 A function of c + u, u → 0, is its Taylor polynomial in u with a remainder in Lagrange's form, enclosed over
 all values of u; exp, ln, √ and atan of what grows are taken apart by their laws.

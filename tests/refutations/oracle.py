@@ -1,4 +1,4 @@
-"""Whether a statement is false, by numbers alone: an independent evaluator, many points, fifty digits.
+"""Whether a statement is false, by numbers alone: an independent evaluator, many points, many digits.
 
 Nothing of lyapcheck's arithmetic or searches is used. ``True`` means that a point has been found at which the
 statement clearly fails; ``False`` means only that none was found.
@@ -34,13 +34,13 @@ from lyapcheck.claims.statements import (
 Tree = tuple[Any, ...]
 Point = dict[str, Any]
 
-DIGITS = 50
+DIGITS = 120
 SEED = 1871
 SAMPLES = 6_000
 CONFIRMED = 16
 BORDER = 3
 CLEAR = mpf(10) ** -20
-EQUAL = mpf(10) ** -40
+EQUAL = mpf(10) ** -100
 ALIAS = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
 
 
@@ -54,7 +54,7 @@ def is_false(statement: Statement) -> bool:
 
 
 def value(tree: Tree, point: Mapping[str, Any], lib: Any, memo: dict[int, Any] | None = None) -> Any:
-    """An expression at a point, in NumPy (``lib = np``) or to fifty digits (``lib = mpmath``)."""
+    """An expression at a point, in NumPy (``lib = np``) or to ``DIGITS`` digits (``lib = mpmath``)."""
     memo = {} if memo is None else memo
     if id(tree) not in memo:
         memo[id(tree)] = _value(tree, point, lib, memo)
@@ -179,7 +179,7 @@ def breaks(relation: Relation, point: Mapping[str, Any]) -> bool:
 
 
 def meets(relation: Relation, point: Mapping[str, Any]) -> bool:
-    """Whether a relation holds at a point; equality to 40 digits is taken for equality."""
+    """Whether a relation holds at a point; equality to 100 digits is taken for equality."""
     try:
         gap, size = _gap(relation, point)
     except (ZeroDivisionError, ValueError, OverflowError, TypeError):
@@ -220,7 +220,7 @@ def _identity(statement: Identity) -> bool:
 def _for_all(statement: ForAll) -> bool:
     low = -30.0 if statement.low is None else float(statement.low)
     high = max(30.0, low + 30) if statement.high is None else float(statement.high)
-    fine = np.concatenate([s * np.geomspace(1e-6, 30, 2000) for s in (-1, 1)])
+    fine = np.concatenate([s * np.geomspace(1e-5, 30, 2000) for s in (-1, 1)])
     grid = np.concatenate([np.linspace(low, high, 8001), fine[(fine > low) & (fine < high)]])
     order = np.argsort(_lowest(statement.relation, {statement.variable: grid}), kind="stable")[:CONFIRMED]
     ends = [mpf(e.numerator) / e.denominator for e in (statement.low, statement.high) if e is not None]

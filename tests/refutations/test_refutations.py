@@ -29,6 +29,7 @@ from lyapcheck.claims import (
     norm_bound,
     norm_chain,
     positive,
+    sinh,
     sqrt,
     tanh,
     var,
@@ -139,6 +140,7 @@ TRUE = {
     "equality at an open end": for_all(tanh(x) < x, 0, open_low=True),
     "numbers": Constant(sqrt(3) < "1.7321"),
     "equal numbers": Constant(expr("0.5") <= "1/2"),
+    "a high power is small, not zero": for_all(expr(1) < 1 + sinh(x) ** 12, 0, open_low=True),
     "a norm": norm_bound(h(3, x), 4, 2 * gamma(3)),
     "a border that rounding only seems to cross": implies(
         positive("a", "b"), (a < sqrt(3) * b,), a / sqrt(3) < b
