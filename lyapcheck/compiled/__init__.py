@@ -1,0 +1,1 @@
+"""Formulas turned into straight-line C, compiled once and kept: speed for sampling, never for a verdict."""

@@ -1,0 +1,71 @@
+"""The C compiler of this computer, if there is one."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+OFF = "LYAPCHECK_NO_COMPILER"
+"""Set to 1, this environment variable keeps lyapcheck from compiling anything."""
+
+FLAGS = (
+    "-std=gnu11",
+    "-O3",
+    "-march=native",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fopenmp-simd",
+    "-shared",
+    "-fPIC",
+)
+"""No option here lets the compiler reorder sums or forget infinities."""
+
+PATIENCE = 120
+"""Seconds after which a compiler counts as broken."""
+
+
+def compiler() -> str | None:
+    """The path of ``$CC``, gcc, clang or cc, whichever comes first; none if there is none or it is off."""
+    if os.environ.get(OFF, "") not in ("", "0"):
+        return None
+    candidates = (os.environ.get("CC", ""), "gcc", "clang", "cc")
+    return next((found for name in candidates if name and (found := shutil.which(name))), None)
+
+
+def compile_library(source: str, path: Path, command: str) -> bool:
+    """Compile C source into a shared library at ``path``; whether that went well."""
+    arguments = [command, *FLAGS, "-x", "c", "-", "-o", str(path), "-lm"]
+    try:
+        done = subprocess.run(
+            arguments, input=source.encode(), capture_output=True, timeout=PATIENCE, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0 and path.is_file()
+
+
+@cache
+def machine(command: str) -> str:
+    """What a compiled library depends on besides its source: compiler, options, processor."""
+    try:
+        done = subprocess.run(
+            [command, "--version"], capture_output=True, text=True, timeout=PATIENCE, check=False
+        )
+        version = done.stdout.partition("\n")[0]
+    except (OSError, subprocess.TimeoutExpired):
+        version = ""
+    return "\n".join([command, version, *FLAGS, platform.machine(), _processor()])
+
+
+def _processor() -> str:
+    """The features that ``-march=native`` may use."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return platform.processor()
+    wanted = ("model name", "flags", "Features", "CPU part")
+    return "\n".join(sorted({line for line in lines if line.startswith(wanted)}))

@@ -1,0 +1,54 @@
+"""From C source to functions that can be called: from the cache, freshly compiled, or not at all."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+from functools import lru_cache
+from importlib.resources import files
+
+from lyapcheck.compiled import store
+from lyapcheck.compiled.compiler import compile_library, compiler, machine
+
+
+def library(source: str) -> ctypes.CDLL | None:
+    """The library of a source that builds on ``elementary.c``; none where nothing can be compiled.
+
+    Soundness: the name of a kept library is the SHA-256 of its source, the compiler, its options and the
+    processor, so another source or another computer never meets it.
+    """
+    command = compiler()
+    return (
+        None
+        if command is None
+        else _loaded(resource("elementary.c") + source, command, str(store.directory()))
+    )
+
+
+def resource(name: str) -> str:
+    """The text of a C file of this room."""
+    return files("lyapcheck.compiled").joinpath(name).read_text(encoding="utf-8")
+
+
+@lru_cache(maxsize=64)
+def _loaded(source: str, command: str, cache: str) -> ctypes.CDLL | None:
+    """One library a source, compiler and cache; ``cache`` only tells caches apart."""
+    key = hashlib.sha256(f"{machine(command)}\n{source}".encode()).hexdigest()
+    path = store.kept(key)
+    found = _open(str(path)) if path is not None else None
+    return found or _fresh(source, command, key)
+
+
+def _fresh(source: str, command: str, key: str) -> ctypes.CDLL | None:
+    with store.workplace() as place:
+        path = place / "kernel.so"
+        if not compile_library(source, path, command):
+            return None
+        return _open(str(store.keep(key, path) or path))
+
+
+def _open(path: str) -> ctypes.CDLL | None:
+    try:
+        return ctypes.CDLL(path)
+    except OSError:
+        return None

@@ -1,0 +1,32 @@
+"""Work split over the processors; compiled code runs without the interpreter's lock."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+
+def processors() -> int:
+    """How many this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def over_shares(work: Callable[[int, int], int], count: int, unit: int = 1) -> int:
+    """The sum of ``work(start, stop)`` over consecutive shares of ``range(count)``, one a processor.
+
+    Args:
+        work: does its share.
+        count: how much there is.
+        unit: shares are whole multiples of it, except the last.
+    """
+    shares = _shares(count, processors(), unit)
+    if len(shares) == 1:
+        return work(*shares[0])
+    with ThreadPoolExecutor(len(shares)) as pool:
+        return sum(pool.map(lambda share: work(*share), shares))
+
+
+def _shares(count: int, parts: int, unit: int) -> list[tuple[int, int]]:
+    size = max(1, -(-count // (parts * unit))) * unit
+    return [(start, min(start + size, count)) for start in range(0, count, size)] or [(0, 0)]
