@@ -39,22 +39,22 @@ from tests.refutations.mutations import RULES, faults_of
 from tests.refutations.oracle import DIGITS, family_number, is_false
 from tests.refutations.report import markdown, summary
 from tests.refutations.statements import Part, parts
-from tests.refutations.suite import LEAST, outcomes, planted, verdict_of, wrongly_proved
+from tests.refutations.suite import LEAST, outcomes, partly_planted, planted, verdict_of, wrongly_proved
 
-SHARE = 6
+SHARE = 3
 """The fast test decides one planted fault in so many."""
 
 x, a, b = var("x"), var("a"), var("b")
 
 
 def test_there_are_enough_faults_of_every_kind() -> None:
-    kinds = Counter(fault.kind for fault in planted().false)
-    assert len(planted().false) >= LEAST
+    kinds = Counter(fault.kind for fault in partly_planted().false)
+    assert len(partly_planted().false) >= LEAST
     assert set(kinds) == set(RULES)
 
 
 def test_a_share_of_the_false_statements_is_not_proved() -> None:
-    found = outcomes(planted().false[::SHARE])
+    found = outcomes(partly_planted().false[::SHARE])
     assert wrongly_proved(found) == []
     assert Verdict.ERROR not in {outcome.verdict for outcome in found}
     assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
@@ -63,10 +63,10 @@ def test_a_share_of_the_false_statements_is_not_proved() -> None:
 @pytest.mark.slow
 def test_no_false_statement_is_proved() -> None:
     found = outcomes(planted().false)
+    assert len(found) >= LEAST
     assert wrongly_proved(found) == []
     assert Verdict.ERROR not in {outcome.verdict for outcome in found}
     assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
-    assert markdown(planted(), found) == markdown(planted(), outcomes(planted().false))
 
 
 def credulous(statement: Statement) -> Verdict:
@@ -105,7 +105,7 @@ def blind_to_digits(statement: Statement) -> Verdict:
 
 @pytest.mark.parametrize("unsound", [credulous, blind_to_strictness, blind_to_constants, blind_to_digits])
 def test_an_unsound_procedure_is_caught(unsound: object) -> None:
-    suspects = [f for f in planted().false if f.kind in SUSPECT]
+    suspects = [f for f in partly_planted().false if f.kind in SUSPECT]
     assert wrongly_proved(outcomes(suspects, by=unsound))  # type: ignore[arg-type]
 
 
@@ -114,12 +114,12 @@ SUSPECT = ("strict for weak", "factor of two", "√n missing", "constant rounded
 
 def test_the_suite_sees_one_proof_too_many() -> None:
     """A verdict that is wrong for a single fault turns up, by the name of that fault."""
-    target = planted().false[7]
+    target = partly_planted().false[7]
 
     def nearly_sound(statement: Statement) -> Verdict:
         return Verdict.PROVED if statement == target.statement else Verdict.REFUTED
 
-    assert wrongly_proved(outcomes(planted().false, by=nearly_sound)) == [target.name]
+    assert wrongly_proved(outcomes(partly_planted().false, by=nearly_sound)) == [target.name]
 
 
 FALSE = {
@@ -172,7 +172,7 @@ def test_the_oracle_has_its_own_constants_and_they_agree(m: int) -> None:
 def test_what_is_proved_of_the_proofs_is_not_broken_by_the_oracle() -> None:
     """Two opinions on the statements as they stand: proved here, a failing point there, cannot both be."""
     for part in parts():
-        if part.where in planted().broken:
+        if part.where in partly_planted().broken:
             assert verdict_of(part.statement) is not Verdict.PROVED, part.where
 
 
@@ -185,8 +185,8 @@ def test_faults_change_one_place_and_keep_to_the_names_of_the_statement() -> Non
 
 
 def test_the_same_input_gives_the_same_report() -> None:
-    found = outcomes(planted().false, by=credulous)
-    text = markdown(planted(), found)
-    assert text == markdown(planted(), outcomes(planted().false, by=credulous))
+    found = outcomes(partly_planted().false, by=credulous)
+    text = markdown(partly_planted(), found)
+    assert text == markdown(partly_planted(), outcomes(partly_planted().false, by=credulous))
     assert summary(found) in text
     assert f"| {len(found)} |" not in text.splitlines()[0]
