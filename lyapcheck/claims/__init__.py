@@ -48,6 +48,7 @@ from lyapcheck.claims.expressions import (
 )
 from lyapcheck.claims.result import ClaimResult, ProofResult
 from lyapcheck.claims.run import run_proof
+from lyapcheck.claims.state_statements import DampingBelow, Decreasing, damping_below, decreasing
 from lyapcheck.claims.statements import (
     Agrees,
     AllOf,
@@ -87,7 +88,9 @@ __all__ = [
     "Claim",
     "ClaimResult",
     "Constant",
+    "DampingBelow",
     "Decision",
+    "Decreasing",
     "Expr",
     "ForAll",
     "ForSmall",
@@ -114,6 +117,8 @@ __all__ = [
     "coriolis_matrix",
     "cos",
     "cosh",
+    "damping_below",
+    "decreasing",
     "determinant",
     "dh",
     "diff",

@@ -225,6 +225,17 @@ class StateWitness(Proof):
 
 
 @dataclass(frozen=True)
+class DampingAbove(Proof):
+    """κ and ε₀ with dV/dt < 0 everywhere by ``decreasing``, though κ λmax(K_v) < bound is false by ``numbers``."""
+
+    rule = "damping above the bound"
+    factor: Fraction
+    eps0: Fraction
+    numbers: Proof
+    decreasing: Proof
+
+
+@dataclass(frozen=True)
 class Application(Proof):
     """A theorem of the checker's list; its hypotheses are the claims that the certificate uses."""
 

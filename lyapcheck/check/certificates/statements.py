@@ -201,6 +201,33 @@ class Decreasing(Statement):
 
 
 @dataclass(frozen=True)
+class DampingBelow(Statement):
+    """For all κ > 0 and ε₀ > 0: where dV/dt < 0 at every state but the origin, κ λmax(K_v) < bound.
+
+    The gains are K_p and κ K_v; the other fields are those of ``Decreasing``, with (13) for V.
+    """
+
+    mass: tuple[tuple[Monomials, ...], ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
+    family: str
+    m: int | None
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
+    bound: Tree
+
+    def with_damping(self, factor: Fraction, eps0: Fraction) -> Decreasing:
+        """That dV/dt < 0 at one κ and one ε₀."""
+        kv = tuple(factor * k for k in self.kv)
+        arm = (self.mass, self.viscous, self.parameters)
+        return Decreasing(*arm, self.family, self.m, self.kp, kv, eps0, ())
+
+    def below(self, factor: Fraction) -> Constant:
+        """That κ λmax(K_v) < bound at one κ."""
+        return Constant(Relation(("num", str(factor * max(self.kv))), "<", self.bound))
+
+
+@dataclass(frozen=True)
 class Theorem(Statement):
     """A theorem applied: each of its hypotheses is a claim that this one uses."""
 

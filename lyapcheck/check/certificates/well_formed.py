@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from itertools import chain
 from typing import Any
 
@@ -106,6 +107,13 @@ def _decreasing(statement: kinds.Decreasing) -> None:
     require(len(statement.parameters) <= MAX_INPUTS, "parameters", len(statement.parameters), "are too many")
 
 
+def _damping(statement: kinds.DampingBelow) -> None:
+    """The fields that it shares with ``Decreasing``, at any ε₀."""
+    _decreasing(statement.with_damping(Fraction(1), Fraction(1)))
+    require(all(k > 0 for k in statement.kv), "kv", statement.kv, "must be positive")
+    require_expressions([statement.bound], [])
+
+
 def _theorem(statement: kinds.Theorem) -> None:
     _distinct("hypotheses", [name for name, _ in statement.hypotheses])
 
@@ -126,6 +134,7 @@ FORMS: dict[type, Callable[[Any], None]] = {
     kinds.TrigonometricBound: _bounds,
     kinds.TrigonometricPositive: _positive,
     kinds.Decreasing: _decreasing,
+    kinds.DampingBelow: _damping,
     kinds.Theorem: _theorem,
     kinds.AllOf: _all_of,
 }

@@ -8,6 +8,7 @@ from typing import Any
 from lyapcheck.check.certificates import Refused, verify
 from lyapcheck.check.certificates.proofs import Application
 from lyapcheck.check.certificates.rules.theorem import THEOREMS
+from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
@@ -19,6 +20,7 @@ from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
 from lyapcheck.claims.procedures.printed import find_agrees
 from lyapcheck.claims.procedures.small import find_for_small
+from lyapcheck.claims.procedures.states import find_damping_below, find_decreasing
 from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
 from lyapcheck.verdicts import Grade
 
@@ -84,6 +86,8 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.NormChain: find_chain,
     kinds.TrigonometricBound: find_bounds,
     kinds.TrigonometricPositive: find_positive,
+    state_kinds.Decreasing: find_decreasing,
+    state_kinds.DampingBelow: find_damping_below,
     kinds.Theorem: _apply_theorem,
     kinds.AllOf: _find_all,
     kinds.Missing: _missing,

@@ -3,6 +3,7 @@
 from lyapcheck.check.certificates.rules import (
     all_of,
     chain,
+    damping,
     decreasing,
     identity,
     implication,
@@ -18,6 +19,7 @@ from lyapcheck.check.certificates.rules import (
 __all__ = [
     "all_of",
     "chain",
+    "damping",
     "decreasing",
     "identity",
     "implication",

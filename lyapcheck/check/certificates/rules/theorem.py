@@ -38,6 +38,21 @@ THEOREMS = {
         "the equilibrium is globally asymptotically stable",
         "kelly2005control, chapter 2",
     ),
+    "Lyapunov's direct method, time-varying": Known(
+        frozenset(
+            {
+                "equilibrium",
+                "differentiable",
+                "bounded below by a positive definite function",
+                "bounded above by a positive definite function",
+                "radially unbounded",
+                "rate bounded by a form",
+                "form negative definite",
+            }
+        ),
+        "the equilibrium is globally uniformly asymptotically stable",
+        "khalil2002nonlinear, theorem 4.9",
+    ),
 }
 """The theorems that a certificate may apply."""
 

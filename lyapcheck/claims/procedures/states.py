@@ -1,0 +1,180 @@
+"""Statements about every state: norms first, then a search for a state, then branch and bound.
+
+References: ``reyes2019family`` (12), (15), (19).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from flint import ctx
+
+from lyapcheck.check.certificates.proofs import BoxTree, DampingAbove, StateWitness
+from lyapcheck.check.certificates.rules.decreasing import closure_of
+from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.functions import ball
+from lyapcheck.check.scalar import certifies
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.constants import find_constant
+
+if TYPE_CHECKING:
+    from lyapcheck.check.states import State
+    from lyapcheck.search.setting import Setting
+
+METHOD = "every state"
+STARTS = 6
+MAX_BOXES = 60_000
+MOST_JOINTS = 3
+"""Boxes of (q, e) have 2n − 1 sides; with more joints only norms and states are tried."""
+HALVINGS = 40
+FACTORS = tuple(Fraction(k) for k in (1, 2, 10, 100))
+ONE_BOX = BoxTree(".")
+
+
+def find_decreasing(statement: Decreasing) -> Finding:
+    """Norms alone, else a state with dV/dt > 0, else boxes."""
+    closure = closure_of(statement)
+    if not closure.admissible:
+        return still_open("K_p, K_v, B, K_p − ¼ε₀LK_v and ε₀ must be positive, and M symmetric", METHOD)
+    if certifies(closure.tail, closure.eps0):
+        return shown(ONE_BOX, f"{METHOD}: norms alone")
+    if statement.coupling:
+        return still_open(
+            "norms do not suffice, and no boxes are tried for weights; take a smaller ε₀", METHOD
+        )
+    return _against(statement) or _by_boxes(statement)
+
+
+def find_damping_below(statement: DampingBelow) -> Finding:
+    """Look for a κ that breaks the bound and an ε₀ at which norms alone give dV/dt < 0; never proves."""
+    for factor in _factors(statement):
+        numbers = find_constant(statement.below(factor))
+        eps0 = _small_enough(statement.with_damping(factor, Fraction(1)))
+        if numbers.witness is None or numbers.proof is None or eps0 is None:
+            continue
+        gains = {"factor of K_v": str(factor), "eps0": str(eps0)}
+        witness = {**numbers.witness, "point": gains}
+        proof = DampingAbove(factor, eps0, numbers.proof, ONE_BOX)
+        return broken(proof, f"{METHOD}: gains that break the bound and have dV/dt < 0", witness)
+    return still_open(
+        "no gains that break the bound were found to have dV/dt < 0; friction may be lacking", METHOD
+    )
+
+
+def _factors(statement: DampingBelow) -> Iterator[Fraction]:
+    """1, then factors that bring λmax(K_v) to the bound and beyond."""
+    yield Fraction(1)
+    with ctx.workprec(64):
+        bound = Enclosure.from_arb(ball(statement.bound)).upper
+    for factor in FACTORS:
+        scaled = (bound / max(statement.kv) * factor).limit_denominator(1000)
+        yield scaled if scaled > 0 else factor
+
+
+def _small_enough(statement: Decreasing) -> Fraction | None:
+    """A power of ½ for ε₀ at which norms alone give dV/dt < 0."""
+    for power in range(HALVINGS):
+        eps0 = Fraction(1, 2**power)
+        closure = closure_of(replace(statement, eps0=eps0))
+        if closure.admissible and certifies(closure.tail, eps0):
+            return eps0
+    return None
+
+
+def _against(statement: Decreasing) -> Finding | None:
+    """The states that refute the smallest ε₀ are tried at this one."""
+    from lyapcheck.check.states import confirms_positive
+    from lyapcheck.search.falsify import falsify
+
+    setting = setting_of(statement)
+    worst = falsify(setting, STARTS)
+    if worst is None or worst.eps0 > statement.eps0:
+        return None
+    if not confirms_positive(setting.arm, setting.controller, statement.eps0, worst.state):
+        return None
+    state, middle = worst.state, _middles(statement)
+    proof = StateWitness(middle[0], middle[1], state.q, state.e, state.w)
+    witness = _witness(setting, statement.eps0, state)
+    return broken(proof, f"{METHOD}: a state with dV/dt > 0", witness)
+
+
+def _witness(setting: Setting, eps0: Fraction, state: State) -> dict[str, Any]:
+    from lyapcheck.check.states import rate
+
+    names = {f"{name}{i + 1}": x for name in "qew" for i, x in enumerate(getattr(state, name))}
+    found = Enclosure.from_arb(rate(setting.arm, setting.controller, eps0, state, 256))
+    return {
+        "point": {name: str(value) for name, value in names.items()},
+        "left": list(found.decimals(12)),
+        "operator": "<",
+        "right": ["0", "0"],
+    }
+
+
+def _by_boxes(statement: Decreasing) -> Finding:
+    from lyapcheck.search.branch_and_bound import certify
+    from lyapcheck.search.schur import Problem
+
+    n = len(statement.kp)
+    if n > MOST_JOINTS:
+        return still_open(f"norms do not suffice, and boxes are tried up to {MOST_JOINTS} joints", METHOD)
+    closure = closure_of(statement)
+    outcome = certify(Problem(closure, _model(statement)), MAX_BOXES)
+    if not outcome.proved:
+        return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
+    return shown(BoxTree(outcome.tree), f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
+
+
+def setting_of(statement: Decreasing) -> Setting:
+    """The arm at the middle of its ranges under the controller, for a search."""
+    from lyapcheck.control import GainSet
+    from lyapcheck.search.setting import Setting
+
+    gains = GainSet(
+        name="gains",
+        m=statement.m,
+        family=statement.family,
+        kp=statement.kp,
+        kv=statement.kv,
+        angle_unit="rad",
+    )
+    return Setting(gains, _model(statement).fixed())
+
+
+def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
+    """Friction, and parameters, as far as there are any, in the middle of their ranges."""
+    ranges = (statement.viscous, statement.parameters)
+    viscous, parameters = (tuple((low + high) / 2 for low, high in ends) for ends in ranges)
+    return viscous, parameters
+
+
+def _model(statement: Decreasing) -> Any:
+    """A robot model with the arm's M and B and nothing else."""
+    from lyapcheck.robots import Number, RobotModel, trig
+
+    n = len(statement.kp)
+    names = tuple(f"p{k + 1}" for k in range(len(statement.parameters)))
+    ring = trig.trig_ring(n, names)
+    viscous, parameters = _middles(statement)
+    ranged = zip(names, parameters, statement.parameters, strict=True)
+    rows = zip(viscous, statement.viscous, strict=True)
+    unknown = (None,) * n
+    return RobotModel(
+        name="arm",
+        title="arm",
+        joints=tuple(f"joint {i + 1}" for i in range(n)),
+        ring=ring,
+        mass=tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass),
+        potential=trig.constant(ring, 0),
+        viscous=tuple(Number(b, low=low, high=high) for b, (low, high) in rows),
+        coulomb=unknown,
+        torque_limit=unknown,
+        encoder=unknown,
+        gravity_bound=unknown,
+        numbers={},
+        parameters={name: Number(p, low=ends[0], high=ends[1]) for name, p, ends in ranged},
+    )
