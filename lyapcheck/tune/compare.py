@@ -1,0 +1,34 @@
+"""Tuned gains beside others: what the others left on the table, and what they break."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import floor
+
+from lyapcheck.control.bound import gamma_of
+from lyapcheck.control.conditions import REJECTED, check_10p, check_19
+from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.control.limits import Limits
+from lyapcheck.tune.results import ComparedJoint, Comparison, TunedSet
+
+
+def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> Comparison | None:
+    """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
+    if against is None or tuned.gains is None:
+        return None
+    for item in against.gains:
+        if item.m == tuned.m and item.family == "hyperbolic" and item.n == limits.n:
+            return Comparison(item.name, against.path, _joints(tuned, item, limits))
+    return None
+
+
+def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJoint, ...]:
+    gamma = gamma_of(other)
+    torques, dampings = check_10p(other, limits, gamma), check_19(other, limits, gamma)
+    found = []
+    for i, joint in enumerate(tuned.joints):
+        kp, kv = other.kp[i], other.kv[i]
+        broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
+        used = Fraction(floor((kp + kv) / joint.sum_limit.upper * 10**6), 10**6)
+        found.append(ComparedJoint(joint.name, kp, kv, joint.kp - kp, used, broken))
+    return tuple(found)

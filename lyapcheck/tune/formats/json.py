@@ -1,0 +1,91 @@
+"""Tuned gains as versioned JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.files import decimal_text
+from lyapcheck.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet, Tuning
+
+SCHEMA = "lyapcheck/tune/1"
+DIGITS = 20
+
+
+def render(tuning: Tuning) -> str:
+    """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as decimal strings."""
+    targets, limits = tuning.targets, tuning.limits
+    document = {
+        "schema": SCHEMA,
+        "robot": tuning.robot,
+        "targets": {
+            "digits": targets.digits,
+            "peak_share": _texts(targets.peak_share),
+            "kv_share": _texts(targets.kv_share),
+            "kv_min": _texts(targets.kv_min),
+            "damping": _texts(targets.damping),
+        },
+        "limits": {
+            "torque": [None if limit is None else decimal_text(limit) for limit in limits.torque],
+            "gravity": _texts(limits.gravity),
+            "viscous_min": None if limits.viscous_min is None else decimal_text(limits.viscous_min),
+        },
+        "assumptions": list(limits.assumptions),
+        "results": [_set(item, targets.digits) for item in tuning.sets],
+    }
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def _set(item: TunedSet, digits: int) -> dict[str, Any]:
+    return {
+        "name": item.name,
+        "m": item.m,
+        "status": item.status,
+        "reasons": list(item.reasons),
+        "joints": [_joint(joint, digits) for joint in item.joints],
+        "program": item.program or None,
+        "comparison": None if item.comparison is None else _comparison(item.comparison),
+    }
+
+
+def _joint(joint: TunedJoint, digits: int) -> dict[str, Any]:
+    return {
+        "joint": joint.name,
+        "kp": decimal_text(joint.kp, digits),
+        "kv": decimal_text(joint.kv, digits),
+        "kp_bound": joint.kp_bound,
+        "kv_bound": joint.kv_bound,
+        "sum_limit": _ends(joint.sum_limit),
+        "kv_limit": _ends(joint.kv_limit),
+        "damping": None if joint.damping is None else decimal_text(joint.damping),
+    }
+
+
+def _comparison(comparison: Comparison) -> dict[str, Any]:
+    return {
+        "name": comparison.name,
+        "source": comparison.source,
+        "joints": [_compared(joint) for joint in comparison.joints],
+    }
+
+
+def _compared(joint: ComparedJoint) -> dict[str, Any]:
+    return {
+        "joint": joint.name,
+        "kp": decimal_text(joint.kp),
+        "kv": decimal_text(joint.kv),
+        "kp_left": decimal_text(joint.kp_left),
+        "used": decimal_text(joint.used),
+        "broken": list(joint.broken),
+    }
+
+
+def _ends(value: Enclosure) -> dict[str, str]:
+    return dict(zip(("lower", "upper"), value.decimals(DIGITS), strict=True))
+
+
+def _texts(values: Sequence[Fraction] | None) -> list[str] | None:
+    return None if values is None else [decimal_text(value) for value in values]

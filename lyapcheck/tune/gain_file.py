@@ -1,0 +1,99 @@
+"""Tuned gains as a gain file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from lyapcheck.control.gains import Bounds
+from lyapcheck.files import decimal_text
+from lyapcheck.tune.results import TUNED, TunedSet, Tuning
+
+HEAD = """\
+# The largest gains that meet (10p) and (19), with {targets}.
+# One unit more in the last place of any gain breaks what its comment names.
+"""
+
+
+def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
+    """The tuned sets as TOML that ``lyapcheck gate`` accepts.
+
+    Args:
+        tuning: what ``tune`` returned.
+        folder: where the file will stand, as a path of an arm file is meant relative to the gain file.
+    """
+    blocks = [HEAD.format(targets=targets_text(tuning)) + f"robot = {_quoted(_beside(tuning.robot, folder))}"]
+    blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
+    if tuning.bounds != Bounds():
+        blocks.append(_bounds(tuning.bounds))
+    return "\n\n".join(blocks) + "\n"
+
+
+def targets_text(tuning: Tuning) -> str:
+    """What was asked for, in one line."""
+    targets = tuning.targets
+    parts = [f"{targets.digits} decimal places"]
+    for words, values in (
+        ("at most {} of each torque limit", targets.peak_share),
+        ("k_v at least {} of what (19) admits", targets.kv_share),
+        ("k_v at least {} N·m", targets.kv_min),
+        ("damping ratio at least {}", targets.damping),
+    ):
+        if values is not None and (values is not targets.peak_share or min(values) < 1):
+            parts.append(words.format(_each(values)))
+    return "; ".join(parts)
+
+
+def _each(values: Sequence[Fraction]) -> str:
+    """One value if it is the same for all joints."""
+    return ", ".join(map(decimal_text, values if len(set(values)) > 1 else values[:1]))
+
+
+def _set(item: TunedSet, digits: int) -> str:
+    kp_bounds, kv_bounds = ((j.kp_bound for j in item.joints), (j.kv_bound for j in item.joints))
+    kp = _list([joint.kp for joint in item.joints], digits)
+    kv = _list([joint.kv for joint in item.joints], digits)
+    width = max(len(kp), len(kv)) + len("kp = ") + 2
+    return "\n".join(
+        [
+            "[[gains]]",
+            f"name = {_quoted(item.name)}",
+            f"m = {item.m}",
+            f"kp = {kp}".ljust(width) + f"# N·m; {_bound_words(kp_bounds)}",
+            f"kv = {kv}".ljust(width) + f"# N·m; {_bound_words(kv_bounds)}",
+        ]
+    )
+
+
+def _bounds(bounds: Bounds) -> str:
+    lines = ["[bounds]"]
+    if bounds.viscous_min is not None:
+        lines.append(f"viscous_min = {decimal_text(bounds.viscous_min)}  # N·m·s/rad")
+    for key in ("torque", "gravity"):
+        values = getattr(bounds, key)
+        if values is not None:
+            lines.append(f"{key} = {_list(values, 0)}  # N·m")
+    return "\n".join(lines)
+
+
+def _bound_words(bounds: Iterable[str]) -> str:
+    names = {"10p": "(10p)", "19": "(19)", "damping": "the damping ratio"}
+    return ", ".join(names[bound] for bound in bounds)
+
+
+def _list(values: Sequence[Fraction], digits: int) -> str:
+    return f"[{', '.join(decimal_text(value, digits) for value in values)}]"
+
+
+def _quoted(text: str) -> str:
+    """A TOML basic string; JSON escapes the same characters the same way."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def _beside(robot: str, folder: Path | None) -> str:
+    if folder is None or not robot.endswith((".toml", ".urdf")):
+        return robot
+    return Path(os.path.relpath(robot, folder)).as_posix()

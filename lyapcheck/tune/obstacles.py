@@ -1,0 +1,77 @@
+"""Why an arm has no gains that meet the conditions and the targets, and what to change."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lyapcheck.control.limits import Limits
+from lyapcheck.files import decimal_text, round_down
+from lyapcheck.tune.room import Room
+from lyapcheck.tune.targets import Targets
+
+
+def unknown(limits: Limits) -> list[str]:
+    """What is not known of the arm and has to be given."""
+    found = [
+        f"{name}: the arm has no torque limit for this joint; give --torque"
+        for name, torque in zip(limits.joints, limits.torque, strict=True)
+        if torque is None
+    ]
+    if limits.viscous_min is None:
+        found.append("the arm has no viscous friction; give --viscous-min")
+    return found
+
+
+def impossible(limits: Limits) -> list[str]:
+    """Limits that leave nothing to any gain, whatever the member of the family."""
+    found = []
+    for name, torque, gravity in zip(limits.joints, limits.torque, limits.gravity, strict=True):
+        if torque is not None and torque <= gravity:
+            found.append(
+                f"{name}: the torque limit of {decimal_text(torque)} N·m is not above the gravity torque of "
+                f"{_shown(gravity)} N·m, so (10p) admits no gain; take a stronger motor, a lighter arm or a "
+                "larger --peak-share"
+            )
+    if limits.viscous_min is not None and limits.viscous_min <= 0:
+        found.append(
+            "λmin(B) is 0: without viscous friction in every joint (19) admits no k_v; measure the friction "
+            "and give --viscous-min"
+        )
+    return found
+
+
+def obstacle(room: Room, joint: int, limits: Limits, targets: Targets) -> str:
+    """Why a joint with positive limits still has no gains; empty where it has."""
+    name, unit = limits.joints[joint], room.unit
+    if min(room.most_kv, room.most_sum - 1) < 1:
+        return f"{name}: {targets.digits} decimal places are too few for gains this small; raise --digits"
+    if room.least_kv > room.most_kv:
+        return (
+            f"{name}: k_v ≥ {decimal_text(room.least_kv * unit)} breaks (19), which admits at most "
+            f"{decimal_text(room.most_kv * unit)}; lower --kv-min"
+        )
+    if room.least_kv >= room.most_sum:
+        return (
+            f"{name}: k_v ≥ {decimal_text(room.least_kv * unit)} leaves no room for k_p, as (10p) admits "
+            f"k_p + k_v ≤ {decimal_text(room.most_sum * unit)}; {_less_damping(joint, limits, targets)}"
+        )
+    if room.most_kp(room.kv_range[1]) < 1:
+        return (
+            f"{name}: the damping ratio needs k_p below one unit of the last digit; lower --damping or "
+            "raise --digits"
+        )
+    return ""
+
+
+def _less_damping(joint: int, limits: Limits, targets: Targets) -> str:
+    if targets.kv_min is not None:
+        return "lower --kv-min or --kv-share"
+    torque, friction = limits.torque[joint], limits.viscous_min
+    if torque is None or friction is None:
+        return "lower --kv-share"
+    share = round_down((torque - limits.gravity[joint]) / friction, 2)
+    return f"lower --kv-share below {decimal_text(share)}" if share > 0 else "lower --kv-share"
+
+
+def _shown(value: Fraction) -> str:
+    return decimal_text(round_down(value, 6))

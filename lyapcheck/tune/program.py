@@ -1,0 +1,62 @@
+"""The convex program of tuning: a second-order cone program in √k_p and k_v.
+
+    maximise    Σ s_i / √P_i                           s_i = √k_pi, P_i the limit of (10p)
+    subject to  s_i² + k_vi ≤ P_i                      (10p)
+                f_i ≤ k_vi ≤ V                         the targets, and (19)
+                2 ζ_i √(J_i L) s_i ≤ b_i + L k_vi      the damping ratio, where one is asked for
+
+The joints are coupled by nothing, but one program serves all. Its answer is a proposal in floating point;
+``lyapcheck.tune.rounding`` makes exact gains of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+from lyapcheck.tune.room import Room
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """The optimum of the program for each joint, N·m; ``kv`` is empty where the solver gave none."""
+
+    status: str
+    kp: tuple[float, ...] = ()
+    kv: tuple[float, ...] = ()
+
+
+def propose(rooms: Sequence[Room]) -> Proposal:
+    """Clarabel's answer; only ``optimal`` is one."""
+    import cvxpy as cp
+
+    torque = [float(room.sum_limit.mid) for room in rooms]
+    low = [float(room.least_kv * room.unit) for room in rooms]
+    high = [float(min(room.most_kv, room.most_sum - 1) * room.unit) for room in rooms]
+    root, kv = cp.Variable(len(rooms), nonneg=True), cp.Variable(len(rooms), nonneg=True)
+    # each joint in units of its own limit: gains of 10⁻² and 10³ N·m stand side by side
+    constraints = [cp.square(root) + kv <= 1]
+    constraints += [kv >= _over(low, torque), kv <= _over(high, torque)]
+    for i, room in enumerate(rooms):
+        if room.damping is not None:
+            ratio, friction, inertia = (
+                float(x) for x in (room.damping.ratio, room.damping.friction, room.damping.inertia)
+            )
+            slope = float(room.damping.slope[0])
+            stiff = 2 * ratio * sqrt(inertia * slope * torque[i])
+            damped = friction + slope * torque[i] * kv[i]
+            constraints.append(root[i] <= damped / stiff)
+    problem = cp.Problem(cp.Maximize(cp.sum(root)), constraints)
+    try:
+        problem.solve(solver=cp.CLARABEL)
+    except cp.SolverError:
+        return Proposal("failed")
+    if problem.status != cp.OPTIMAL or root.value is None or kv.value is None:
+        return Proposal(str(problem.status))
+    pairs = [(float(s), float(v), t) for s, v, t in zip(root.value, kv.value, torque, strict=True)]
+    return Proposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
+
+
+def _over(values: Sequence[float], scale: Sequence[float]) -> list[float]:
+    return [value / unit for value, unit in zip(values, scale, strict=True)]

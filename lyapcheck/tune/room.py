@@ -1,0 +1,86 @@
+"""The room that an arm's limits leave to the gains of one joint, exactly, in units of the last digit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.control.bound import GammaBound
+from lyapcheck.control.conditions import below, largest_passing, scaled_limit
+from lyapcheck.control.limits import Limits
+from lyapcheck.tune.damping import Damping
+from lyapcheck.tune.targets import Targets
+
+
+@dataclass(frozen=True)
+class Room:
+    """What one joint's gains must keep to; integers count units in the last decimal place.
+
+    Args:
+        unit: the size of one unit, N·m.
+        sum_limit: (τmax − k_g)/(√n γ), which k_p + k_v stays below, N·m.
+        kv_limit: λmin(B)/(√n γ), which k_v stays below, N·m.
+        most_sum: the largest k_p + k_v that passes (10p).
+        most_kv: the largest k_v that passes (19).
+        least_kv: the smallest k_v that the targets allow.
+        damping: the damping ratio that is asked for, ``None`` where none is.
+
+    References: (10), (19) and the tuning rule of Section 4, reyes2019family.
+    """
+
+    unit: Fraction
+    sum_limit: Enclosure
+    kv_limit: Enclosure
+    most_sum: int
+    most_kv: int
+    least_kv: int
+    damping: Damping | None = None
+
+    @property
+    def kv_range(self) -> tuple[int, int]:
+        """The k_v that leave room for a k_p of one unit; empty where the first exceeds the second."""
+        return self.least_kv, min(self.most_kv, self.most_sum - 1)
+
+    def damped_kp(self, kv: int) -> int | None:
+        """The largest k_p that keeps the damping ratio; ``None`` where any does."""
+        return None if self.damping is None else floor(self.damping.largest_kp(kv * self.unit) / self.unit)
+
+    def most_kp(self, kv: int) -> int:
+        """The largest k_p beside a k_v."""
+        damped = self.damped_kp(kv)
+        return self.most_sum - kv if damped is None else min(self.most_sum - kv, damped)
+
+
+def room_of(
+    joint: int, limits: Limits, gamma: GammaBound, targets: Targets, damping: Damping | None = None
+) -> Room:
+    """The room of a joint, counted from 0, on an arm whose torque limits and friction are known.
+
+    Soundness: (10p) and (19) are decided as the gate decides them, for the largest and the next decimal.
+    """
+    torque, friction = limits.torque[joint], limits.viscous_min
+    if torque is None or friction is None or gamma.enclosure is None:
+        raise ValueError("a room needs a torque limit, a friction and a bounded function")
+    budget = torque - limits.gravity[joint]
+    kept = _most(targets.share_of_kv(joint) * friction, limits.n, gamma, targets)
+    least = ceil(targets.kv_min[joint] / targets.unit) if targets.kv_min else 0
+    return Room(
+        unit=targets.unit,
+        sum_limit=scaled_limit(budget, limits.n, gamma.enclosure),
+        kv_limit=scaled_limit(friction, limits.n, gamma.enclosure),
+        most_sum=_most(budget, limits.n, gamma, targets),
+        most_kv=_most(friction, limits.n, gamma, targets),
+        least_kv=max(kept, least, 1),
+        damping=damping,
+    )
+
+
+def _most(budget: Fraction, n: int, gamma: GammaBound, targets: Targets) -> int:
+    """The largest number of units below budget/(√n γ); 0 where there is none."""
+    if budget <= 0 or gamma.enclosure is None:
+        return 0
+    limit = scaled_limit(budget, n, gamma.enclosure)
+    found = largest_passing(lambda k: below(k, budget, n, gamma), limit, targets.digits)
+    return 0 if found is None else int(found / targets.unit)

@@ -1,0 +1,138 @@
+"""The largest gains of an arm: the convex program proposes, exact arithmetic disposes, the gate confirms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from lyapcheck.control.bound import gamma_of
+from lyapcheck.control.gains import Bounds, GainFile, GainSet
+from lyapcheck.control.gate import gate
+from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.files import round_down
+from lyapcheck.robots import RobotModel, load
+from lyapcheck.tune.compare import compare
+from lyapcheck.tune.damping import damping_of
+from lyapcheck.tune.obstacles import impossible, obstacle, unknown
+from lyapcheck.tune.program import propose
+from lyapcheck.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet, Tuning
+from lyapcheck.tune.room import Room, room_of
+from lyapcheck.tune.rounding import best_units, binding
+from lyapcheck.tune.targets import Targets, joint_values, require_usable
+
+WRITTEN_PLACES = 12
+
+
+def tune(
+    robot: str,
+    members: Sequence[int] = (1, 2, 3),
+    targets: Targets | None = None,
+    bounds: Bounds | None = None,
+    against: GainFile | None = None,
+) -> Tuning:
+    """The largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets.
+
+    Args:
+        robot: a built-in arm, or the path of an arm file.
+        members: m of each gain set.
+        targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
+        bounds: limits to take instead of the arm's.
+        against: gains to compare with; see ``lyapcheck.tune.compare``.
+
+    Raises:
+        InputError: the arm or a target cannot be used.
+
+    Soundness: every gain is an exact decimal that the gate accepted; that no gain can be one unit of the last
+        digit larger is decided in the same exact arithmetic. The convex program only says where to look.
+
+    References: (10), (19) and Section 4 of reyes2019family.
+
+    Example:
+        >>> tuning = tune("buap3", (1,))
+        >>> [str(joint.kp) for joint in tuning.sets[0].joints]
+        ['28633/1000', '63112/1000', '7381/1000']
+    """
+    model = load(robot)
+    wanted = targets or Targets()
+    require_usable(wanted, model.n)
+    wanted = _for_each_joint(wanted, model.n)
+    limits, repeated = _limits(robot, model, wanted, bounds or Bounds())
+    sets = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
+    _confirm(sets, limits)
+    compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
+    return Tuning(robot, model.title, wanted, limits, repeated, compared)
+
+
+def _for_each_joint(targets: Targets, n: int) -> Targets:
+    return replace(
+        targets,
+        peak_share=joint_values(targets.peak_share, n),
+        kv_share=None if targets.kv_share is None else joint_values(targets.kv_share, n),
+        kv_min=None if targets.kv_min is None else joint_values(targets.kv_min, n),
+        damping=None if targets.damping is None else joint_values(targets.damping, n),
+    )
+
+
+def _limits(robot: str, model: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
+    """The limits to tune to, and those that the gain file must repeat."""
+    ones = (Fraction(1),) * model.n
+    file = GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds)
+    limits = limits_for(file)
+    if all(share == 1 for share in targets.peak_share):
+        return limits, bounds
+    torque = tuple(
+        None if limit is None else round_down(limit * share, WRITTEN_PLACES)
+        for limit, share in zip(limits.torque, targets.peak_share, strict=True)
+    )
+    known = tuple(limit for limit in torque if limit is not None)
+    repeated = replace(bounds, torque=known if len(known) == model.n else bounds.torque)
+    return replace(limits, torque=torque), repeated
+
+
+def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> TunedSet:
+    """The gain set of one member."""
+    name = f"tau_m{m}"
+    if reasons := impossible(limits):
+        return TunedSet(name, m, INFEASIBLE, reasons=tuple(reasons))
+    if reasons := unknown(limits):
+        return TunedSet(name, m, UNDECIDED, reasons=tuple(reasons))
+    rooms = _rooms(m, model, limits, targets)
+    obstacles = [obstacle(room, i, limits, targets) for i, room in enumerate(rooms)]
+    if any(obstacles):
+        return TunedSet(name, m, INFEASIBLE, reasons=tuple(filter(None, obstacles)))
+    proposal = propose(rooms)
+    starts = proposal.kv or (None,) * len(rooms)
+    units = [best_units(room, start) for room, start in zip(rooms, starts, strict=True)]
+    joints = zip(limits.joints, rooms, units, strict=True)
+    return TunedSet(name, m, TUNED, tuple(_joint(*each) for each in joints), program=proposal.status)
+
+
+def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[Room]:
+    ones = (Fraction(1),) * model.n
+    gamma = gamma_of(GainSet("gamma", m, ones, ones))
+    dampings = damping_of(model, m, targets.damping) if targets.damping else (None,) * model.n
+    return [room_of(i, limits, gamma, targets, damping) for i, damping in enumerate(dampings)]
+
+
+def _joint(name: str, room: Room, units: tuple[int, int]) -> TunedJoint:
+    kp_bound, kv_bound = binding(room, *units)
+    kp, kv = (room.unit * k for k in units)
+    damping = None if room.damping is None else room.damping.reached(kp, kv)
+    return TunedJoint(name, kp, kv, room.sum_limit, room.kv_limit, kp_bound, kv_bound, damping)
+
+
+def _confirm(sets: Sequence[TunedSet], limits: Limits) -> None:
+    """Let the gate judge every tuned set by the limits it was tuned to.
+
+    Raises:
+        ArithmeticError: the gate rejects one, which would be a fault of tuning.
+    """
+    gains = tuple(item.gains for item in sets if item.gains is not None)
+    if not gains:
+        return
+    torque = tuple(limit for limit in limits.torque if limit is not None)
+    bounds = Bounds(limits.viscous_min, torque, limits.gravity)
+    for result in gate(GainFile("tuned gains", None, gains, bounds)):
+        if result.verdict != "accepted":
+            raise ArithmeticError(f"the gate says {result.verdict} to the tuned gains {result.name}")
