@@ -138,7 +138,7 @@ def _statement(claim: Claim, case: Case, file: str) -> Statement:
         return Missing(str(lack))
     except InputError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a script must not choose the exit code
         rule = f"its statement raises {type(error).__name__}: {error}"
         raise InputError(
             Problem(file, None, claim.id, "", rule, "correct the function of this claim")

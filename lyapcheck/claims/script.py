@@ -46,7 +46,7 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         ) from error
     except InputError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a script must not choose the exit code
         raise InputError(_raised(name, path, error)) from error
     proofs = {id(value): value for value in names.values() if isinstance(value, Proof)}
     if len(proofs) != 1:
@@ -55,7 +55,7 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
     return next(iter(proofs.values()))
 
 
-def _raised(name: str, path: Path, error: Exception) -> Problem:
+def _raised(name: str, path: Path, error: BaseException) -> Problem:
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     line = frames[-1].lineno if frames else None
     return Problem(name, line, "script", "", f"raises {type(error).__name__}: {error}", "correct the script")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from lyapcheck.errors import InputError, Problem
 
+_MOST_DIGITS = 1_000
+
 
 def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
     """The members named by a list of whole numbers and ranges ``low:high``, ascending, each once.
@@ -44,4 +46,4 @@ def _complaint(part: str) -> tuple[str, str]:
 
 def _is_whole(text: str) -> bool:
     digits = text.removeprefix("-")
-    return digits.isascii() and digits.isdecimal() and len(digits) <= 20
+    return digits.isascii() and digits.isdecimal() and len(digits) <= _MOST_DIGITS
