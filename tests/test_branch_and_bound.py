@@ -217,7 +217,7 @@ def test_certified_epsilon_comes_near_the_falsified_and_not_beyond() -> None:
     assert found.proof is not None
     assert found.eps0 is not None
     assert F(9, 10) < found.eps0 / FALSIFIED[0] < 1
-    assert proves(found.proof.closure, found.proof.tree)
+    assert proves(found.proof.closure, found.proof.by.tree)
     assert "more boxes would not help" in found.reason
     assert found.looked_at >= found.proof.boxes
 

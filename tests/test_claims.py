@@ -254,3 +254,10 @@ def test_a_wrong_printed_number_comes_with_the_input_that_would_give_it():
 def test_a_lower_bound_of_a_variable_is_used_and_respected():
     assert decide(implies(nonnegative("a"), (), expr(0) <= a)).verdict is Verdict.PROVED
     assert decide(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED
+
+
+def test_what_is_not_defined_at_an_end_is_not_proved_there() -> None:
+    closed = decide(for_all(1 <= sinh(x) / x, 0))
+    assert closed.verdict is Verdict.UNDECIDED
+    assert "not defined at 0" in closed.reason
+    assert decide(for_all(1 <= sinh(x) / x, 0, open_low=True)).verdict is Verdict.PROVED

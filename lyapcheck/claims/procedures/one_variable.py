@@ -13,7 +13,13 @@ from fractions import Fraction
 from flint import ctx
 
 from lyapcheck.check.certificates.proofs import Boxes, Piece, Pieces, Sturm
-from lyapcheck.check.certificates.rules.interval import ZERO_BOX, Domain, pieces, zero_must_be_positive
+from lyapcheck.check.certificates.rules.interval import (
+    ZERO_BOX,
+    Domain,
+    pieces,
+    zero_is_left_out,
+    zero_must_be_positive,
+)
 from lyapcheck.check.certificates.statements import ForAll
 from lyapcheck.check.functions import Tree, Unsupported
 from lyapcheck.check.inequality import positive_from, positive_near_zero, positive_on_box, sign_everywhere
@@ -88,32 +94,36 @@ def _prove(statement: ForAll, domain: Domain) -> Piece:
         )
     if at_zero and not positive_on_box(tree, statement.variable, low, ZERO_BOX):
         raise _Open("equality at 0 is not excluded; say open_low, or use <= instead of <")
-    return _boxes(tree, statement.variable, low, high)
+    return _boxes(statement, domain)
 
 
-def _boxes(tree: Tree, name: str, low: Fraction, high: Fraction | None) -> Boxes:
-    start, end = low, high
+def _boxes(statement: ForAll, domain: Domain) -> Boxes:
+    tree, low, high = domain
+    name, start, end = statement.variable, low, high
     if low == 0:
-        start = _start_of_boxes(tree, name, high)
+        start = _start_of_boxes(tree, name, high, not zero_is_left_out(statement))
     if high is None:
         end = _end_of_boxes(tree, name, start)
     assert end is not None
     return Boxes(tuple(cuts(tree, name, start, end)), low == 0, high is None, BITS)
 
 
-def _start_of_boxes(tree: Tree, name: str, high: Fraction | None) -> Fraction:
+def _start_of_boxes(tree: Tree, name: str, high: Fraction | None, zero_included: bool) -> Fraction:
     for k in range(0, 16, 2):
         start = Fraction(1, 2**k)
-        if (high is None or start <= high) and positive_near_zero(tree, name, start):
+        reachable = high is None or start <= high
+        if reachable and positive_near_zero(tree, name, start, zero_included=zero_included):
             return start
-    raise _Open("the sign next to 0 is open: no Taylor coefficient up to order 96 decides it")
+    if zero_included and positive_near_zero(tree, name, Fraction(1, 2**14)):
+        raise _Open("it holds right of 0 but is not defined at 0; say open_low")
+    raise _Open("the sign next to 0 is open: neither its Taylor series there nor its scale decides it")
 
 
 def _end_of_boxes(tree: Tree, name: str, start: Fraction) -> Fraction:
     for x in map(Fraction, TAIL_STARTS):
         if x > start and positive_from(tree, name, x):
             return x
-    raise _Open("the tail is open: not a quotient of polynomials in x and exp(x), or equal at infinity")
+    raise _Open("the tail is open: no term dominates from there on, or both sides meet at infinity")
 
 
 def cuts(tree: Tree, name: str, low: Fraction, high: Fraction) -> list[Fraction]:

@@ -8,7 +8,6 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check import members
-from lyapcheck.check.balls import even_range
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms

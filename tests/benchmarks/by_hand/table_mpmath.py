@@ -1,4 +1,4 @@
-"""What a user would write for a table of γ_m, ρ_m and L_m: mpmath's findroot between brackets, no certificate.
+"""What a user would write for a table of γ_m, ρ_m and L_m: mpmath's findroot, no certificate.
 
 Usage: python table_mpmath.py FIRST LAST DIGITS
 """

@@ -96,7 +96,9 @@ def _require_boxes(statement: ForAll, domain: Domain, piece: Boxes) -> None:
     require(1 <= len(cuts) <= MAX_CUTS, "cuts", len(cuts), f"must be from 1 to {MAX_CUTS}")
     if piece.from_zero:
         require(low == 0 < cuts[0], "first cut", cuts[0], "must lie above 0, where the piece begins")
-        require(positive_near_zero(tree, name, cuts[0]), "first cut", cuts[0], "is too far from 0")
+        defined = not zero_is_left_out(statement)
+        near = positive_near_zero(tree, name, cuts[0], zero_included=defined)
+        require(near, "first cut", cuts[0], "is too far from 0")
         if zero_must_be_positive(statement, low):
             require(
                 positive_on_box(tree, name, low, ZERO_BOX), "value at 0", 0, "is not shown to be positive"
