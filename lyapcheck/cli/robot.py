@@ -26,7 +26,10 @@ def command(
     tip: Annotated[
         str | None, typer.Option(help="For a URDF: the link that ends the chain. Default: the longest chain.")
     ] = None,
-    max_boxes: Annotated[int, typer.Option(help="Budget of boxes for each constant.", min=1)] = 20_000,
+    max_boxes: Annotated[
+        int | None,
+        typer.Option(help="Budget of boxes for each constant. Default: 200000/n² for n joints.", min=1),
+    ] = None,
     format: Annotated[RobotFormat, typer.Option(help="How to write it.")] = RobotFormat.TEXT,  # noqa: A002
 ) -> None:
     """Decide properties 2.1–2.8 of an arm and certify its constants from both sides.

@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.robot_report.properties import Property, properties
 from lyapcheck.robots import RobotModel
-from lyapcheck.search.arm_constants import MAX_BOXES, Constant, arm_constants
+from lyapcheck.search.arm_constants import Constant, arm_constants
 from lyapcheck.verdicts import Exit, exit_code
 
 Progress = Callable[[float, str], None]
+MAX_BOXES = 200_000
+"""Over the square of the number of joints: the budget that takes a minute or so."""
 SMALL = 3
 """Up to so many joints a search over directions pays for k_c, and the paper's script decides in seconds."""
 
@@ -30,15 +32,18 @@ class RobotReport:
         return exit_code(row.verdict for row in self.properties)
 
 
-def build(model: RobotModel, max_boxes: int = MAX_BOXES, on_progress: Progress | None = None) -> RobotReport:
+def build(
+    model: RobotModel, max_boxes: int | None = None, on_progress: Progress | None = None
+) -> RobotReport:
     """Certify the constants of an arm and decide its properties.
 
     Args:
         model: the arm.
-        max_boxes: budget of each constant.
+        max_boxes: budget of each constant; by default fewer for more joints, whose boxes cost more.
         on_progress: told the share of the work done.
     """
-    constants = arm_constants(model, max_boxes, on_progress=on_progress)
+    budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
+    constants = arm_constants(model, budget, on_progress=on_progress)
     if model.n <= SMALL:
         constants = tuple(_sharper(model, item) if item.name == "k_c" else item for item in constants)
     if on_progress is not None:

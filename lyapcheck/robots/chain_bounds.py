@@ -2,7 +2,7 @@
 
 They are coarse but need no search, so that they hold up for any number of joints. With y_k = |ω_k| the
 rate at which link k turns, j_k and J_k the ends of the spectrum of its inertia, and ρ_ik the largest
-distance of its centre of mass from joint i:
+distance of its centre of mass from the axis of joint i:
 
     xᵀMx ≥ Σ j_k y_k²,          x_i² ≤ (y_i + y_{i−1})²,
     xᵀMx ≤ |x|ᵀ B |x|,          B_ij = Σ_{k≥i,j} (m_k ρ_ik ρ_jk + J_k),
@@ -77,14 +77,23 @@ def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainB
 
 
 def _reach(links: Sequence[Link]) -> list[list[Fraction]]:
-    """ρ_ik, 0 for links before the joint."""
+    """ρ_ik, 0 for links before the joint; what link i itself holds keeps its distance from axis i."""
     arms = [_norm([_value(x) for x in link.com]) for link in links]
     steps = [_norm([_value(x) for x in link.origin]) for link in links]
     n = len(links)
-    return [
-        [arms[k] + sum(steps[i + 1 : k + 1], Fraction(0)) if k >= i else Fraction(0) for k in range(n)]
-        for i in range(n)
-    ]
+    rows = [[Fraction(0)] * n for _ in range(n)]
+    for i, link in enumerate(links):
+        rows[i][i] = _from_axis(link, link.com)
+        for k in range(i + 1, n):
+            first = _from_axis(link, links[i + 1].origin)
+            rows[i][k] = first + sum(steps[i + 2 : k + 1], Fraction(0)) + arms[k]
+    return rows
+
+
+def _from_axis(link: Link, point: Sequence[fmpq_mpoly]) -> Fraction:
+    """The distance of a point of a link from the axis of its joint."""
+    (a, b, c), (x, y, z) = ([_value(entry) for entry in vector] for vector in (link.axis, point))
+    return _norm([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def _smallest(inertia: Sequence[Fraction]) -> Fraction:
