@@ -74,7 +74,8 @@ INLINE void sine_cosine(double x, double *sine, double *cosine)
     const double k = shifted - WHOLE;
     const double r = ((x - k * 0x1.921fb54400000p+0) - k * 0x1.0b4611a600000p-34) - k * 0x1.3198a2e037073p-69;
     const double z = r * r;
-    double s = -1.0 / 1307674368000.0, c = -1.0 / 87178291200.0;
+    double s = 1.0 / 355687428096000.0, c = 1.0 / 20922789888000.0;
+    s = s * z - 1.0 / 1307674368000.0;
     s = s * z + 1.0 / 6227020800.0;
     s = s * z - 1.0 / 39916800.0;
     s = s * z + 1.0 / 362880.0;
@@ -82,6 +83,7 @@ INLINE void sine_cosine(double x, double *sine, double *cosine)
     s = s * z + 1.0 / 120.0;
     s = s * z - 1.0 / 6.0;
     s = r + r * z * s;
+    c = c * z - 1.0 / 87178291200.0;
     c = c * z + 1.0 / 479001600.0;
     c = c * z - 1.0 / 3628800.0;
     c = c * z + 1.0 / 40320.0;

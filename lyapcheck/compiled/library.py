@@ -6,6 +6,7 @@ import ctypes
 import hashlib
 from functools import lru_cache
 from importlib.resources import files
+from pathlib import Path
 
 from lyapcheck.compiled import store
 from lyapcheck.compiled.compiler import compile_library, compiler, machine
@@ -34,21 +35,18 @@ def resource(name: str) -> str:
 def _loaded(source: str, command: str, cache: str) -> ctypes.CDLL | None:
     """One library a source, compiler and cache; ``cache`` only tells caches apart."""
     key = hashlib.sha256(f"{machine(command)}\n{source}".encode()).hexdigest()
-    path = store.kept(key)
-    found = _open(str(path)) if path is not None else None
-    return found or _fresh(source, command, key)
-
-
-def _fresh(source: str, command: str, key: str) -> ctypes.CDLL | None:
-    with store.workplace() as place:
-        path = place / "kernel.so"
-        if not compile_library(source, path, command):
-            return None
-        return _open(str(store.keep(key, path) or path))
-
-
-def _open(path: str) -> ctypes.CDLL | None:
     try:
-        return ctypes.CDLL(path)
+        with store.workplace() as place:
+            _fetch(key, source, command, place / "kernel.so")
+            return ctypes.CDLL(str(place / "kernel.so"))  # it stays in memory when its file is gone
     except OSError:
         return None
+
+
+def _fetch(key: str, source: str, command: str, path: Path) -> None:
+    """Put the library at ``path``, if it is kept or can be compiled."""
+    body = store.kept(key)
+    if body is not None:
+        path.write_bytes(body)
+    elif compile_library(source, path, command):
+        store.keep(key, path.read_bytes())

@@ -1,7 +1,7 @@
 """Compiled libraries kept in the user's cache: private, named by content, checked before use.
 
 A kept file is the library followed by its SHA-256, so that a damaged one is found before it is loaded: the
-loader of the system would crash on it.
+loader of the system would crash on it. What is loaded is a private copy of the bytes that were checked.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def directory() -> Path:
     return base / "lyapcheck" / "kernels"
 
 
-def kept(key: str) -> Path | None:
+def kept(key: str) -> bytes | None:
     """The library kept under a key, if it is there, ours alone to write, and whole."""
     path = directory() / f"{key}.so"
     try:
@@ -34,23 +34,31 @@ def kept(key: str) -> Path | None:
     except OSError:
         return None
     body, digest = content[:-_DIGEST], content[-_DIGEST:]
-    return path if body and hashlib.sha256(body).digest() == digest else None
+    return body if body and hashlib.sha256(body).digest() == digest else None
 
 
-def keep(key: str, library: Path) -> Path | None:
+def keep(key: str, body: bytes) -> Path | None:
     """Put a fresh library under its key in one step; none if the cache cannot be written."""
-    body = library.read_bytes()
     try:
         home = directory()
         home.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not _private(home):
             return None
-        handle, name = tempfile.mkstemp(dir=home, prefix=".new-")
-        with os.fdopen(handle, "wb") as file:
-            file.write(body + hashlib.sha256(body).digest())
-        return Path(name).replace(home / f"{key}.so")
+        return _write(home, body + hashlib.sha256(body).digest()).replace(home / f"{key}.so")
     except (OSError, RuntimeError):
         return None
+
+
+def _write(home: Path, content: bytes) -> Path:
+    """A new file that only this user can read, gone again if it cannot be written to its end."""
+    handle, name = tempfile.mkstemp(dir=home, prefix=".new-")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+    except OSError:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return Path(name)
 
 
 @contextlib.contextmanager

@@ -6,6 +6,9 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+_A_FEW = 4
+"""Shares for each processor: a processor that others use as well then holds nobody up for long."""
+
 
 def processors() -> int:
     """How many this process may use."""
@@ -13,20 +16,21 @@ def processors() -> int:
 
 
 def over_shares(work: Callable[[int, int], int], count: int, unit: int = 1) -> int:
-    """The sum of ``work(start, stop)`` over consecutive shares of ``range(count)``, one a processor.
+    """The sum of ``work(start, stop)`` over consecutive shares of ``range(count)``, a few to a processor.
 
     Args:
         work: does its share.
         count: how much there is.
         unit: shares are whole multiples of it, except the last.
     """
-    shares = _shares(count, processors(), unit)
+    workers = processors()
+    shares = _shares(count, _A_FEW * workers, unit) if workers > 1 else [(0, count)]
     if len(shares) == 1:
         return work(*shares[0])
-    with ThreadPoolExecutor(len(shares)) as pool:
+    with ThreadPoolExecutor(workers) as pool:
         return sum(pool.map(lambda share: work(*share), shares))
 
 
 def _shares(count: int, parts: int, unit: int) -> list[tuple[int, int]]:
     size = max(1, -(-count // (parts * unit))) * unit
-    return [(start, min(start + size, count)) for start in range(0, count, size)] or [(0, 0)]
+    return [(start, min(start + size, count)) for start in range(0, count, size)] or [(0, count)]

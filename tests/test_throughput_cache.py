@@ -1,0 +1,164 @@
+"""Kept libraries: private, whole, found again, and never needed."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.compiled import compiler as compiler_module
+from lyapcheck.compiled import library as library_module
+from lyapcheck.compiled import store
+from lyapcheck.compiled.compiler import OFF, compile_library, compiler
+from lyapcheck.compiled.library import library
+
+COMPILES = compiler() is not None
+SOURCE = "int64_t seven(void) { return 7; }\n"
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """An empty cache, and nothing remembered from the user's own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    library_module._loaded.cache_clear()
+    yield tmp_path / "cache" / "lyapcheck" / "kernels"
+    library_module._loaded.cache_clear()
+
+
+@pytest.fixture
+def compilations(monkeypatch):
+    """The sources compiled so far."""
+    seen: list[str] = []
+
+    def counted(source: str, path: Path, command: str) -> bool:
+        seen.append(source)
+        return compile_library(source, path, command)
+
+    monkeypatch.setattr(library_module, "compile_library", counted)
+    return seen
+
+
+def works() -> bool:
+    library_module._loaded.cache_clear()
+    found = library(SOURCE)
+    return (found is not None and found.seven() == 7) if COMPILES else found is None
+
+
+LIBRARY = b"not code at all"
+
+
+def test_compiled_once_and_found_again(cache, compilations):
+    assert works()
+    assert works()
+    assert len(compilations) == COMPILES
+    assert len(list(cache.glob("*"))) == COMPILES
+
+
+def test_what_is_kept_is_private(cache):
+    path = store.keep("key", LIBRARY)
+    assert path == cache / "key.so"
+    assert stat.S_IMODE(cache.stat().st_mode) == 0o700
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    assert store.kept("key") == LIBRARY
+    assert store.kept("another") is None
+
+
+@pytest.mark.parametrize("damage", [b"", b"x", LIBRARY, None])
+def test_a_damaged_library_is_not_loaded(cache, damage):
+    path = store.keep("key", LIBRARY)
+    content = path.read_bytes()
+    path.write_bytes(bytes([content[0] ^ 1]) + content[1:] if damage is None else damage)
+    assert store.kept("key") is None
+
+
+def test_a_damaged_library_is_compiled_anew(cache, compilations):
+    assert works()
+    for path in cache.glob("*.so"):
+        path.write_bytes(path.read_bytes()[:3000])
+    assert works()
+    assert works()
+    assert len(compilations) == 2 * COMPILES
+
+
+@pytest.mark.parametrize("mode", [0o770, 0o707])
+def test_a_directory_that_others_can_write_is_not_trusted(cache, mode, compilations):
+    store.keep("key", LIBRARY)
+    cache.chmod(mode)
+    assert store.kept("key") is None
+    assert store.keep("key", LIBRARY) is None
+    assert works()
+    assert [path.name for path in cache.glob("*")] == ["key.so"]
+
+
+def test_a_file_that_others_can_write_is_not_trusted(cache):
+    store.keep("key", LIBRARY).chmod(0o622)
+    assert store.kept("key") is None
+
+
+def test_a_cache_that_cannot_be_made_is_done_without(cache, compilations):
+    cache.parent.parent.write_text("a file where the directory would be")
+    assert works()
+    assert len(compilations) == COMPILES
+
+
+def test_a_read_only_cache_is_done_without(cache, compilations, monkeypatch):
+    def refused(*args, **kwargs):
+        raise PermissionError(30, "Read-only file system")
+
+    monkeypatch.setattr(store.tempfile, "mkstemp", refused)
+    assert works()
+    assert works()
+    assert len(compilations) == 2 * COMPILES
+    assert list(cache.glob("*")) == []
+
+
+@pytest.mark.parametrize("home", ["", "relative/path"])
+def test_an_unusable_cache_variable_is_ignored(home, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    assert store.directory() == Path.home() / ".cache" / "lyapcheck" / "kernels"
+
+
+def test_a_broken_compiler_is_no_compiler(cache, tmp_path, monkeypatch):
+    broken = tmp_path / "cc"
+    broken.write_text("#!/bin/sh\nexit 1\n")
+    broken.chmod(0o700)
+    monkeypatch.setenv("CC", str(broken))
+    compiler_module.machine.cache_clear()
+    assert compiler() == str(broken)
+    assert library(SOURCE) is None
+    compiler_module.machine.cache_clear()
+
+
+def test_wrong_c_is_no_library(cache):
+    assert library("this is not C") is None
+
+
+def test_nothing_is_compiled_when_that_is_off(cache, compilations, monkeypatch):
+    monkeypatch.setenv(OFF, "1")
+    assert compiler() is None
+    assert library(SOURCE) is None
+    assert compilations == []
+
+
+def test_many_processes_at_once_leave_one_whole_library(cache):
+    code = f"from lyapcheck.compiled.library import library; print(library({SOURCE!r}) is not None)"
+    command, environment = [sys.executable, "-c", code], dict(os.environ)
+    running = [
+        subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) for _ in range(3)
+    ]
+    assert {process.communicate()[0].strip() for process in running} == {str(COMPILES)}
+    kept = list(cache.glob("*"))
+    assert len(kept) == COMPILES
+    assert all(store.kept(path.stem) for path in kept)
+
+
+def test_without_any_place_for_temporary_files_nothing_is_compiled(cache, monkeypatch):
+    def refused(*args, **kwargs):
+        raise FileNotFoundError("no usable temporary directory")
+
+    monkeypatch.setattr(store.tempfile, "TemporaryDirectory", refused)
+    assert library(SOURCE) is None
