@@ -20,6 +20,7 @@ from lyapcheck.claims.arms import (
     transpose,
     vector,
 )
+from lyapcheck.claims.bounds import above, below, entry_floors, entry_sizes, largest_with
 from lyapcheck.claims.case import Case, Lacking, lacking
 from lyapcheck.claims.claim import Claim, Proof
 from lyapcheck.claims.decision import Decision
@@ -108,11 +109,13 @@ __all__ = [
     "TrigonometricBound",
     "TrigonometricPositive",
     "Variable",
+    "above",
     "agrees",
     "all_of",
     "always_positive",
     "apply",
     "atan",
+    "below",
     "bounded",
     "coriolis_matrix",
     "cos",
@@ -123,6 +126,8 @@ __all__ = [
     "dh",
     "diff",
     "dot",
+    "entry_floors",
+    "entry_sizes",
     "exp",
     "expr",
     "for_all",
@@ -133,6 +138,7 @@ __all__ = [
     "identity",
     "implies",
     "lacking",
+    "largest_with",
     "leading_minors",
     "log",
     "majorant",

@@ -226,7 +226,7 @@ class StateWitness(Proof):
 
 @dataclass(frozen=True)
 class DampingAbove(Proof):
-    """κ and ε₀ with dV/dt < 0 everywhere by ``decreasing``, though κ λmax(K_v) < bound is false by ``numbers``."""
+    """κ and ε₀ with dV/dt < 0 everywhere (``decreasing``) while κ λmax(K_v) < bound fails (``numbers``)."""
 
     rule = "damping above the bound"
     factor: Fraction

@@ -1,0 +1,133 @@
+"""The letters of a closed loop with V of the form (13), for any robot and any function h, and its dV/dt.
+
+    V = ½ yᵀMy + Σ k_pi U(e_i),  y = w − εh,  ε = ε₀/(1 + r),  r = ‖e‖,  U' = h
+    ė = −w,  Mẇ = K_p h − K_v h(w) − Bw − Cw,  Ṁ = C + Cᵀ
+
+C is a matrix of its own: C(q, w) with w = q̇ is (11); C(q, q̇_d + w) is the loop that (21) closes, where
+w = −(q̇_d − q̇).
+
+References: ``reyes2019family`` (11), (13), (15), (21).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lyapcheck.claims.arms import (
+    Matrix,
+    Vector,
+    apply,
+    dot,
+    form,
+    matrix,
+    plus,
+    scaled,
+    transpose,
+    vector,
+)
+from lyapcheck.claims.expressions import Expr, diff, total, var
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The letters: ``h`` stands for h(e), ``dh`` for h'(e), ``hw`` for h(w), ``a`` for ẇ."""
+
+    w: Vector
+    a: Vector
+    e: Vector
+    h: Vector
+    dh: Vector
+    U: Vector
+    hw: Vector
+    kp: Vector
+    kv: Vector
+    b: Vector
+    M: Matrix
+    C: Matrix
+    r: Expr
+    eps0: Expr
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.w)
+
+    @property
+    def eps(self) -> Expr:
+        """ε = ε₀/(1 + r)."""
+        return self.eps0 / (1 + self.r)
+
+    @property
+    def y(self) -> Vector:
+        """w − εh."""
+        return [w - self.eps * h for w, h in zip(self.w, self.h, strict=True)]
+
+    @property
+    def along(self) -> Expr:
+        """êᵀw."""
+        return dot(self.e, self.w) / self.r
+
+
+def loop(n: int) -> Loop:
+    """The letters for n joints; M is symmetric, C any matrix."""
+    names = ("w", "a", "e", "h", "dh", "U", "hw", "kp", "kv", "b")
+    letters = {name: vector(name, n) for name in names}
+    return Loop(**letters, M=matrix("M", n, symmetric=True), C=matrix("C", n), r=var("r"), eps0=var("eps0"))
+
+
+def energy(s: Loop) -> Expr:
+    """V of (13)."""
+    return form(s.y, s.M, s.y) / 2 + dot(s.kp, s.U)
+
+
+def chain_rule(s: Loop, function: Expr) -> Expr:
+    """The derivative of a function of the letters along the loop, ẇ = a left as it is.
+
+    ṙ = −êᵀw has no value at e = 0; where h = 0 as well, it enters V's derivative only in products with h.
+    """
+    rates = {f"w{i + 1}": s.a[i] for i in range(s.n)}
+    rates |= {f"h{i + 1}": -s.dh[i] * s.w[i] for i in range(s.n)}
+    rates |= {f"U{i + 1}": -s.h[i] * s.w[i] for i in range(s.n)}
+    rates |= {f"M{i + 1}{j + 1}": s.C[i][j] + s.C[j][i] for i in range(s.n) for j in range(i, s.n)}
+    rates["r"] = -s.along
+    return total(diff(function, name) * rate for name, rate in rates.items())
+
+
+def inertia(s: Loop) -> Vector:
+    """M ẇ."""
+    return apply(s.M, s.a)
+
+
+def force(s: Loop) -> Vector:
+    """What Mẇ equals in the loop: K_p h − K_v h(w) − Bw − Cw."""
+    pull, damping = scaled(s.kp, s.h), scaled(s.kv, s.hw)
+    friction, turning = scaled(s.b, s.w), apply(s.C, s.w)
+    return [p - d - f - c for p, d, f, c in zip(pull, damping, friction, turning, strict=True)]
+
+
+def terms(s: Loop) -> list[Expr]:
+    """The eleven terms of (15), in printed order."""
+    w, h, dw, eps = s.w, s.h, scaled(s.dh, s.w), s.eps
+    return [
+        -dot(w, scaled(s.kv, s.hw)),
+        -dot(w, scaled(s.b, w)),
+        eps * form(dw, s.M, w),
+        -eps / (1 + s.r) * s.along * form(h, s.M, w),
+        -eps * form(h, transpose(s.C), w),
+        -eps * dot(h, scaled(s.kp, h)),
+        eps * dot(h, scaled(s.b, w)),
+        eps * dot(h, scaled(s.kv, s.hw)),
+        eps**2 * form(h, plus(s.C, transpose(s.C)), h) / 2,
+        eps**2 / (1 + s.r) * s.along * form(h, s.M, h),
+        -(eps**2) * form(dw, s.M, h),
+    ]
+
+
+def rate_with(s: Loop, moved: Vector) -> Expr:
+    """dV/dt with Mẇ replaced by a vector: yᵀ(Mẇ − M d(εh)/dt) + ½yᵀ(C + Cᵀ)y − Σ k_pi h(e_i) w_i."""
+    shift = [
+        s.eps / (1 + s.r) * s.along * h - s.eps * dh * w for h, dh, w in zip(s.h, s.dh, s.w, strict=True)
+    ]
+    pull = [a - b for a, b in zip(moved, apply(s.M, shift), strict=True)]
+    turning = form(s.y, plus(s.C, transpose(s.C)), s.y) / 2
+    return dot(s.y, pull) + turning - dot(s.w, scaled(s.kp, s.h))

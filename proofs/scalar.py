@@ -1,0 +1,559 @@
+"""Global asymptotic stability from norms alone: Θ' in a = ‖h(q̃)‖ and b = ‖q̇‖, for any gains.
+
+The paper bounds dV/dt by a form in ‖q̃‖ and ‖q̇‖ and loses the first term, −q̇ᵀK_v h(q̇), to a bound of the
+wrong sign; what is left needs small K_v and is not true far from the origin. In a and b every bound holds,
+the first term only helps, and the form is
+
+    dV/dt ≤ −[a b] Θ' [a b]ᵀ,   θ'11 = ε k,   θ'22 = λmin(B) − ε c,   θ'12 = −½ ε (d + ε c),
+    k = λmin(K_p),   d = λmax(B) + L λmax(K_v),   c = β_M (ρ + G) + √nγ k_c,   G = √nγ L/(√nγ + L).
+
+The section "Every arm" concludes for all robots with Properties 2.1 to 2.7 and all positive gains, "This arm"
+for the robot and the gains at hand, with numbers for β_M, k_c and ε₀.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from lyapcheck.claims import (
+    Constant,
+    ForSmall,
+    Proof,
+    above,
+    all_of,
+    always_positive,
+    bounded,
+    coriolis_matrix,
+    decreasing,
+    dh,
+    diff,
+    dot,
+    entry_sizes,
+    exp,
+    expr,
+    for_all,
+    form,
+    gamma,
+    h,
+    identity,
+    implies,
+    lacking,
+    largest_with,
+    leading_minors,
+    loops,
+    majorant,
+    mass_matrix,
+    nonnegative,
+    norm_bound,
+    norm_chain,
+    plus,
+    positive,
+    potential,
+    rate_of,
+    reals,
+    rho,
+    scaled,
+    secant_bound,
+    sinh,
+    sqrt,
+    theorem,
+    total,
+    transpose,
+    var,
+    vector,
+)
+
+proof = Proof(
+    "scalar",
+    "A scalar certificate: dV/dt < 0 in ‖h(q̃)‖ and ‖q̇‖ for any gains",
+    reference="reyes2019family",
+)
+
+x = var("x")
+SHARE = Fraction(99, 100)
+"""ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
+
+
+class Bounds:
+    """Decimal numbers that the claims below show to be bounds of h_m; the irrational ones rounded up."""
+
+    def __init__(self, case):
+        root = above(sqrt(case.n))
+        self.gamma = above(gamma(case.m))
+        self.reach = root * self.gamma  # of ‖h‖
+        self.rho = above(rho(case.m))  # of |h'|
+        self.L = above(secant_bound(case.m))  # of h(x)/x
+        self.G = self.reach * self.L / (self.reach + self.L)  # of ‖h‖/(1 + r)
+
+
+# The function h_m ------------------------------------------------------------------------------------------
+
+FAMILY = "The function h"
+
+
+@proof.claim("h.odd", "h is odd and x h(x) > 0 unless x = 0", place="(6)", section=FAMILY)
+def _(case):
+    return all_of(
+        odd=identity(h(case.m, -x), -h(case.m, x)),
+        positive_right_of_0=for_all(expr(0) < h(case.m, x), 0, open_low=True),
+        zero_at_0=identity(h(case.m, 0), 0),
+        product=for_all(expr(0) <= x * h(case.m, x)),
+    )
+
+
+@proof.claim("h.bound", "‖h(x)‖ ≤ √nγ", place="(7), first line", section=FAMILY)
+def _(case):
+    known = Bounds(case)
+    return all_of(
+        every_entry=for_all(h(case.m, x) <= known.gamma),
+        every_entry_from_below=for_all(-known.gamma <= h(case.m, x)),
+        norm=Constant(sqrt(case.n) * known.gamma <= known.reach),
+    )
+
+
+@proof.claim("h.slope", "‖h(x)‖ ≤ L‖x‖ with L = sup h(x)/x", place="(7), second line", section=FAMILY)
+def _(case):
+    return norm_bound(h(case.m, x), case.n, Bounds(case).L, power=1)
+
+
+@proof.claim("h.steep", "|h'(x)| ≤ ρ, and h' is the derivative of h", place="(8)", section=FAMILY)
+def _(case):
+    known = Bounds(case)
+    return all_of(
+        derivative=identity(diff(h(case.m, x), "x"), dh(case.m, x)),
+        from_above=for_all(dh(case.m, x) <= known.rho),
+        from_below=for_all(-known.rho <= dh(case.m, x)),
+    )
+
+
+@proof.claim(
+    "h.share",
+    "‖h(q̃)‖/(1 + ‖q̃‖) ≤ G = √nγL/(√nγ + L)",
+    place="as min(Lr, √nγ)/(1 + r) is largest where both agree",
+    section=FAMILY,
+    uses=["h.bound", "h.slope"],
+)
+def _(case):
+    known, a, r, reach, L = Bounds(case), var("a"), var("r"), var("reach"), var("L")
+    return all_of(
+        for_any_bounds=implies(
+            positive("reach", "L") + nonnegative("a", "r"),
+            (a <= reach, a <= L * r),
+            a / (1 + r) <= reach * L / (reach + L),
+        ),
+        with_these=Constant(expr(known.reach) * known.L / (known.reach + known.L) <= known.G),
+    )
+
+
+# V ---------------------------------------------------------------------------------------------------------
+
+LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)"
+
+
+@proof.claim("V.positive", "V > 0 unless q̃ = q̇ = 0", place="(13)", section=LYAPUNOV, uses=["h.odd"])
+def _(case):
+    """U(x) > 0 unless x = 0, and where q̃ = 0, y = q̇; M is positive definite by Property 2.1."""
+    m = case.m
+    return all_of(
+        argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
+        argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
+        argument_of_ln_is_1_at_0=identity(1 + sinh(0) ** (2 * m), 1),
+    )
+
+
+@proof.claim("V.unbounded", "V is radially unbounded", place="(13)", section=LYAPUNOV, uses=["h.bound"])
+def _(case):
+    """U(x) ≥ |x| − ln 4 grows with q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ, so V grows with q̇."""
+    m, known = case.m, Bounds(case)
+    y, w, a, eps, eps0 = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0"))
+    return all_of(
+        potential=for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0),
+        velocity=implies(
+            nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0"),
+            (w <= y + eps * a, a <= known.reach, eps <= eps0),
+            w <= y + eps0 * known.reach,
+        ),
+    )
+
+
+@proof.claim(
+    "V.smooth",
+    "V is continuously differentiable, also at q̃ = 0, where ‖q̃‖ is not",
+    place="(13)",
+    section=LYAPUNOV,
+    uses=["h.slope", "h.steep"],
+)
+def _(case):
+    """‖q̃‖ enters through εh only: its gradient ε₀ h êᵀ/(1+r)² and its distance from ε₀h both vanish at 0."""
+    r, eps0, a, L = var("r"), var("eps0"), var("norm_h"), Bounds(case).L
+    variables = positive("eps0") + nonnegative("r", "norm_h")
+    return all_of(
+        potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
+        differentiable_at_0=implies(variables, (a <= L * r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * L * r**2),
+        gradient_continuous_at_0=implies(variables, (a <= L * r,), eps0 * a / (1 + r) ** 2 <= eps0 * L * r),
+    )
+
+
+@proof.claim(
+    "equilibrium", "the origin is the only equilibrium", place="(11)", section=LYAPUNOV, uses=["h.odd"]
+)
+def _(case):
+    """At rest Mẇ = K_p h(q̃), and each k_pi h(q̃_i) vanishes only with q̃_i."""
+    s, z = loops.loop(case.n), vector("z", case.n)
+    still = replace(s, w=[expr(0)] * case.n, hw=[h(case.m, 0)] * case.n)
+    return identity(dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h)))
+
+
+# dV/dt -----------------------------------------------------------------------------------------------------
+
+RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ"
+
+
+@proof.claim(
+    "rate", "dV/dt along (11) is the sum of eleven terms", place="(15)", section=RATE, uses=["V.smooth"]
+)
+def _(case):
+    """By the chain rule with ẇ left open, then with Mẇ from (11); Ṁ = C + Cᵀ is Property 2.4."""
+    s = loops.loop(case.n)
+    return all_of(
+        chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
+        terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
+    )
+
+
+@proof.claim("rate.1", "term 1: −q̇ᵀK_v h(q̇) ≤ 0", section=RATE, uses=["rate", "h.odd"])
+def _(case):
+    """Its summands are −k_vi t_i with t_i = q̇_i h(q̇_i) ≥ 0."""
+    names = [f"{kind}{i + 1}" for kind in ("kv", "t") for i in range(case.n)]
+    return implies(nonnegative(*names), (), -dot(vector("kv", case.n), vector("t", case.n)) <= 0)
+
+
+@proof.claim("rate.2", "term 2: −q̇ᵀBq̇ ≤ −λmin(B) b²", section=RATE, uses=["rate"])
+def _(case):
+    """With b_i = λmin(B) + c_i, c_i ≥ 0."""
+    w, over, least = vector("w", case.n), vector("c", case.n), var("b_min")
+    variables = positive("b_min") + nonnegative(*(f"c{i + 1}" for i in range(case.n)))
+    power = total((least + c) * w_i**2 for c, w_i in zip(over, w, strict=True))
+    return implies(variables + reals(*(f"w{i + 1}" for i in range(case.n))), (), -power <= -least * dot(w, w))
+
+
+def chain(case, names, bound, factor=1):
+    """A product of factors whose norms are known, against a bound in a = ‖h(q̃)‖ and w = b = ‖q̇‖."""
+    known = Bounds(case)
+    norms = {
+        "eps": (majorant(eps=1),),
+        "unit·w": (majorant(w=1),),
+        "h(e)": (majorant(a=1), majorant(known.reach)),
+        "h(e)/(1+r)": (majorant(known.G),),
+        "h(w)": (majorant(known.L, w=1),),
+        "h'(e)∘w": (majorant(known.rho, w=1),),
+        "w": (majorant(w=1),),
+        "M": (majorant(beta=1),),
+        "C": (majorant(kc=1, w=1),),
+        "K_v": (majorant(kv_max=1),),
+        "B": (majorant(b_max=1),),
+    }
+    return norm_chain([(majorant(factor),), *(norms[name] for name in names)], bound)
+
+
+@proof.claim("rate.3", "term 3: ε(h'∘q̇)ᵀMq̇ ≤ ερβ_M b²", section=RATE, uses=["rate", "h.steep"])
+def _(case):
+    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(Bounds(case).rho, eps=1, beta=1, w=2))
+
+
+@proof.claim("rate.4", "term 4: −ε êᵀq̇/(1+r) hᵀMq̇ ≤ εGβ_M b²", section=RATE, uses=["rate", "h.share"])
+def _(case):
+    names = ["eps", "unit·w", "h(e)/(1+r)", "M", "w"]
+    return chain(case, names, majorant(Bounds(case).G, eps=1, beta=1, w=2))
+
+
+@proof.claim("rate.5", "term 5: −ε hᵀCᵀq̇ ≤ ε√nγ k_c b²", section=RATE, uses=["rate", "h.bound"])
+def _(case):
+    return chain(case, ["eps", "h(e)", "C", "w"], majorant(Bounds(case).reach, eps=1, kc=1, w=2))
+
+
+@proof.claim("rate.6", "term 6: −ε hᵀK_p h ≤ −ελmin(K_p) a²", section=RATE, uses=["rate"])
+def _(case):
+    """With k_pi = λmin(K_p) + c_i, c_i ≥ 0."""
+    a, over, least, eps = vector("h", case.n), vector("c", case.n), var("kp_min"), var("eps")
+    variables = positive("kp_min", "eps") + nonnegative(*(f"c{i + 1}" for i in range(case.n)))
+    power = total((least + c) * a_i**2 for c, a_i in zip(over, a, strict=True))
+    return implies(
+        variables + reals(*(f"h{i + 1}" for i in range(case.n))), (), -eps * power <= -eps * least * dot(a, a)
+    )
+
+
+@proof.claim("rate.7", "term 7: ε hᵀBq̇ ≤ ελmax(B) a b", section=RATE, uses=["rate"])
+def _(case):
+    return chain(case, ["eps", "h(e)", "B", "w"], majorant(eps=1, b_max=1, a=1, w=1))
+
+
+@proof.claim("rate.8", "term 8: ε hᵀK_v h(q̇) ≤ εLλmax(K_v) a b", section=RATE, uses=["rate", "h.slope"])
+def _(case):
+    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], majorant(Bounds(case).L, eps=1, kv_max=1, a=1, w=1))
+
+
+@proof.claim("rate.9", "term 9: ½ε² hᵀ(C+Cᵀ)h ≤ ε²√nγ k_c a b", section=RATE, uses=["rate", "h.bound"])
+def _(case):
+    bound = majorant(Bounds(case).reach, eps=2, kc=1, a=1, w=1)
+    return chain(case, ["eps", "eps", "h(e)", "C", "h(e)"], bound)
+
+
+@proof.claim("rate.10", "term 10: ε² êᵀq̇/(1+r) hᵀMh ≤ ε²Gβ_M a b", section=RATE, uses=["rate", "h.share"])
+def _(case):
+    names = ["eps", "eps", "unit·w", "h(e)/(1+r)", "M", "h(e)"]
+    return chain(case, names, majorant(Bounds(case).G, eps=2, beta=1, a=1, w=1))
+
+
+@proof.claim("rate.11", "term 11: −ε²(h'∘q̇)ᵀMh ≤ ε²ρβ_M a b", section=RATE, uses=["rate", "h.steep"])
+def _(case):
+    bound = majorant(Bounds(case).rho, eps=2, beta=1, a=1, w=1)
+    return chain(case, ["eps", "eps", "h'(e)∘w", "M", "h(e)"], bound)
+
+
+def drift(known, beta, kc):
+    """c = β_M(ρ + G) + √nγ k_c."""
+    return beta * (known.rho + known.G) + known.reach * kc
+
+
+def cross(known, b_max, kv_max):
+    """d = λmax(B) + L λmax(K_v)."""
+    return b_max + known.L * kv_max
+
+
+def theta(eps, k, b_min, c, d):
+    """θ'11, θ'12, θ'22."""
+    return eps * k, -eps / 2 * (d + eps * c), b_min - eps * c
+
+
+@proof.claim(
+    "rate.form",
+    "dV/dt ≤ −[a b] Θ' [a b]ᵀ",
+    place="in place of (16)",
+    section=RATE,
+    uses=[f"rate.{k}" for k in range(1, 12)],
+)
+def _(case):
+    """The bounds of the eleven terms add up to the form."""
+    known = Bounds(case)
+    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(
+        var, ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
+    )
+    bounds = [
+        expr(0),
+        -b_min * b**2,
+        eps * known.rho * beta * b**2,
+        eps * known.G * beta * b**2,
+        eps * known.reach * kc * b**2,
+        -eps * k * a**2,
+        eps * b_max * a * b,
+        eps * known.L * kv_max * a * b,
+        eps**2 * known.reach * kc * a * b,
+        eps**2 * known.G * beta * a * b,
+        eps**2 * known.rho * beta * a * b,
+    ]
+    corner, side, low = theta(eps, k, b_min, drift(known, beta, kc), cross(known, b_max, kv_max))
+    return identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2))
+
+
+# Every arm -------------------------------------------------------------------------------------------------
+
+ARMS = "Every arm"
+LYAPUNOVS = {
+    "only_equilibrium": "equilibrium",
+    "differentiable": "V.smooth",
+    "positive_definite": "V.positive",
+    "radially_unbounded": "V.unbounded",
+    "rate_bounded_by_a_form": "rate.form",
+}
+
+
+def condition(eps0, k, b_min, c, d):
+    """The condition on ε₀: det Θ'/ε > 0 at ε = ε₀, that is ¼ε₀(d + ε₀c)² < k(λmin(B) − ε₀c)."""
+    return eps0 * (d + eps0 * c) ** 2 / 4 < k * (b_min - eps0 * c)
+
+
+@proof.claim(
+    "arms.theta",
+    "¼ε₀(d + ε₀c)² < λmin(K_p)(λmin(B) − ε₀c) makes Θ' positive definite for every ε in (0, ε₀]",
+    section=ARMS,
+)
+def _(case):
+    """det Θ'/ε does not increase with ε: with z = d + εc ≤ z₀ = d + ε₀c the condition passes from ε₀ to ε."""
+    eps, eps0, k, b, c, d, z, z0 = map(var, ("eps", "eps0", "kp", "b_min", "c", "d", "z", "z0"))
+    variables = positive("eps", "eps0", "kp", "b_min") + nonnegative("c", "d", "z", "z0")
+    corner, side, low = theta(eps, k, b, c, d)
+    return all_of(
+        z_increases=implies(variables, (eps <= eps0,), d + eps * c <= d + eps0 * c),
+        condition_passes_on=implies(
+            variables,
+            (eps <= eps0, z <= z0, eps0 * z0**2 / 4 < k * (b - eps0 * c)),
+            eps * z**2 / 4 < k * (b - eps * c),
+        ),
+        determinant=implies(variables, (condition(eps, k, b, c, d),), side**2 < corner * low),
+        corner=implies(variables, (), expr(0) < corner),
+    )
+
+
+@proof.claim(
+    "arms.stable",
+    "where ε₀ meets the condition, the origin is globally asymptotically stable",
+    section=ARMS,
+    uses=[*LYAPUNOVS.values(), "arms.theta"],
+)
+def _(case):
+    """For every robot with Properties 2.1–2.7 and the constants λmin(B), λmax(B), β_M, k_c, and any gains."""
+    case.read.update(("m", "n"))
+    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arms.theta")
+
+
+@proof.claim("arms.small", "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]", section=ARMS)
+def _(case):
+    known = Bounds(case)
+    eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
+    variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
+    share = eps0 * var("share")
+    corner, side, low = theta(share, k, b, drift(known, beta, kc), cross(known, b + more, kv))
+    return all_of(
+        corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
+        determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
+    )
+
+
+@proof.claim(
+    "arms.all",
+    "for all positive gains the origin is globally asymptotically stable: no bound of K_v is needed",
+    place="the Proposition, without (19)",
+    section=ARMS,
+    uses=[*LYAPUNOVS.values(), "arms.small"],
+)
+def _(case):
+    """For every robot with Properties 2.1–2.7, friction included; ε₀ is not part of the controller."""
+    case.read.update(("m", "n"))
+    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arms.small")
+
+
+# This arm --------------------------------------------------------------------------------------------------
+
+ARM = "This arm"
+
+
+class Numbers:
+    """β_M, k_c, λmin(B), λmax(B) of a robot at its nominal numbers, and the entries behind them."""
+
+    def __init__(self, robot):
+        n = robot.n
+        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
+        self.mass = [entry for row in mass_matrix(robot) for entry in row]
+        self.symbols = [entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row]
+        self.sizes, self.symbol_sizes = entry_sizes(self.mass), entry_sizes(self.symbols)
+        self.rows = [sum(self.sizes[n * i : n * i + n]) for i in range(n)]
+        self.beta = above(max(self.rows))
+        self.kc = above(sqrt(sum(size**2 for size in self.symbol_sizes)))
+        friction = [number.value for number in robot.viscous]
+        self.b_min, self.b_max = min(friction), max(friction)
+
+
+def form_numbers(case):
+    """λmin(K_p), λmin(B), c and d for the robot and gains at hand."""
+    if len(case.gains.kp) != case.robot.n:
+        raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
+    known, arm = Bounds(case), Numbers(case.robot.fixed())
+    c = drift(known, arm.beta, arm.kc)
+    return min(case.gains.kp), arm.b_min, c, cross(known, arm.b_max, max(case.gains.kv))
+
+
+def eps0_of(case):
+    """ε₀: a share of the largest one that meets the condition.
+
+    Raises:
+        Lacking: there is none, as where a joint has no friction.
+    """
+    k, b, c, d = form_numbers(case)
+    largest = largest_with(lambda eps: eps * (d + eps * c) ** 2 / 4 < k * (b - eps * c))
+    if largest is None:
+        raise lacking("no ε₀ > 0 meets the condition; λmin(B) and λmin(K_p) must be positive")
+    return SHARE * largest
+
+
+@proof.claim(
+    "arm.properties",
+    "M is symmetric and positive definite, and Ṁ = C + Cᵀ",
+    place="Properties 2.1, 2.4",
+    section=ARM,
+)
+def _(case):
+    n, robot = case.n, case.robot.fixed()
+    u, v, w = (vector(name, n) for name in "uvw")
+    mass, turning = mass_matrix(robot), coriolis_matrix(robot, w)
+    return all_of(
+        symmetric=identity(form(u, mass, v), form(v, mass, u)),
+        positive_definite=always_positive(leading_minors(mass)),
+        rate=identity(form(u, rate_of(mass, w), v), form(u, plus(turning, transpose(turning)), v)),
+    )
+
+
+@proof.claim("arm.M", "‖M(q)‖ ≤ β_M, the largest row sum", place="Property 2.2", section=ARM)
+def _(case):
+    """A symmetric matrix is nowhere larger than its largest row sum of absolute values."""
+    arm = Numbers(case.robot.fixed())
+    rows = {f"row_{i + 1}": Constant(expr(row) <= arm.beta) for i, row in enumerate(arm.rows)}
+    return all_of(entries=bounded(arm.mass, arm.sizes), **rows)
+
+
+@proof.claim("arm.C", "‖C(q,x)y‖ ≤ k_c‖x‖‖y‖ with k_c² = Σ c_ijk²", place="Property 2.6", section=ARM)
+def _(case):
+    """By Cauchy–Schwarz, twice; C(q, x) is the sum of the x_k C(q, unit k)."""
+    n, robot = case.n, case.robot.fixed()
+    arm, u, y, v = Numbers(robot), vector("u", n), vector("x", n), vector("v", n)
+    flat = arm.symbols
+    parts = (
+        y[k] * u[i] * flat[n * n * k + n * i + j] * v[j] for k in range(n) for i in range(n) for j in range(n)
+    )
+    return all_of(
+        entries=bounded(arm.symbols, arm.symbol_sizes),
+        linear=identity(form(u, coriolis_matrix(robot, y), v), total(parts)),
+        sum_of_squares=Constant(expr(sum(size**2 for size in arm.symbol_sizes)) <= expr(arm.kc) ** 2),
+    )
+
+
+@proof.claim("arm.B", "λmin(B) and λmax(B) bound the friction", place="Property 2.7", section=ARM)
+def _(case):
+    arm = Numbers(case.robot.fixed())
+    parts = {"positive": Constant(expr(0) < arm.b_min)}
+    for i, number in enumerate(case.robot.viscous):
+        parts[f"joint_{i + 1}_from_below"] = Constant(expr(arm.b_min) <= number.value)
+        parts[f"joint_{i + 1}_from_above"] = Constant(expr(number.value) <= arm.b_max)
+    return all_of(**parts)
+
+
+@proof.claim("arm.theta", "Θ' is positive definite for every ε in (0, ε₀], at these numbers", section=ARM)
+def _(case):
+    k, b, c, d = form_numbers(case)
+    eps0 = eps0_of(case)
+    return all_of(
+        corner=Constant(expr(0) < k),
+        determinant=for_all(condition(x, expr(k), expr(b), expr(c), expr(d)), 0, eps0),
+    )
+
+
+@proof.claim(
+    "arm.stable",
+    "the origin is globally asymptotically stable: this robot, these gains, with this ε₀ in V",
+    section=ARM,
+    uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.B", "arm.theta"],
+)
+def _(case):
+    case.read.update(("m", "n"))
+    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arm.theta")
+
+
+@proof.claim("arm.states", "dV/dt < 0 at every state but the origin, by the checker of states", section=ARM)
+def _(case):
+    """The same ε₀ without any of the steps above: the checker has its own bounds of M, C, h and h'."""
+    return decreasing(case.robot, case.gains, eps0_of(case))
+
+
+@proof.claim("arm.ranges", "dV/dt < 0 for every arm within the ranges, with half of ε₀", section=ARM)
+def _(case):
+    """For all values of the numbers of the arm that are assumed within a range."""
+    return decreasing(case.robot, case.gains, eps0_of(case) / 2, ranges=True)
