@@ -26,7 +26,7 @@ SETS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
 
 @pytest.fixture(scope="module", params=[0, 1], ids=["m1", "m2"])
 def case(request: pytest.FixtureRequest) -> tuple[GainSet, EpsilonResult]:
-    return SETS[request.param], epsilon(SETS[request.param], ARM)
+    return SETS[request.param], epsilon(SETS[request.param], ARM, starts=6, max_boxes=8_000)
 
 
 def test_the_four_are_in_order(case: tuple[GainSet, EpsilonResult]) -> None:
@@ -106,7 +106,7 @@ def test_pd_has_no_published_number() -> None:
 
 
 def test_gains_that_break_19_have_an_empty_18() -> None:
-    found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=6, max_boxes=20_000)
+    found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=4, max_boxes=2_000)
     assert found.published is None
     assert "(19)" in found.reasons["published"]
 
@@ -129,7 +129,9 @@ def test_command_prints_the_same_bytes_twice() -> None:
         "--m",
         "2",
         "--starts",
-        "6",
+        "3",
+        "--max-boxes",
+        "500",
         "--format",
         "json",
     )

@@ -39,6 +39,7 @@ class Budget:
     jobs: int
     ranges: bool
     weights: bool
+    seconds: float | None
     starts: int
     seed: int
 
@@ -57,6 +58,10 @@ def command(
     ranges: Annotated[
         bool, typer.Option("--ranges", help="For all values of what is uncertain about the arm.")
     ] = False,
+    seconds: Annotated[
+        float | None,
+        typer.Option(help="Time for branch and bound; the answer then depends on the machine.", min=0),
+    ] = None,
     weights: Annotated[
         bool, typer.Option("--weights", help="Also search weights Λ in y = w − εΛh, joint by joint.")
     ] = False,
@@ -82,14 +87,14 @@ def command(
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
-    budget = Budget(max_boxes, jobs, ranges, weights, starts, seed)
+    budget = Budget(max_boxes, jobs, ranges, weights, seconds, starts, seed)
     with progress("epsilon") as advance:
-        results, seconds = _run(chosen, model, budget, advance)
+        results, times = _run(chosen, model, budget, advance)
     if folder is not None:
         _write_certificates(folder, results)
     from lyapcheck.search.epsilon_formats import renderer
 
-    sys.stdout.write(renderer(format.value)(results, seconds if timings else None))
+    sys.stdout.write(renderer(format.value)(results, times if timings else None))
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
 

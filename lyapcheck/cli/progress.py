@@ -5,6 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from time import monotonic
+
+SILENCE = 1.0
+"""Seconds between two lines where there is no terminal."""
 
 Advance = Callable[[float, str], None]
 """Called with the fraction done (0 to 1) and a note of a few words."""
@@ -37,12 +41,12 @@ def _bar(label: str) -> Iterator[Advance]:
 
 @contextmanager
 def _lines(label: str) -> Iterator[Advance]:
-    last = ""
+    last, told = "", -SILENCE
 
     def advance(fraction: float, note: str) -> None:
-        nonlocal last
-        if note and note != last:
+        nonlocal last, told
+        if note and note != last and monotonic() - told >= SILENCE:
             print(f"{label}: {round(100 * fraction):3d} % {note}", file=sys.stderr)
-        last = note
+            last, told = note, monotonic()
 
     yield advance

@@ -12,6 +12,7 @@ values of what is uncertain about the arm. Boxes are enclosed in intervals, kept
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,13 +27,19 @@ from lyapcheck.search.schur import Problem
 Array = NDArray[np.float64]
 
 
-def certify(problem: Problem, max_boxes: int, on_progress: Progress | None = None) -> Outcome:
+def certify(
+    problem: Problem,
+    max_boxes: int,
+    on_progress: Progress | None = None,
+    deadline: float = math.inf,
+) -> Outcome:
     """Look for a tree of boxes that proves dV/dt < 0 everywhere for one ε₀, or say why there is none.
 
     Args:
         problem: what must be positive definite.
         max_boxes: how many boxes may be looked at.
         on_progress: told the share of the volume decided.
+        deadline: by the monotonic clock, s.
 
     Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.stability.proves``.
     """
@@ -41,7 +48,7 @@ def certify(problem: Problem, max_boxes: int, on_progress: Progress | None = Non
         return Outcome(True, 0, tree=".")
     start = np.array(closure.start).T[None]
     sides = Splitter.of(problem).sides
-    return cover(start, problem.proved, sides, max_boxes, on_progress)
+    return cover(start, problem.proved, sides, max_boxes, on_progress, deadline)
 
 
 @dataclass(frozen=True, eq=False)

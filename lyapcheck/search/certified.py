@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from time import monotonic
 
 from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
 from lyapcheck.check.stability import Closure, proves
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, Progress
+from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, Progress
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
@@ -56,6 +57,7 @@ def certified_epsilon(
     ceiling: Fraction,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
+    seconds: float | None = None,
     on_progress: Progress | None = None,
 ) -> Certified:
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
@@ -65,6 +67,7 @@ def certified_epsilon(
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
         jobs: processes for the checker.
+        seconds: no new boxes are looked at after that time; the answer then depends on the machine.
         on_progress: told the share of the attempts done.
 
     Returns:
@@ -77,7 +80,8 @@ def certified_epsilon(
     if setting.n > MOST_JOINTS:
         return Certified(None, 0, _MANY_JOINTS)
     tell = on_progress or (lambda fraction, note: None)
-    found, looked_at, reason = _attempts(setting, ceiling, max_boxes, tell)
+    deadline = math.inf if seconds is None else monotonic() + seconds
+    found, looked_at, reason = _attempts(setting, ceiling, max_boxes, deadline, tell)
     while found:
         proof = found.pop()
         tell(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
@@ -88,7 +92,7 @@ def certified_epsilon(
 
 
 def _attempts(
-    setting: Setting, ceiling: Fraction, max_boxes: int, tell: Progress
+    setting: Setting, ceiling: Fraction, max_boxes: int, deadline: float, tell: Progress
 ) -> tuple[list[Proof], int, str]:
     """What the search believes to be proofs, of growing ε₀; boxes looked at; why it went no further."""
     found: list[Proof] = []
@@ -97,8 +101,9 @@ def _attempts(
         closure = setting.closure(_rounded_down(ceiling * share))
         if not closure.admissible:
             return found, looked_at, f"K_p is too small beside K_v for ε₀ = {float(closure.eps0):.6g}"
-        tell(index / (len(SHARES) + 1), f"{float(share):.1%} of falsified")
-        outcome = certify(Problem(closure, setting.ranged), max_boxes - looked_at)
+        advance = _part(tell, index, f"{float(share):.1%} of falsified")
+        advance(0.0, "")
+        outcome = certify(Problem(closure, setting.ranged), max_boxes - looked_at, advance, deadline)
         looked_at += outcome.boxes
         if not outcome.proved:
             return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)
@@ -106,10 +111,22 @@ def _attempts(
     return found, looked_at, ""
 
 
+def _part(tell: Progress, index: int, label: str) -> Progress:
+    """The progress of one attempt: the share of the volume decided, and the boxes looked at."""
+
+    def advance(fraction: float, note: str) -> None:
+        decided = f", {note}, {fraction:.1%} of the volume decided" if note else ""
+        tell((index + fraction) / (len(SHARES) + 1), f"{label}{decided}")
+
+    return advance
+
+
 def _advice(reason: str, eps0: Fraction, max_boxes: int) -> str:
     tried = f"ε₀ = {float(eps0):.6g} was not proved"
     if reason == EXHAUSTED:
         return f"{tried} within {max_boxes} boxes: allow more boxes"
+    if reason == LATE:
+        return f"{tried} in time: allow more seconds"
     if reason == RESISTS:
         return f"{tried}: the bound fails at one state, so more boxes would not help"
     return f"{tried}: {reason}"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +26,7 @@ SMALLEST = 1e-5
 
 RESISTS = "a state resisted"
 EXHAUSTED = "the budget of boxes is spent"
+LATE = "the time is up"
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +49,12 @@ class Outcome:
 
 
 def cover(
-    start: Boxes, prove: Prover, choose: Chooser, max_boxes: int, on_progress: Progress | None = None
+    start: Boxes,
+    prove: Prover,
+    choose: Chooser,
+    max_boxes: int,
+    on_progress: Progress | None = None,
+    deadline: float = math.inf,
 ) -> Outcome:
     """Prove a property of every point of a box, halving it where it is not proved as a whole.
 
@@ -59,6 +67,7 @@ def cover(
         choose: the side of each box that should be halved.
         max_boxes: how many boxes may be looked at.
         on_progress: told the share of the volume decided.
+        deadline: by the monotonic clock, s; the search gives up after it.
 
     Soundness: halves cover their box; ``prove`` is taken at its word.
     """
@@ -71,8 +80,8 @@ def cover(
             stack.append((boxes[CHUNK:], names[CHUNK:]))
             boxes, names = boxes[:CHUNK], names[:CHUNK]
         seen += len(boxes)
-        if seen > max_boxes:
-            return Outcome(False, seen, EXHAUSTED)
+        if seen > max_boxes or monotonic() > deadline:
+            return Outcome(False, seen, EXHAUSTED if seen > max_boxes else LATE)
         proved = prove(boxes)
         done += float(np.sum(_volumes(boxes[proved])))
         if on_progress is not None:

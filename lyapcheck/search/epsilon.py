@@ -112,6 +112,7 @@ def epsilon(
     jobs: int = 1,
     ranges: bool = False,
     weights: bool = False,
+    seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
     on_progress: Progress | None = None,
@@ -124,6 +125,7 @@ def epsilon(
         max_boxes: budget of branch and bound.
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
+        seconds: time for branch and bound; without it the same input gives the same numbers anywhere.
         weights: look for weights Λ as well, joint by joint.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
@@ -154,6 +156,7 @@ def epsilon(
         hint or 10 * (scalar.eps0 or Fraction(1)),
         max_boxes,
         jobs,
+        seconds,
         lambda f, note: tell(0.35 + (0.55 if weights else 0.65) * f, note),
     )
     proof, by, reasons["certified"] = _best(setting, found)
