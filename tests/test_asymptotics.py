@@ -1,0 +1,57 @@
+"""How γ_m, ρ_m and L_m grow with m: the proof script, and the same bounds straight from the constants."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import arb
+
+from lyapcheck.check.balls import precision
+from lyapcheck.check.constants import gamma_less_than, hyperbolic_constants
+from lyapcheck.claims import run_proof
+
+MEMBERS = (*range(1, 13), 50, 100, 317, 1000, 100_000)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return run_proof("asymptotics.py", MEMBERS)
+
+
+def test_every_claim_is_proved_for_small_and_large_m(result):
+    assert {row.decision.verdict.value for row in result.claims} == {"proved"}
+    assert {row.m for row in result.claims} == set(MEMBERS)
+
+
+def test_the_bounds_hold_for_m_up_to_1000():
+    with precision(160):
+        root2, asinh1 = arb(2).sqrt(), (1 + arb(2).sqrt()).log()
+        for m in range(2, 1001):
+            found = hyperbolic_constants(m, 30)
+            gamma, rho, secant = (value.to_arb() for value in (found.gamma, found.rho, found.L))
+            step = arb(4 * m).log() / m
+            excess = gamma / root2 - 1 + (1 + arb(4 * m).log()) / (4 * m)
+            assert gamma_less_than(m, Fraction(2))
+            assert step**2 * 3 / 32 < excess < step**2 / 6
+            assert m - Fraction(1, 2) < found.rho.lower < found.rho.upper < m
+            assert arb(-3) / (4 * m * m) < rho - (arb(2 * m - 1) / 2 + arb(9) / (16 * m)) < 0
+            assert (1 - step * 2 / 3) * root2 / asinh1 < secant < root2 / asinh1
+
+
+def test_the_second_order_term_of_gamma_lies_between_the_two_that_are_claimed():
+    """At m = 1000 it is 0.102 (ln 4m/m)²: above 3/32, and a bound of 1/10 would be false."""
+    with precision(160):
+        step = arb(4000).log() / 1000
+        share = hyperbolic_constants(1000, 30).gamma.to_arb() / arb(2).sqrt()
+        excess = share - 1 + (1 + arb(4000).log()) / 4000
+        assert step**2 * 3 / 32 < excess
+        assert excess > step**2 / 10
+
+
+def test_rho_comes_as_close_to_its_expansion_as_is_claimed():
+    """The distance times m² tends to 3/4: no smaller constant would do, and −1/2 and 9/16 are right."""
+    for m in (100, 1000, 10_000, 100_000):
+        rho = hyperbolic_constants(m, 40).rho.mid
+        scaled = (m - Fraction(1, 2) + Fraction(9, 16 * m) - rho) * m * m
+        assert 0 < Fraction(3, 4) - scaled < Fraction(6, 5 * m)
