@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lyapcheck.admissible import EpsilonResult, epsilon
     from lyapcheck.check.certificates.recheck import recheck
     from lyapcheck.check.constants import Constants, gamma_less_than, hyperbolic_constants
     from lyapcheck.check.enclosure import Enclosure
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.robots.registry import load as load_robot
     from lyapcheck.robots.registry import names as robot_names
-    from lyapcheck.search.epsilon import EpsilonResult, epsilon
     from lyapcheck.search.robot_constants import RobotConstants, robot_constants
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.run import Run
@@ -97,7 +97,7 @@ _HOMES = {
     "Constants": "check.constants",
     "Decision": "claims.decision",
     "Enclosure": "check.enclosure",
-    "EpsilonResult": "search.epsilon",
+    "EpsilonResult": "admissible",
     "Exit": "verdicts",
     "Family": "family.base",
     "GainFile": "control.gains",
@@ -118,7 +118,7 @@ _HOMES = {
     "Run": "simulate.run",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
-    "epsilon": "search.epsilon",
+    "epsilon": "admissible",
     "explain": "claims.explain",
     "gamma_less_than": "check.constants",
     "gate": "control.gate",

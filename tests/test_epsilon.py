@@ -10,13 +10,15 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from lyapcheck.admissible.compute import epsilon, round_down
+from lyapcheck.admissible.consistency import Contradiction, require_consistent
+from lyapcheck.admissible.formats import FORMATS, renderer
+from lyapcheck.admissible.result import EpsilonResult
 from lyapcheck.check.states import confirms_positive
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load
-from lyapcheck.search.epsilon import Contradiction, EpsilonResult, epsilon, require_consistent, round_down
-from lyapcheck.search.epsilon_formats import FORMATS, renderer
 from lyapcheck.search.setting import Setting
 
 F = Fraction

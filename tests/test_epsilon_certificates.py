@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from lyapcheck.admissible import epsilon
+from lyapcheck.admissible.certificates import certificates
 from lyapcheck.check.certificates import Refused
 from lyapcheck.check.certificates.document import Certificate, digest_of, judge, parse, read
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
-from lyapcheck.search.epsilon import epsilon
-from lyapcheck.search.epsilon_certificates import certificates
 
 F = Fraction
 Document = dict[str, Any]

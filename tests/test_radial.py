@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from lyapcheck.admissible.certificates import statement
 from lyapcheck.check.balls import precision
 from lyapcheck.check.certificates import Refused, verify
 from lyapcheck.check.certificates.proofs import RadialBounds
@@ -20,7 +21,6 @@ from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import Proof
-from lyapcheck.search.epsilon_certificates import statement
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.setting import Setting
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from flint import arb
 
+from lyapcheck.admissible.certificates import statement
 from lyapcheck.check.balls import precision
 from lyapcheck.check.certificates import Refused, verify
 from lyapcheck.check.certificates.proofs import BoxTree, StateWitness
@@ -20,7 +21,6 @@ from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.epsilon_certificates import statement
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.setting import Setting
 from lyapcheck.search.weights import Weighted, weighted_epsilon

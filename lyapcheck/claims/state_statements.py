@@ -24,7 +24,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
     Raises:
         Lacking: the gains are for another number of joints, or h is unbounded.
     """
-    from lyapcheck.search.epsilon_certificates import statement
+    from lyapcheck.admissible.certificates import statement
     from lyapcheck.search.setting import Setting
 
     if len(gains.kp) != robot.n:

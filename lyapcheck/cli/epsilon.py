@@ -18,9 +18,9 @@ from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.admissible import EpsilonResult
     from lyapcheck.control import GainFile, GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.search.epsilon import EpsilonResult
 
 
 class EpsilonFormat(StrEnum):
@@ -92,7 +92,7 @@ def command(
         results, times = _run(chosen, model, budget, advance)
     if folder is not None:
         _write_certificates(folder, results)
-    from lyapcheck.search.epsilon_formats import renderer
+    from lyapcheck.admissible.formats import renderer
 
     sys.stdout.write(renderer(format.value)(results, times if timings else None))
     missing = any(result.certified is None for result in results)
@@ -100,7 +100,7 @@ def command(
 
 
 def _write_certificates(folder: Path, results: list[EpsilonResult]) -> None:
-    from lyapcheck.search.epsilon_certificates import certificates
+    from lyapcheck.admissible.certificates import certificates
 
     for result in results:
         for name, certificate in certificates(result).items():
@@ -127,7 +127,7 @@ def _run(
     gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
-    from lyapcheck.search.epsilon import epsilon
+    from lyapcheck.admissible import epsilon
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []

@@ -57,9 +57,9 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
     """The four ε₀, and the states of largest dV/dt at the certified one."""
-    from lyapcheck.search.epsilon import epsilon
-    from lyapcheck.search.epsilon_formats.json import result_json
-    from lyapcheck.search.epsilon_formats.words import reasons
+    from lyapcheck.admissible import epsilon
+    from lyapcheck.admissible.formats.json import result_json
+    from lyapcheck.admissible.formats.words import reasons
     from lyapcheck.search.falsify import worst_states
     from lyapcheck.search.setting import Setting
 

@@ -11,12 +11,12 @@ References: ``reyes2019family`` (12), (16), (18).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.states import confirms_positive
+from lyapcheck.admissible.consistency import findings, require_consistent
+from lyapcheck.admissible.result import EpsilonResult, Refutation
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.certified import MAX_BOXES, Certified, Proof, certified_epsilon
 from lyapcheck.search.corners import falsify_corners
@@ -25,83 +25,15 @@ from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.robot_constants import robot_bounds
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting
-from lyapcheck.search.weights import Weighted, weighted_epsilon
+from lyapcheck.search.weights import weighted_epsilon
 
 if TYPE_CHECKING:
-    from lyapcheck.check.stability import Closure
     from lyapcheck.control import GainSet
     from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
 
 Progress = Callable[[float, str], None]
 _DIGITS = 9
-
-
-class Contradiction(RuntimeError):
-    """A proved state refutes a proved ε₀: one of the two proofs is wrong, and nothing may be reported."""
-
-
-@dataclass(frozen=True)
-class Refutation:
-    """The closure that a witness refutes, and the values of what is uncertain at the arm it is a state of."""
-
-    closure: Closure
-    viscous: tuple[Fraction, ...]
-    parameters: tuple[Fraction, ...]
-
-
-@dataclass(frozen=True)
-class EpsilonResult:
-    """The four ε₀; ``None`` where there is none, with the reason under the same name in ``reasons``.
-
-    Args:
-        name: of the gain set.
-        m: member of the family, if it has members.
-        robot: name of the arm.
-        published: the end of (18), rounded down.
-        scalar: ε₀ of the scalar certificate.
-        certified: ε₀ of branch and bound, or of the scalar certificate where that is larger.
-        falsified: ε₀ of the witness.
-        witness: the state that refutes ``falsified``.
-        boxes: how many boxes branch and bound looked at.
-        certified_by: which certificate stands behind ``certified``.
-        proof: the boxes behind ``certified``, which the checker has accepted.
-        against: what ``witness`` refutes, and the arm it is a state of.
-        weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
-        ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
-        corner: the uncertain numbers of the arm that ``witness`` is about, by name.
-        reasons: why a number is missing, and what to try.
-        findings: what the numbers say about each other, one sentence each.
-        assumptions: what is taken for granted about the arm.
-        seed: of the sampled states.
-    """
-
-    name: str
-    m: int | None
-    robot: str
-    published: Fraction | None
-    scalar: Fraction | None
-    certified: Fraction | None
-    falsified: Fraction | None
-    witness: Witness | None
-    boxes: int
-    certified_by: str
-    proof: Proof | None = None
-    against: Refutation | None = None
-    weighted: Weighted | None = None
-    ranges: bool = False
-    corner: Mapping[str, Fraction] = field(default_factory=dict)
-    reasons: Mapping[str, str] = field(default_factory=dict)
-    findings: tuple[str, ...] = ()
-    assumptions: tuple[str, ...] = ()
-    seed: int = SEED
-
-    @property
-    def ratio(self) -> Fraction | None:
-        """certified / falsified: 1 would leave nothing open."""
-        if self.certified is None or self.falsified is None:
-            return None
-        return self.certified / self.falsified
 
 
 def epsilon(
@@ -185,7 +117,7 @@ def epsilon(
         corner=_corner(at) if ranges else {},
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
-        findings=tuple(_findings(setting, published, certified, witness)),
+        findings=tuple(findings(published, certified, witness)),
         assumptions=model.assumptions,
         seed=seed,
     )
@@ -243,38 +175,6 @@ def _published(
     if limit is None:
         return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
     return round_down(limit.lower, _DIGITS), ""
-
-
-def require_consistent(
-    setting: Setting, witness: Witness | None, claimed: Mapping[str, Fraction | None]
-) -> None:
-    """Raise `Contradiction` if the witness has dV/dt > 0 at an ε₀ that is claimed to be certified."""
-    for name, eps0 in claimed.items():
-        if witness is None or eps0 is None:
-            continue
-        if confirms_positive(setting.arm, setting.controller, eps0, witness.state):
-            raise Contradiction(
-                f"{setting.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
-            )
-        if name == "scalar" and eps0 >= witness.eps0:
-            raise Contradiction(f"{setting.gains.name}: the scalar ε₀ is not below a falsified one")
-
-
-def _findings(
-    setting: Setting, published: Fraction | None, certified: Fraction | None, witness: Witness | None
-) -> list[str]:
-    found = []
-    if published is not None and witness is not None and witness.eps0 < published:
-        found.append(
-            "(18) is refuted: it allows every ε₀ below its end, and the witness refutes a smaller one"
-        )
-    if published is not None and certified is not None and published <= certified:
-        found.append("every ε₀ of (18) is below the certified one")
-    if certified is not None and witness is not None and certified > witness.eps0:
-        found.append(
-            "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
-        )
-    return found
 
 
 def round_down(value: Fraction, digits: int) -> Fraction:

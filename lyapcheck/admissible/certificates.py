@@ -12,8 +12,8 @@ from lyapcheck.check.certificates.statements import Decreasing
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
+    from lyapcheck.admissible import EpsilonResult
     from lyapcheck.check.stability import Closure
-    from lyapcheck.search.epsilon import EpsilonResult
 
 PROOF = "epsilon"
 

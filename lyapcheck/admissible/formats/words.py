@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.admissible import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.search.epsilon_formats.words import KINDS, exact, ratio_text
+from lyapcheck.admissible.formats.words import KINDS, exact, ratio_text
 
 if TYPE_CHECKING:
-    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.admissible import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
 

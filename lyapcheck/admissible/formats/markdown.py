@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from lyapcheck.search.epsilon_formats.words import heads, notes, remarks, row
+from lyapcheck.admissible.formats.words import heads, notes, remarks, row
 
 if TYPE_CHECKING:
-    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.admissible import EpsilonResult
 
 
 def render(results: Sequence[EpsilonResult], seconds: Sequence[float] | None = None) -> str:

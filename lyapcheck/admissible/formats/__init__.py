@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lyapcheck.search.epsilon import EpsilonResult
+    from lyapcheck.admissible import EpsilonResult
 
 FORMATS = ("text", "json", "markdown")
 

@@ -1,0 +1,51 @@
+"""What the numbers say about each other: no proved one may be refuted, and what follows is told.
+
+References: ``reyes2019family`` (18).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.states import confirms_positive
+
+if TYPE_CHECKING:
+    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.setting import Setting
+
+
+class Contradiction(RuntimeError):
+    """A proved state refutes a proved ε₀: one of the two proofs is wrong, and nothing may be reported."""
+
+
+def require_consistent(
+    setting: Setting, witness: Witness | None, claimed: Mapping[str, Fraction | None]
+) -> None:
+    """Raise `Contradiction` if the witness has dV/dt > 0 at an ε₀ that is claimed to be certified."""
+    for name, eps0 in claimed.items():
+        if witness is None or eps0 is None:
+            continue
+        if confirms_positive(setting.arm, setting.controller, eps0, witness.state):
+            raise Contradiction(
+                f"{setting.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
+            )
+        if name == "scalar" and eps0 >= witness.eps0:
+            raise Contradiction(f"{setting.gains.name}: the scalar ε₀ is not below a falsified one")
+
+
+def findings(published: Fraction | None, certified: Fraction | None, witness: Witness | None) -> list[str]:
+    """What the numbers say about each other, one sentence each."""
+    found = []
+    if published is not None and witness is not None and witness.eps0 < published:
+        found.append(
+            "(18) is refuted: it allows every ε₀ below its end, and the witness refutes a smaller one"
+        )
+    if published is not None and certified is not None and published <= certified:
+        found.append("every ε₀ of (18) is below the certified one")
+    if certified is not None and witness is not None and certified > witness.eps0:
+        found.append(
+            "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
+        )
+    return found

@@ -1,0 +1,77 @@
+"""The four ε₀ of one gain set on one arm, with what stands behind each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lyapcheck.check.stability import Closure
+    from lyapcheck.search.certified import Proof
+    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.weights import Weighted
+
+
+@dataclass(frozen=True)
+class Refutation:
+    """The closure that a witness refutes, and the values of what is uncertain at the arm it is a state of."""
+
+    closure: Closure
+    viscous: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class EpsilonResult:
+    """The four ε₀; ``None`` where there is none, with the reason under the same name in ``reasons``.
+
+    Args:
+        name: of the gain set.
+        m: member of the family, if it has members.
+        robot: name of the arm.
+        published: the end of (18), rounded down.
+        scalar: ε₀ of the scalar certificate.
+        certified: ε₀ of branch and bound, or of the scalar certificate where that is larger.
+        falsified: ε₀ of the witness.
+        witness: the state that refutes ``falsified``.
+        boxes: how many boxes branch and bound looked at.
+        certified_by: which certificate stands behind ``certified``.
+        proof: the boxes behind ``certified``, which the checker has accepted.
+        against: what ``witness`` refutes, and the arm it is a state of.
+        weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
+        ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
+        corner: the uncertain numbers of the arm that ``witness`` is about, by name.
+        reasons: why a number is missing, and what to try.
+        findings: what the numbers say about each other, one sentence each.
+        assumptions: what is taken for granted about the arm.
+        seed: of the sampled states.
+    """
+
+    name: str
+    m: int | None
+    robot: str
+    published: Fraction | None
+    scalar: Fraction | None
+    certified: Fraction | None
+    falsified: Fraction | None
+    witness: Witness | None
+    boxes: int
+    certified_by: str
+    proof: Proof | None = None
+    against: Refutation | None = None
+    weighted: Weighted | None = None
+    ranges: bool = False
+    corner: Mapping[str, Fraction] = field(default_factory=dict)
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    findings: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    seed: int = 0
+
+    @property
+    def ratio(self) -> Fraction | None:
+        """certified / falsified: 1 would leave nothing open."""
+        if self.certified is None or self.falsified is None:
+            return None
+        return self.certified / self.falsified
