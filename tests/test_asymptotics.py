@@ -11,7 +11,7 @@ from lyapcheck.check.balls import precision
 from lyapcheck.check.constants import gamma_less_than, hyperbolic_constants
 from lyapcheck.claims import run_proof
 
-MEMBERS = (*range(1, 13), 50, 100, 317, 1000, 100_000)
+MEMBERS = (*range(1, 13), 50, 100, 317, 1000)
 
 
 @pytest.fixture(scope="module")

@@ -30,6 +30,9 @@ class TableFormat(StrEnum):
 def command(
     m: Annotated[str, typer.Option("--m", help="Members of the family: 3, 1,2,5 or 1:12.")] = "1:12",
     digits: Annotated[int, typer.Option(help="Significant digits.")] = 30,
+    robot: Annotated[
+        str | None, typer.Option(help="Add what this arm's torque limits leave to k_p + k_v of each joint.")
+    ] = None,
     format: Annotated[TableFormat, typer.Option(help="How to write it.")] = TableFormat.TEXT,  # noqa: A002
 ) -> None:
     """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
@@ -44,5 +47,11 @@ def command(
 
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
         table = build_table(members, digits, advance)
+    if robot is not None:
+        from dataclasses import replace
+
+        from lyapcheck.tune.budget import torque_budget
+
+        table = replace(table, budget=torque_budget(robot, table))
     sys.stdout.write(RENDERERS[format.value](table))
     raise typer.Exit(int(Exit.PROVED))

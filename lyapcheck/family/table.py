@@ -19,7 +19,24 @@ PLACES = ("gamma_at", "rho_at", "L_at")
 PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
 """The γ_m that the paper prints after (7)."""
 
+LIMITS = (
+    "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
+    "lyapcheck check asymptotics.py --m … proves how fast."
+)
+
 _GUARD_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What an arm leaves to k_p + k_v: (τmax − k_g)/(√n γ) of each joint, N·m, a tuple a row of the table.
+
+    ``None`` where a joint has no torque limit, or none above its gravity torque.
+    """
+
+    robot: str
+    joints: tuple[str, ...]
+    rows: tuple[tuple[Enclosure | None, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -28,6 +45,7 @@ class Table:
 
     digits: int
     rows: tuple[Constants, ...]
+    budget: Budget | None = None
 
 
 def build_table(
@@ -50,14 +68,25 @@ def as_text(table: Table) -> str:
     )
     values = _aligned(("m", "γ", "ρ", "L"), _shown(table, VALUES))
     places = _aligned(("m", "x of γ", "x of ρ", "x of L"), _shown(table, PLACES))
-    blocks = ["\n".join(legend), values, places, "\n".join(_notes(table))]
+    blocks = ["\n".join(legend), values, places]
+    if table.budget is not None:
+        blocks += [_budget_title(table.budget), _aligned(("m", *table.budget.joints), _budget_cells(table))]
+    blocks.append("\n".join(_notes(table)))
     return "\n\n".join(block for block in blocks if block) + "\n"
 
 
 def as_json(table: Table) -> str:
     """The rows with bounds as decimal strings that enclose; ``null`` for a place at infinity."""
     rows = [_row(row, table.digits) for row in table.rows]
-    return json.dumps({"schema": SCHEMA, "digits": table.digits, "rows": rows}, indent=2) + "\n"
+    if table.budget is None:
+        return json.dumps({"schema": SCHEMA, "digits": table.digits, "rows": rows}, indent=2) + "\n"
+    for row, limits in zip(rows, table.budget.rows, strict=True):
+        row["budget"] = [
+            {"joint": joint, "limit": _bounds(limit, table.digits)}
+            for joint, limit in zip(table.budget.joints, limits, strict=True)
+        ]
+    document = {"schema": SCHEMA, "digits": table.digits, "robot": table.budget.robot, "rows": rows}
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
 
 
 def as_csv(table: Table) -> str:
@@ -65,9 +94,12 @@ def as_csv(table: Table) -> str:
     names = VALUES + PLACES
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["m", *(f"{name}_{end}" for name in names for end in ("lower", "upper"))])
-    for row in table.rows:
-        writer.writerow([row.m, *(end for name in names for end in _ends(getattr(row, name), table.digits))])
+    joints = [f"budget_{joint}" for joint in table.budget.joints] if table.budget else []
+    writer.writerow(["m", *(f"{name}_{end}" for name in (*names, *joints) for end in ("lower", "upper"))])
+    for index, row in enumerate(table.rows):
+        values = [getattr(row, name) for name in names]
+        values += table.budget.rows[index] if table.budget else []
+        writer.writerow([row.m, *(end for value in values for end in _ends(value, table.digits))])
     return text.getvalue()
 
 
@@ -76,15 +108,21 @@ def as_markdown(table: Table) -> str:
     heads = ("m", "γ", "ρ", "L", "x of γ", "x of ρ", "x of L")
     lines = [_piped(heads), _piped(["---:"] * len(heads))]
     lines += [_piped(cells) for cells in _shown(table, VALUES + PLACES)]
+    if table.budget is not None:
+        joints = ("m", *table.budget.joints)
+        lines += ["", _budget_title(table.budget), "", _piped(joints), _piped(["---:"] * len(joints))]
+        lines += [_piped(cells) for cells in _budget_cells(table)]
     return "\n".join([*lines, "", *_notes(table)]).rstrip("\n") + "\n"
 
 
 def as_latex(table: Table) -> str:
     """A ``tabular`` environment, all digits correct."""
     heads = (r"$m$", r"$\gamma_m$", r"$\rho_m$", r"$L_m$", r"$x_\gamma$", r"$x_\rho$", r"$x_L$")
-    rows = [" & ".join(cells).replace("∞", r"$\infty$") for cells in _shown(table, VALUES + PLACES)]
-    body = [" & ".join(heads) + r" \\", r"\hline", *(f"{row} \\\\" for row in rows)]
-    return "\n".join([r"\begin{tabular}{rllllll}", r"\hline", *body, r"\hline", r"\end{tabular}"]) + "\n"
+    blocks = _tabular(heads, _shown(table, VALUES + PLACES))
+    if table.budget is not None:
+        joints = [joint.replace("_", r"\_") for joint in table.budget.joints]
+        blocks += ["", *_tabular(["$m$", *joints], _budget_cells(table))]
+    return "\n".join(blocks) + "\n"
 
 
 RENDERERS: dict[str, Callable[[Table], str]] = {
@@ -110,12 +148,33 @@ def _ends(value: Enclosure | None, digits: int) -> tuple[str, str]:
     return ("", "") if value is None else value.decimals(digits)
 
 
+def _budget_title(budget: Budget) -> str:
+    return f"Torque budget of {budget.robot}: k_p + k_v < (τmax − k_g)/(√n γ), N·m."
+
+
+def _budget_cells(table: Table) -> list[list[str]]:
+    """The cells of each row: m and the budget of each joint."""
+    limits = table.budget.rows if table.budget else ()
+    return [
+        [str(row.m), *("none" if value is None else value.correct_digits(table.digits) for value in values)]
+        for row, values in zip(table.rows, limits, strict=True)
+    ]
+
+
+def _tabular(heads: Sequence[str], rows: list[list[str]]) -> list[str]:
+    """The lines of a ``tabular`` environment."""
+    body = [" & ".join(cells).replace("∞", r"$\infty$") + r" \\" for cells in rows]
+    columns = "r" + "l" * (len(heads) - 1)
+    head = [rf"\begin{{tabular}}{{{columns}}}", r"\hline", " & ".join(heads) + r" \\", r"\hline"]
+    return [*head, *body, r"\hline", r"\end{tabular}"]
+
+
+def _bounds(value: Enclosure | None, digits: int) -> dict[str, str] | None:
+    return None if value is None else dict(zip(("lower", "upper"), value.decimals(digits), strict=True))
+
+
 def _row(row: Constants, digits: int) -> dict[str, Any]:
-    pairs = {name: getattr(row, name) for name in VALUES + PLACES}
-    bounds = {
-        name: None if value is None else dict(zip(("lower", "upper"), value.decimals(digits), strict=True))
-        for name, value in pairs.items()
-    }
+    bounds = {name: _bounds(getattr(row, name), digits) for name in VALUES + PLACES}
     return {"m": row.m, **bounds, "gamma_printed": _printed(row.m)}
 
 
@@ -134,13 +193,14 @@ def _printed_bounds(m: int) -> bool:
 
 
 def _notes(table: Table) -> list[str]:
-    """A line for each printed γ in the table."""
+    """A line for each printed γ in the table, and one for what the constants tend to."""
     known = [row.m for row in table.rows if row.m in PRINTED_GAMMA]
-    return [
+    printed = [
         f"The paper prints γ_{m} = {float(PRINTED_GAMMA[m]):g}: "
         + ("an upper bound of h." if _printed_bounds(m) else "not an upper bound, h exceeds it.")
         for m in known
     ]
+    return [*printed, LIMITS]
 
 
 def _aligned(heads: Sequence[str], rows: list[list[str]]) -> str:

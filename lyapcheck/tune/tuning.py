@@ -9,9 +9,10 @@ from fractions import Fraction
 from lyapcheck.control.bound import gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.gate import gate
-from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.control.limits import Limits
 from lyapcheck.files import round_down
 from lyapcheck.robots import RobotModel, load
+from lyapcheck.tune.arm import arm_limits
 from lyapcheck.tune.compare import compare
 from lyapcheck.tune.damping import damping_of
 from lyapcheck.tune.obstacles import impossible, obstacle, unknown
@@ -76,9 +77,7 @@ def _for_each_joint(targets: Targets, n: int) -> Targets:
 
 def _limits(robot: str, model: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
     """The limits to tune to, and those that the gain file must repeat."""
-    ones = (Fraction(1),) * model.n
-    file = GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds)
-    limits = limits_for(file)
+    limits = arm_limits(robot, model.n, bounds)
     if all(share == 1 for share in targets.peak_share):
         return limits, bounds
     torque = tuple(
