@@ -7,7 +7,7 @@ With N = √n γ the three read
     (19)   k_vi < λmin(B) / N                         for each joint i, which is λmax(K_v) < λmin(B)/N
 
 (10p) and (19) compare a rational with a positive number over √n γ; both sides squared, that is the question
-whether γ² is below a rational, which is decided exactly. (10) holds square roots and is decided in balls.
+whether γ² is below a rational, which is decided exactly. (10) holds more square roots: see ``norms``.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from math import floor, isqrt
 
 from flint import arb
 
@@ -23,11 +24,11 @@ from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.control.bound import GammaBound
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.files.decimals import places_of, round_down
+from lyapcheck.control.norms import NormLimit
+from lyapcheck.files.decimals import places_of
 
 CONDITIONS = ("10", "10p", "19")
 ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
-_BITS = (96, 384, 1536)
 
 
 @dataclass(frozen=True)
@@ -40,10 +41,10 @@ class Check:
         verdict: ``accepted``, ``rejected`` or ``undecided``.
         value: what is compared, N·m (N·m·s/rad for 19), exact.
         limit: what it must stay below; ``None`` where there is none (an unbounded function, no torque limit).
-        largest_admissible: the largest value that passes, with as many decimal places as the user wrote;
-            ``None`` where no positive value does.
+        largest_admissible: the largest decimal of ``places`` places that passes; ``None`` where no positive
+            value does.
         reason: one sentence where ``limit`` is ``None`` or nothing was decided.
-        places: decimal places that the user wrote.
+        places: decimal places that the user wrote, or more where only smaller values pass.
     """
 
     id: str
@@ -100,16 +101,12 @@ def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
     if gamma.enclosure is None:
         return [Check("10", None, REJECTED, value, None, None, _UNBOUNDED)]
 
-    def limit() -> arb:
-        return _norm_limit(torques, limits, gamma)
-
-    verdict, enclosure = _compare(value, limit)
+    bound = NormLimit.of(torques, limits.gravity, gamma)
     places = max(places_of(k) for k in (*gains.kp, *gains.kv))
-    largest = round_down(enclosure.lower, places)
-    reason = (
-        "" if verdict != UNDECIDED else "value and limit agree to 400 digits; change a gain in its last digit"
-    )
-    return [Check("10", None, verdict, value, enclosure, largest if largest > 0 else None, reason, places)]
+    verdict = ACCEPTED if bound.admits(value) else REJECTED
+    tied = verdict == ACCEPTED and bound.equals(value)
+    limit = Enclosure.exact(value) if tied else _apart(value, places, bound.enclosure)
+    return [Check("10", None, verdict, value, limit, *_largest(bound.admits, limit, places))]
 
 
 CHECKS: dict[str, Callable[[GainSet, Limits, GammaBound], list[Check]]] = {
@@ -133,9 +130,13 @@ def _scaled(
     def passes(k: Fraction) -> bool:
         return below(k, budget, n, gamma)
 
-    limit = scaled_limit(budget, n, gamma.enclosure)
+    def enclosed(bits: int) -> Enclosure:
+        return scaled_limit(budget, n, gamma.within(bits // 3), bits)
+
     verdict = ACCEPTED if passes(value) else REJECTED
-    return Check(name, joint, verdict, value, limit, largest_passing(passes, limit, places), "", places)
+    tied = budget > 0 and gamma.squared_is_root(-(budget**2), n * value**2, Fraction(0))
+    limit = Enclosure.exact(value) if tied else _apart(value, places, enclosed)
+    return Check(name, joint, verdict, value, limit, *_largest(passes, limit, places))
 
 
 def below(value: Fraction, budget: Fraction, n: int, gamma: GammaBound) -> bool:
@@ -143,34 +144,47 @@ def below(value: Fraction, budget: Fraction, n: int, gamma: GammaBound) -> bool:
     return budget > 0 and gamma.squared_less(budget**2 / (n * value**2))
 
 
-def scaled_limit(budget: Fraction, n: int, gamma: Enclosure) -> Enclosure:
-    """budget/(√n γ), enclosed."""
-    with precision(160):
+def scaled_limit(budget: Fraction, n: int, gamma: Enclosure, bits: int = 160) -> Enclosure:
+    """budget/(√n γ), enclosed; exactly where √n and γ are rational."""
+    if gamma.width == 0 and isqrt(n) ** 2 == n:
+        return Enclosure.exact(budget / (isqrt(n) * gamma.lower))
+    with precision(bits):
         return Enclosure.from_arb(to_arb(budget) / (arb(n).sqrt() * gamma.to_arb()))
 
 
 def largest_passing(passes: Callable[[Fraction], bool], limit: Enclosure, places: int) -> Fraction | None:
-    """The largest decimal of so many places that passes; ``None`` if no positive one does."""
-    unit = Fraction(1, 10**places)
-    largest = round_down(limit.upper, places)
-    while largest > 0 and not passes(largest):
-        largest -= unit
-    return largest if largest > 0 else None
+    """The largest decimal of so many places that passes; ``None`` if no positive one does.
+
+    Args:
+        passes: whether a positive value passes: true below the limit, false above it.
+        limit: the limit, enclosed; a tight one saves steps.
+        places: decimal places.
+    """
+    scale = 10**places
+    low, high = max(0, floor(limit.lower * scale) - 1), floor(limit.upper * scale)
+    while low < high:
+        middle = (low + high + 1) // 2
+        low, high = (middle, high) if passes(Fraction(middle, scale)) else (low, middle - 1)
+    return Fraction(low, scale) if low > 0 else None
 
 
-def _norm_limit(torques: list[Fraction], limits: Limits, gamma: GammaBound) -> arb:
-    assert gamma.enclosure is not None
-    norms = [to_arb(sum((x * x for x in values), Fraction(0))).sqrt() for values in (torques, limits.gravity)]
-    return (norms[0] - norms[1]) / (arb(limits.n).sqrt() * gamma.enclosure.to_arb())
+def _largest(
+    passes: Callable[[Fraction], bool], limit: Enclosure, places: int
+) -> tuple[Fraction | None, str, int]:
+    """The largest value that passes, no reason, and its places: more than asked for where it takes more."""
+    largest = largest_passing(passes, limit, places)
+    if largest is None and limit.lower > 0:
+        while limit.lower * 10**places < 10:
+            places += 1
+        largest = largest_passing(passes, limit, places)
+    return largest, "", places
 
 
-def _compare(value: Fraction, limit: Callable[[], arb]) -> tuple[str, Enclosure]:
-    """value ≤ limit in balls of rising precision."""
-    for bits in _BITS:
-        with precision(bits):
-            ball = limit()
-            if ball >= to_arb(value):
-                return ACCEPTED, Enclosure.from_arb(ball)
-            if ball < to_arb(value):
-                return REJECTED, Enclosure.from_arb(ball)
-    return UNDECIDED, Enclosure.from_arb(ball)
+def _apart(value: Fraction, places: int, enclosed: Callable[[int], Enclosure]) -> Enclosure:
+    """A limit that does not equal ``value``, tight enough to be on one side of it and for its decimals."""
+    bits = 160 + 4 * places
+    limit = enclosed(bits)
+    while limit.lower < value < limit.upper:
+        bits *= 2
+        limit = enclosed(bits)
+    return limit

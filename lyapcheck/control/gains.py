@@ -86,15 +86,16 @@ def read_gain_file(path: str | Path) -> GainFile:
     notes = Notes(document.name, document.line)
     top = Fields(document.data, (), notes)
     robot = top.text("robot") or None
-    sets = [_gain_set(table, index) for index, table in enumerate(top.tables("gains", required=True))]
+    tables = top.tables("gains", required=True)
+    sets = [_gain_set(table, index) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds = _bounds(top.table("bounds"))
     top.close()
-    _check_names(gains, notes)
+    _check_names(tables)
     _check_lengths(gains, bounds, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    return GainFile(str(path), _beside(robot, Path(path)), gains, bounds, document)
+    return GainFile(document.name, _beside(robot, Path(path)), gains, bounds, document)
 
 
 def _gain_set(table: Fields, index: int) -> GainSet | None:
@@ -125,17 +126,15 @@ def _bounds(table: Fields | None) -> Bounds:
     return found
 
 
-def _check_names(gains: tuple[GainSet, ...], notes: Notes) -> None:
+def _check_names(tables: list[Fields]) -> None:
     seen: set[str] = set()
-    for gain_set in gains:
-        if gain_set.name in seen:
-            notes.fail(
-                ("gains", gain_set.index, "name"),
-                gain_set.name,
-                "is used twice",
-                "give each set its own name",
-            )
-        seen.add(gain_set.name)
+    for table in tables:
+        name = table.data.get("name")
+        if not isinstance(name, str):
+            continue
+        if name in seen:
+            table.fail("name", "is used twice", "give each set its own name")
+        seen.add(name)
 
 
 def _check_lengths(gains: tuple[GainSet, ...], bounds: Bounds, notes: Notes) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -10,6 +10,7 @@ from flint import fmpq_mpoly
 
 from lyapcheck.control.gains import GainFile
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.printable import printable
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -59,7 +60,7 @@ def limits_for(gain_file: GainFile, robot: str | None = None) -> Limits:
         return Limits(bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n))
     from lyapcheck.robots import load
 
-    model = load(name)
+    model = load(name) if robot else _named_arm(gain_file, name)
     if model.n != n:
         raise _wrong_arm(gain_file, model.name, model.n)
     return Limits(
@@ -122,6 +123,25 @@ def _assumptions(model: RobotModel, torque: bool, viscous: bool) -> tuple[str, .
         strict=True,
     )
     return tuple(number.sentence(name) for name, number in names if number is not None and number.assumed)
+
+
+def _named_arm(gain_file: GainFile, name: str) -> RobotModel:
+    """The arm that the gain file names; an unknown name is a mistake on a line of that file."""
+    from lyapcheck.robots import load
+
+    try:
+        return load(name)
+    except InputError as error:
+        place = None if gain_file.document is None else gain_file.document.place(("robot",))
+        line = place.line if place else None
+        raise InputError(
+            [
+                replace(problem, file=gain_file.path, line=line, value=printable(problem.value))
+                if problem.key == "robot"
+                else problem
+                for problem in error.problems
+            ]
+        ) from None
 
 
 def _without_arm(gain_file: GainFile) -> InputError:

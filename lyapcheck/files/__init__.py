@@ -3,6 +3,7 @@
 from lyapcheck.files.decimals import NotFinite, Written, decimal_text, round_down
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.places import KeyPath
+from lyapcheck.files.printable import printable
 from lyapcheck.files.toml import Document, open_document
 
 __all__ = [
@@ -14,5 +15,6 @@ __all__ = [
     "Written",
     "decimal_text",
     "open_document",
+    "printable",
     "round_down",
 ]

@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Self
 
 LARGEST_EXPONENT = 400
 """Decimals beyond 10^±400 are outside every physical range; reading one exactly could fill the memory."""
+RANGE = f"must be between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT} in size"
+LONGEST = 1000
+"""Characters of a decimal; what is longer was not written by anyone who meant it."""
 
 
 class Written(Fraction):
@@ -22,6 +25,15 @@ class Written(Fraction):
         """Digits after the decimal point, as written: ``0.50`` has two, ``5e-3`` has three, ``28`` none."""
         return decimal_places(self.text)
 
+    def __repr__(self) -> str:
+        return self.text
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
+
     def __reduce__(self) -> Any:
         return (written, (self.text,))
 
@@ -31,20 +43,31 @@ class NotFinite:
     """A number of a file that has no finite exact value here: ``nan``, ``inf``, or one beyond all sizes."""
 
     text: str
+    rule: str = "must be a finite decimal number"
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         return self.text
 
 
 def written(text: str) -> Written | NotFinite:
     """The exact value of a TOML float."""
     plain = text.replace("_", "")
-    exponent = re.search(r"[eE]([+-]?\d+)$", plain)
-    if not re.match(r"[+-]?\d", plain) or (exponent and abs(int(exponent[1][:9])) > LARGEST_EXPONENT):
+    if not re.match(r"[+-]?\d", plain):
         return NotFinite(text)
+    if len(plain) > LONGEST:
+        return NotFinite(text, f"must have at most {LONGEST} characters")
+    exponent = re.search(r"[eE]([+-]?\d+)$", plain)
+    if exponent and abs(int(exponent[1])) > LARGEST_EXPONENT:
+        return NotFinite(text, RANGE)
     value = Written(plain)
     value.text = plain
     return value
+
+
+def of_physical_size(value: Fraction | int) -> bool:
+    """Whether a value is 0 or between 10^-400 and 10^400 in size."""
+    size, largest = abs(Fraction(value)), 10**LARGEST_EXPONENT
+    return size == 0 or Fraction(1, largest) <= size <= largest
 
 
 def decimal_places(text: str) -> int:

@@ -8,7 +8,9 @@ from fractions import Fraction
 from typing import Any, Self
 
 from lyapcheck.errors import Problem
+from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
 from lyapcheck.files.places import KeyPath
+from lyapcheck.files.printable import printable
 
 
 class Notes:
@@ -120,10 +122,9 @@ class Fields:
                 self.fail(key, "is not a known key here", repair)
 
     def _number(self, path: KeyPath, value: object, positive: bool) -> Fraction | None:
-        if not isinstance(value, int | Fraction) or isinstance(value, bool):
-            self.notes.fail(
-                path, value, "must be a finite decimal number", "write a plain decimal like 0.223"
-            )
+        rule = _no_number(value)
+        if rule or not isinstance(value, int | Fraction):
+            self.notes.fail(path, value, rule, "write a plain decimal like 0.223")
             return None
         if value < 0 or (positive and value == 0):
             rule = "must be positive" if positive else "must not be negative"
@@ -132,14 +133,24 @@ class Fields:
         return value if isinstance(value, Fraction) else Fraction(value)
 
 
+def _no_number(value: object) -> str:
+    """The rule that a value breaks by not being a number of physical size; empty where it is one."""
+    if isinstance(value, bool) or not isinstance(value, int | Fraction):
+        return value.rule if isinstance(value, NotFinite) else NotFinite("").rule
+    return "" if of_physical_size(value) else RANGE
+
+
 def key_text(path: KeyPath) -> str:
     """The path as a reader names it, list entries counted from 1: ``gains[2].kp[1]``."""
     text = ""
     for part in path:
-        text += f"[{part + 1}]" if isinstance(part, int) else f".{part}"
+        text += f"[{part + 1}]" if isinstance(part, int) else f".{printable(part)}"
     return text.lstrip(".")
 
 
 def _shown(value: object) -> str:
-    text = str(getattr(value, "text", value))
+    try:
+        text = printable(str(value if isinstance(value, str) else repr(value)))
+    except (ValueError, RecursionError):  # an integer of thousands of digits, lists a hundred deep
+        return "…"
     return text if len(text) <= 60 else text[:57] + "…"

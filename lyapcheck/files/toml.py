@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import tomllib
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,7 +28,10 @@ class Document:
 
     @cached_property
     def _places(self) -> dict[KeyPath, Place]:
-        return places(self.text)
+        try:
+            return places(self.text)
+        except RecursionError:  # nested almost as deeply as is allowed: messages go without lines
+            return {}
 
     def place(self, path: KeyPath) -> Place | None:
         """Where a key stands, or the nearest table or list around it that stands in the file."""
@@ -47,7 +51,7 @@ def open_document(path: Path, shown: str | None = None) -> Document:
     Raises:
         InputError: no such file, not a file, too large, not UTF-8, or not TOML (with the line).
     """
-    name = str(path) if shown is None else shown
+    name = _sayable(str(path) if shown is None else shown)
     text = _text(path, name)
     try:
         return Document(name, text, tomllib.loads(text, parse_float=written))
@@ -56,7 +60,7 @@ def open_document(path: Path, shown: str | None = None) -> Document:
     except RecursionError:
         raise _refused(name, "is nested too deeply", "write plain tables and lists") from None
     except ValueError:
-        raise _refused(name, "holds an integer of absurd length", "write a number of physical size") from None
+        raise _too_long(name, text) from None
 
 
 def _text(path: Path, name: str) -> str:
@@ -65,7 +69,7 @@ def _text(path: Path, name: str) -> str:
             raise _refused(name, "is a folder", "name a file in it")
         if path.stat().st_size > LARGEST_FILE:
             raise _refused(name, f"is larger than {LARGEST_FILE} bytes", "split it into several files")
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise _refused(name, "is not UTF-8 text", "save it as UTF-8") from None
     except (OSError, ValueError) as error:
@@ -73,8 +77,21 @@ def _text(path: Path, name: str) -> str:
         raise _refused(name, f"cannot be read ({reason})", "check the path") from None
 
 
+def _sayable(name: str) -> str:
+    """A file name that can be written out, whatever bytes it has on disk."""
+    return name.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
 def _refused(name: str, rule: str, repair: str) -> InputError:
     return InputError(Problem(name, None, "file", "", rule, repair))
+
+
+def _too_long(name: str, text: str) -> InputError:
+    """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
+    found = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
+    line = text.count("\n", 0, found.start()) + 1 if found else None
+    rule = "is an integer of absurd length"
+    return InputError(Problem(name, line, "number", "", rule, "write a number of physical size"))
 
 
 def _syntax(name: str, message: str) -> InputError:

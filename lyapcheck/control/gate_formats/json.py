@@ -8,7 +8,7 @@ from typing import Any
 
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gate import GateResult
-from lyapcheck.control.gate_formats.words import advice, joint_name, largest_text, margin_text
+from lyapcheck.control.gate_formats.words import KEYS, advice, joint_name, largest_text, margin_text
 from lyapcheck.files import decimal_text
 
 SCHEMA = "lyapcheck/gate/1"
@@ -36,7 +36,7 @@ def result_json(result: GateResult) -> dict[str, Any]:
 
 
 def _check(result: GateResult, check: Check) -> dict[str, Any]:
-    place = result.file.place(result.gains, "kv" if check.id == "19" else "kp", check.joint)
+    place = result.file.place(result.gains, KEYS[check.id], check.joint)
     return {
         "id": check.id,
         "joint": None if check.joint is None else joint_name(result, check),
@@ -48,5 +48,6 @@ def _check(result: GateResult, check: Check) -> dict[str, Any]:
         "margin": margin_text(check, 12) or None,
         "largest_admissible": None if check.largest_admissible is None else largest_text(check),
         "line": None if place is None else place.line,
+        "column": None if place is None else place.column,
         "message": advice(result, check),
     }

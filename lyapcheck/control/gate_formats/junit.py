@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from re import compile as pattern
 from xml.etree import ElementTree as ET
 
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import advice, joint_name
+from lyapcheck.files import printable
+
+_NOT_XML = pattern(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that no XML 1.0 document may hold, not even as a reference."""
 
 
 def render(results: Sequence[GateResult]) -> str:
@@ -27,7 +32,7 @@ def _suite(top: ET.Element, result: GateResult) -> None:
     suite = ET.SubElement(
         top,
         "testsuite",
-        name=result.name,
+        name=_text(result.name),
         tests=str(len(checks)),
         failures=str(counts["rejected"]),
         skipped=str(counts["undecided"]),
@@ -41,10 +46,15 @@ def _case(suite: ET.Element, result: GateResult, check: Check) -> None:
     case = ET.SubElement(
         suite,
         "testcase",
-        classname=f"{result.file.path}.{result.name}",
-        name=f"({check.id}) {joint_name(result, check)}",
+        classname=_text(f"{result.file.path}.{result.name}"),
+        name=_text(f"({check.id}) {joint_name(result, check)}"),
     )
     if check.verdict == "rejected":
-        ET.SubElement(case, "failure", message=advice(result, check), type="rejected")
+        ET.SubElement(case, "failure", message=_text(advice(result, check)), type="rejected")
     elif check.verdict == "undecided":
-        ET.SubElement(case, "skipped", message=advice(result, check))
+        ET.SubElement(case, "skipped", message=_text(advice(result, check)))
+
+
+def _text(text: str) -> str:
+    """The text with what XML cannot hold written as an escape."""
+    return _NOT_XML.sub(lambda found: printable(found[0]), text)

@@ -7,6 +7,7 @@ import json
 from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
+from urllib.parse import quote
 
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gate import GateResult
@@ -31,7 +32,7 @@ def _driver() -> dict[str, Any]:
 
 def _result(result: GateResult, check: Check) -> dict[str, Any]:
     place = result.file.place(result.gains, KEYS[check.id], check.joint)
-    location: dict[str, Any] = {"artifactLocation": {"uri": result.file.path.replace("\\", "/")}}
+    location: dict[str, Any] = {"artifactLocation": {"uri": quote(result.file.path)}}
     if place is not None:
         location["region"] = {"startLine": place.line, "startColumn": place.column}
     return {

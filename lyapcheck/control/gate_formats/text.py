@@ -15,7 +15,7 @@ from lyapcheck.control.gate_formats.words import (
     limit_text,
     margin_text,
 )
-from lyapcheck.files import decimal_text
+from lyapcheck.files import decimal_text, printable
 
 _HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
 
@@ -27,7 +27,7 @@ def render(results: Sequence[GateResult]) -> str:
 
 
 def _block(result: GateResult) -> str:
-    title = f"{SYMBOLS[result.verdict]} {result.name}: {result.verdict}"
+    title = f"{SYMBOLS[result.verdict]} {printable(result.name)}: {result.verdict}"
     about = f"m = {result.m}" if result.m is not None else result.gains.family
     rows = [_HEADS, *(_row(result, check) for check in result.checks)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADS))]
@@ -35,9 +35,14 @@ def _block(result: GateResult) -> str:
         "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
         for row in rows
     ]
-    failures = [f"  → {advice(result, check)}" for check in result.failures]
+    failures = [f"  → {printable(advice(result, check))}" for check in result.failures]
     return "\n".join(
-        [f"{title}  ({about}, {result.file.path})", *(f"  {line}" for line in lines), *failures, ""]
+        [
+            f"{title}  ({about}, {printable(result.file.path)})",
+            *(f"  {line}" for line in lines),
+            *failures,
+            "",
+        ]
     )
 
 
@@ -46,7 +51,7 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
     return (
         SYMBOLS[check.verdict],
         shown,
-        joint_name(result, check),
+        printable(joint_name(result, check)),
         decimal_text(check.value),
         limit_text(check),
         margin_text(check),
@@ -60,7 +65,7 @@ def _legend(results: Sequence[GateResult]) -> list[str]:
     if any(check.id not in result.deciding for result in results for check in result.checks):
         lines.append("*     shown, but does not decide; --condition chooses what does")
     assumptions = dict.fromkeys(text for result in results for text in result.limits.assumptions)
-    return [*lines, *(f"assumed: {text}" for text in assumptions), ""]
+    return [*lines, *(f"assumed: {printable(text)}" for text in assumptions), ""]
 
 
 def _summary(results: Sequence[GateResult]) -> str:
