@@ -15,10 +15,11 @@ from dataclasses import replace
 from fractions import Fraction
 
 from lyapcheck.claims import (
+    ArmBounds,
     Constant,
+    FamilyBounds,
     ForSmall,
     Proof,
-    above,
     all_of,
     always_positive,
     bounded,
@@ -27,7 +28,6 @@ from lyapcheck.claims import (
     dh,
     diff,
     dot,
-    entry_sizes,
     exp,
     expr,
     for_all,
@@ -73,16 +73,9 @@ SHARE = Fraction(99, 100)
 """ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
 
 
-class Bounds:
-    """Decimal numbers that the claims below show to be bounds of h_m; the irrational ones rounded up."""
-
-    def __init__(self, case):
-        root = above(sqrt(case.n))
-        self.gamma = above(gamma(case.m))
-        self.reach = root * self.gamma  # of ‖h‖
-        self.rho = above(rho(case.m))  # of |h'|
-        self.L = above(secant_bound(case.m))  # of h(x)/x
-        self.G = self.reach * self.L / (self.reach + self.L)  # of ‖h‖/(1 + r)
+def known_of(case):
+    """γ, √nγ, ρ, L and G of h_m in decimals."""
+    return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
 
 
 # The function h_m ------------------------------------------------------------------------------------------
@@ -102,7 +95,7 @@ def _(case):
 
 @proof.claim("h.bound", "‖h(x)‖ ≤ √nγ", place="(7), first line", section=FAMILY)
 def _(case):
-    known = Bounds(case)
+    known = known_of(case)
     return all_of(
         every_entry=for_all(h(case.m, x) <= known.gamma),
         every_entry_from_below=for_all(-known.gamma <= h(case.m, x)),
@@ -112,12 +105,12 @@ def _(case):
 
 @proof.claim("h.slope", "‖h(x)‖ ≤ L‖x‖ with L = sup h(x)/x", place="(7), second line", section=FAMILY)
 def _(case):
-    return norm_bound(h(case.m, x), case.n, Bounds(case).L, power=1)
+    return norm_bound(h(case.m, x), case.n, known_of(case).L, power=1)
 
 
 @proof.claim("h.steep", "|h'(x)| ≤ ρ, and h' is the derivative of h", place="(8)", section=FAMILY)
 def _(case):
-    known = Bounds(case)
+    known = known_of(case)
     return all_of(
         derivative=identity(diff(h(case.m, x), "x"), dh(case.m, x)),
         from_above=for_all(dh(case.m, x) <= known.rho),
@@ -133,7 +126,7 @@ def _(case):
     uses=["h.bound", "h.slope"],
 )
 def _(case):
-    known, a, r, reach, L = Bounds(case), var("a"), var("r"), var("reach"), var("L")
+    known, a, r, reach, L = known_of(case), var("a"), var("r"), var("reach"), var("L")
     return all_of(
         for_any_bounds=implies(
             positive("reach", "L") + nonnegative("a", "r"),
@@ -163,7 +156,7 @@ def _(case):
 @proof.claim("V.unbounded", "V is radially unbounded", place="(13)", section=LYAPUNOV, uses=["h.bound"])
 def _(case):
     """U(x) ≥ |x| − ln 4 grows with q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ, so V grows with q̇."""
-    m, known = case.m, Bounds(case)
+    m, known = case.m, known_of(case)
     y, w, a, eps, eps0 = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0"))
     return all_of(
         potential=for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0),
@@ -184,7 +177,7 @@ def _(case):
 )
 def _(case):
     """‖q̃‖ enters through εh only: its gradient ε₀ h êᵀ/(1+r)² and its distance from ε₀h both vanish at 0."""
-    r, eps0, a, L = var("r"), var("eps0"), var("norm_h"), Bounds(case).L
+    r, eps0, a, L = var("r"), var("eps0"), var("norm_h"), known_of(case).L
     variables = positive("eps0") + nonnegative("r", "norm_h")
     return all_of(
         potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
@@ -220,14 +213,20 @@ def _(case):
     )
 
 
-@proof.claim("rate.1", "term 1: −q̇ᵀK_v h(q̇) ≤ 0", section=RATE, uses=["rate", "h.odd"])
+@proof.claim(
+    "rate.1",
+    "term 1: −q̇ᵀK_v h(q̇) ≤ 0",
+    place="(15), term 1",
+    section=RATE,
+    uses=["rate", "h.odd"],
+)
 def _(case):
     """Its summands are −k_vi t_i with t_i = q̇_i h(q̇_i) ≥ 0."""
     names = [f"{kind}{i + 1}" for kind in ("kv", "t") for i in range(case.n)]
     return implies(nonnegative(*names), (), -dot(vector("kv", case.n), vector("t", case.n)) <= 0)
 
 
-@proof.claim("rate.2", "term 2: −q̇ᵀBq̇ ≤ −λmin(B) b²", section=RATE, uses=["rate"])
+@proof.claim("rate.2", "term 2: −q̇ᵀBq̇ ≤ −λmin(B) b²", place="(15), term 2", section=RATE, uses=["rate"])
 def _(case):
     """With b_i = λmin(B) + c_i, c_i ≥ 0."""
     w, over, least = vector("w", case.n), vector("c", case.n), var("b_min")
@@ -236,42 +235,41 @@ def _(case):
     return implies(variables + reals(*(f"w{i + 1}" for i in range(case.n))), (), -power <= -least * dot(w, w))
 
 
-def chain(case, names, bound, factor=1):
-    """A product of factors whose norms are known, against a bound in a = ‖h(q̃)‖ and w = b = ‖q̇‖."""
-    known = Bounds(case)
-    norms = {
-        "eps": (majorant(eps=1),),
-        "unit·w": (majorant(w=1),),
-        "h(e)": (majorant(a=1), majorant(known.reach)),
-        "h(e)/(1+r)": (majorant(known.G),),
-        "h(w)": (majorant(known.L, w=1),),
-        "h'(e)∘w": (majorant(known.rho, w=1),),
-        "w": (majorant(w=1),),
-        "M": (majorant(beta=1),),
-        "C": (majorant(kc=1, w=1),),
-        "K_v": (majorant(kv_max=1),),
-        "B": (majorant(b_max=1),),
-    }
-    return norm_chain([(majorant(factor),), *(norms[name] for name in names)], bound)
+def chain(case, names, bound):
+    """A product of named factors whose norms are known, against a bound in a = ‖h(q̃)‖ and w = b = ‖q̇‖."""
+    norms = loops.norms(known_of(case))
+    return norm_chain([norms[name] for name in names], bound)
 
 
-@proof.claim("rate.3", "term 3: ε(h'∘q̇)ᵀMq̇ ≤ ερβ_M b²", section=RATE, uses=["rate", "h.steep"])
+@proof.claim(
+    "rate.3", "term 3: ε(h'∘q̇)ᵀMq̇ ≤ ερβ_M b²", place="(15), term 3", section=RATE, uses=["rate", "h.steep"]
+)
 def _(case):
-    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(Bounds(case).rho, eps=1, beta=1, w=2))
+    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(known_of(case).rho, eps=1, beta=1, w=2))
 
 
-@proof.claim("rate.4", "term 4: −ε êᵀq̇/(1+r) hᵀMq̇ ≤ εGβ_M b²", section=RATE, uses=["rate", "h.share"])
+@proof.claim(
+    "rate.4",
+    "term 4: −ε êᵀq̇/(1+r) hᵀMq̇ ≤ εGβ_M b²",
+    place="(15), term 4",
+    section=RATE,
+    uses=["rate", "h.share"],
+)
 def _(case):
-    names = ["eps", "unit·w", "h(e)/(1+r)", "M", "w"]
-    return chain(case, names, majorant(Bounds(case).G, eps=1, beta=1, w=2))
+    names = ["eps", "ê·w", "h(e)/(1+r)", "M", "w"]
+    return chain(case, names, majorant(known_of(case).G, eps=1, beta=1, w=2))
 
 
-@proof.claim("rate.5", "term 5: −ε hᵀCᵀq̇ ≤ ε√nγ k_c b²", section=RATE, uses=["rate", "h.bound"])
+@proof.claim(
+    "rate.5", "term 5: −ε hᵀCᵀq̇ ≤ ε√nγ k_c b²", place="(15), term 5", section=RATE, uses=["rate", "h.bound"]
+)
 def _(case):
-    return chain(case, ["eps", "h(e)", "C", "w"], majorant(Bounds(case).reach, eps=1, kc=1, w=2))
+    return chain(case, ["eps", "h(e)", "C(q,w)", "w"], majorant(known_of(case).reach, eps=1, kc=1, w=2))
 
 
-@proof.claim("rate.6", "term 6: −ε hᵀK_p h ≤ −ελmin(K_p) a²", section=RATE, uses=["rate"])
+@proof.claim(
+    "rate.6", "term 6: −ε hᵀK_p h ≤ −ελmin(K_p) a²", place="(15), term 6", section=RATE, uses=["rate"]
+)
 def _(case):
     """With k_pi = λmin(K_p) + c_i, c_i ≥ 0."""
     a, over, least, eps = vector("h", case.n), vector("c", case.n), var("kp_min"), var("eps")
@@ -282,42 +280,56 @@ def _(case):
     )
 
 
-@proof.claim("rate.7", "term 7: ε hᵀBq̇ ≤ ελmax(B) a b", section=RATE, uses=["rate"])
+@proof.claim("rate.7", "term 7: ε hᵀBq̇ ≤ ελmax(B) a b", place="(15), term 7", section=RATE, uses=["rate"])
 def _(case):
     return chain(case, ["eps", "h(e)", "B", "w"], majorant(eps=1, b_max=1, a=1, w=1))
 
 
-@proof.claim("rate.8", "term 8: ε hᵀK_v h(q̇) ≤ εLλmax(K_v) a b", section=RATE, uses=["rate", "h.slope"])
+@proof.claim(
+    "rate.8",
+    "term 8: ε hᵀK_v h(q̇) ≤ εLλmax(K_v) a b",
+    place="(15), term 8",
+    section=RATE,
+    uses=["rate", "h.slope"],
+)
 def _(case):
-    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], majorant(Bounds(case).L, eps=1, kv_max=1, a=1, w=1))
+    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], majorant(known_of(case).L, eps=1, kv_max=1, a=1, w=1))
 
 
-@proof.claim("rate.9", "term 9: ½ε² hᵀ(C+Cᵀ)h ≤ ε²√nγ k_c a b", section=RATE, uses=["rate", "h.bound"])
+@proof.claim(
+    "rate.9",
+    "term 9: ½ε² hᵀ(C+Cᵀ)h ≤ ε²√nγ k_c a b",
+    place="(15), term 9",
+    section=RATE,
+    uses=["rate", "h.bound"],
+)
 def _(case):
-    bound = majorant(Bounds(case).reach, eps=2, kc=1, a=1, w=1)
-    return chain(case, ["eps", "eps", "h(e)", "C", "h(e)"], bound)
+    bound = majorant(known_of(case).reach, eps=2, kc=1, a=1, w=1)
+    return chain(case, ["eps", "eps", "h(e)", "C(q,w)", "h(e)"], bound)
 
 
-@proof.claim("rate.10", "term 10: ε² êᵀq̇/(1+r) hᵀMh ≤ ε²Gβ_M a b", section=RATE, uses=["rate", "h.share"])
+@proof.claim(
+    "rate.10",
+    "term 10: ε² êᵀq̇/(1+r) hᵀMh ≤ ε²Gβ_M a b",
+    place="(15), term 10",
+    section=RATE,
+    uses=["rate", "h.share"],
+)
 def _(case):
-    names = ["eps", "eps", "unit·w", "h(e)/(1+r)", "M", "h(e)"]
-    return chain(case, names, majorant(Bounds(case).G, eps=2, beta=1, a=1, w=1))
+    names = ["eps", "eps", "ê·w", "h(e)/(1+r)", "M", "h(e)"]
+    return chain(case, names, majorant(known_of(case).G, eps=2, beta=1, a=1, w=1))
 
 
-@proof.claim("rate.11", "term 11: −ε²(h'∘q̇)ᵀMh ≤ ε²ρβ_M a b", section=RATE, uses=["rate", "h.steep"])
+@proof.claim(
+    "rate.11",
+    "term 11: −ε²(h'∘q̇)ᵀMh ≤ ε²ρβ_M a b",
+    place="(15), term 11",
+    section=RATE,
+    uses=["rate", "h.steep"],
+)
 def _(case):
-    bound = majorant(Bounds(case).rho, eps=2, beta=1, a=1, w=1)
+    bound = majorant(known_of(case).rho, eps=2, beta=1, a=1, w=1)
     return chain(case, ["eps", "eps", "h'(e)∘w", "M", "h(e)"], bound)
-
-
-def drift(known, beta, kc):
-    """c = β_M(ρ + G) + √nγ k_c."""
-    return beta * (known.rho + known.G) + known.reach * kc
-
-
-def cross(known, b_max, kv_max):
-    """d = λmax(B) + L λmax(K_v)."""
-    return b_max + known.L * kv_max
 
 
 def theta(eps, k, b_min, c, d):
@@ -334,7 +346,7 @@ def theta(eps, k, b_min, c, d):
 )
 def _(case):
     """The bounds of the eleven terms add up to the form."""
-    known = Bounds(case)
+    known = known_of(case)
     a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(
         var, ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
     )
@@ -351,7 +363,7 @@ def _(case):
         eps**2 * known.G * beta * a * b,
         eps**2 * known.rho * beta * a * b,
     ]
-    corner, side, low = theta(eps, k, b_min, drift(known, beta, kc), cross(known, b_max, kv_max))
+    corner, side, low = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
     return identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2))
 
 
@@ -375,6 +387,7 @@ def condition(eps0, k, b_min, c, d):
 @proof.claim(
     "arms.theta",
     "¼ε₀(d + ε₀c)² < λmin(K_p)(λmin(B) − ε₀c) makes Θ' positive definite for every ε in (0, ε₀]",
+    place="in place of (18)",
     section=ARMS,
 )
 def _(case):
@@ -397,6 +410,7 @@ def _(case):
 @proof.claim(
     "arms.stable",
     "where ε₀ meets the condition, the origin is globally asymptotically stable",
+    place="Proposition",
     section=ARMS,
     uses=[*LYAPUNOVS.values(), "arms.theta"],
 )
@@ -406,13 +420,18 @@ def _(case):
     return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arms.theta")
 
 
-@proof.claim("arms.small", "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]", section=ARMS)
+@proof.claim(
+    "arms.small",
+    "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
+    place="in place of (19)",
+    section=ARMS,
+)
 def _(case):
-    known = Bounds(case)
+    known = known_of(case)
     eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
     variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
     share = eps0 * var("share")
-    corner, side, low = theta(share, k, b, drift(known, beta, kc), cross(known, b + more, kv))
+    corner, side, low = theta(share, k, b, known.drift(beta, kc), known.cross(b + more, kv))
     return all_of(
         corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
         determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
@@ -437,29 +456,13 @@ def _(case):
 ARM = "This arm"
 
 
-class Numbers:
-    """β_M, k_c, λmin(B), λmax(B) of a robot at its nominal numbers, and the entries behind them."""
-
-    def __init__(self, robot):
-        n = robot.n
-        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
-        self.mass = [entry for row in mass_matrix(robot) for entry in row]
-        self.symbols = [entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row]
-        self.sizes, self.symbol_sizes = entry_sizes(self.mass), entry_sizes(self.symbols)
-        self.rows = [sum(self.sizes[n * i : n * i + n]) for i in range(n)]
-        self.beta = above(max(self.rows))
-        self.kc = above(sqrt(sum(size**2 for size in self.symbol_sizes)))
-        friction = [number.value for number in robot.viscous]
-        self.b_min, self.b_max = min(friction), max(friction)
-
-
 def form_numbers(case):
     """λmin(K_p), λmin(B), c and d for the robot and gains at hand."""
     if len(case.gains.kp) != case.robot.n:
         raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    known, arm = Bounds(case), Numbers(case.robot.fixed())
-    c = drift(known, arm.beta, arm.kc)
-    return min(case.gains.kp), arm.b_min, c, cross(known, arm.b_max, max(case.gains.kv))
+    known, arm = known_of(case), ArmBounds(case.robot.fixed())
+    c = known.drift(arm.beta, arm.kc)
+    return min(case.gains.kp), arm.b_min, c, known.cross(arm.b_max, max(case.gains.kv))
 
 
 def eps0_of(case):
@@ -495,7 +498,7 @@ def _(case):
 @proof.claim("arm.M", "‖M(q)‖ ≤ β_M, the largest row sum", place="Property 2.2", section=ARM)
 def _(case):
     """A symmetric matrix is nowhere larger than its largest row sum of absolute values."""
-    arm = Numbers(case.robot.fixed())
+    arm = ArmBounds(case.robot.fixed())
     rows = {f"row_{i + 1}": Constant(expr(row) <= arm.beta) for i, row in enumerate(arm.rows)}
     return all_of(entries=bounded(arm.mass, arm.sizes), **rows)
 
@@ -504,7 +507,7 @@ def _(case):
 def _(case):
     """By Cauchy–Schwarz, twice; C(q, x) is the sum of the x_k C(q, unit k)."""
     n, robot = case.n, case.robot.fixed()
-    arm, u, y, v = Numbers(robot), vector("u", n), vector("x", n), vector("v", n)
+    arm, u, y, v = ArmBounds(robot), vector("u", n), vector("x", n), vector("v", n)
     flat = arm.symbols
     parts = (
         y[k] * u[i] * flat[n * n * k + n * i + j] * v[j] for k in range(n) for i in range(n) for j in range(n)
@@ -512,13 +515,13 @@ def _(case):
     return all_of(
         entries=bounded(arm.symbols, arm.symbol_sizes),
         linear=identity(form(u, coriolis_matrix(robot, y), v), total(parts)),
-        sum_of_squares=Constant(expr(sum(size**2 for size in arm.symbol_sizes)) <= expr(arm.kc) ** 2),
+        sum_of_squares=Constant(expr(arm.squares) <= expr(arm.kc) ** 2),
     )
 
 
 @proof.claim("arm.B", "λmin(B) and λmax(B) bound the friction", place="Property 2.7", section=ARM)
 def _(case):
-    arm = Numbers(case.robot.fixed())
+    arm = ArmBounds(case.robot.fixed())
     parts = {"positive": Constant(expr(0) < arm.b_min)}
     for i, number in enumerate(case.robot.viscous):
         parts[f"joint_{i + 1}_from_below"] = Constant(expr(arm.b_min) <= number.value)
@@ -526,7 +529,12 @@ def _(case):
     return all_of(**parts)
 
 
-@proof.claim("arm.theta", "Θ' is positive definite for every ε in (0, ε₀], at these numbers", section=ARM)
+@proof.claim(
+    "arm.theta",
+    "Θ' is positive definite for every ε in (0, ε₀], at these numbers",
+    place="in place of (18)",
+    section=ARM,
+)
 def _(case):
     k, b, c, d = form_numbers(case)
     eps0 = eps0_of(case)
@@ -539,6 +547,7 @@ def _(case):
 @proof.claim(
     "arm.stable",
     "the origin is globally asymptotically stable: this robot, these gains, with this ε₀ in V",
+    place="Proposition",
     section=ARM,
     uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.B", "arm.theta"],
 )
@@ -547,13 +556,20 @@ def _(case):
     return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arm.theta")
 
 
-@proof.claim("arm.states", "dV/dt < 0 at every state but the origin, by the checker of states", section=ARM)
+@proof.claim(
+    "arm.states",
+    "dV/dt < 0 at every state but the origin, by the checker of states",
+    place="(15)",
+    section=ARM,
+)
 def _(case):
     """The same ε₀ without any of the steps above: the checker has its own bounds of M, C, h and h'."""
     return decreasing(case.robot, case.gains, eps0_of(case))
 
 
-@proof.claim("arm.ranges", "dV/dt < 0 for every arm within the ranges, with half of ε₀", section=ARM)
+@proof.claim(
+    "arm.ranges", "dV/dt < 0 for every arm within the ranges, with half of ε₀", place="(15)", section=ARM
+)
 def _(case):
     """For all values of the numbers of the arm that are assumed within a range."""
     return decreasing(case.robot, case.gains, eps0_of(case) / 2, ranges=True)

@@ -20,7 +20,15 @@ from lyapcheck.claims.arms import (
     transpose,
     vector,
 )
-from lyapcheck.claims.bounds import above, below, entry_floors, entry_sizes, largest_with
+from lyapcheck.claims.bounds import (
+    ArmBounds,
+    FamilyBounds,
+    above,
+    below,
+    entry_floors,
+    entry_sizes,
+    largest_with,
+)
 from lyapcheck.claims.case import Case, Lacking, lacking
 from lyapcheck.claims.claim import Claim, Proof
 from lyapcheck.claims.decision import Decision
@@ -85,6 +93,7 @@ from lyapcheck.claims.statements import (
 __all__ = [
     "Agrees",
     "AllOf",
+    "ArmBounds",
     "Case",
     "Claim",
     "ClaimResult",
@@ -93,6 +102,7 @@ __all__ = [
     "Decision",
     "Decreasing",
     "Expr",
+    "FamilyBounds",
     "ForAll",
     "ForSmall",
     "Identity",

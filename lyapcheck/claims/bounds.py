@@ -7,13 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from typing import TYPE_CHECKING, TypeVar
 
 from flint import ctx
 
 from lyapcheck.check.certificates.rules.trigonometric import largest, lowest
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.functions import ball
-from lyapcheck.claims.expressions import Expr, expr
+from lyapcheck.claims.arms import coriolis_matrix, mass_matrix
+from lyapcheck.claims.expressions import Expr, expr, sqrt
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
+
+T = TypeVar("T", Fraction, Expr)
 
 BITS = 128
 DIGITS = 4
@@ -40,6 +47,53 @@ def entry_sizes(entries: Iterable[Expr]) -> list[Fraction]:
 def entry_floors(entries: Iterable[Expr]) -> list[Fraction]:
     """For each polynomial in sines and cosines a number that it does not fall below."""
     return [lowest(entry.tree) for entry in entries]
+
+
+class FamilyBounds:
+    """Decimal numbers that claims can show to be bounds of an odd function h, and what follows from them.
+
+    Args:
+        n: the number of joints.
+        gamma: at least sup |h|, an exact number or an expression; likewise the next two.
+        rho: at least sup |h'|.
+        L: at least sup h(x)/x.
+
+    ``reach`` bounds ‖h(e)‖ by √nγ, and ``G`` bounds ‖h(e)‖/(1 + ‖e‖): min(Lr, √nγ)/(1 + r) is largest where
+    both agree.
+    """
+
+    def __init__(self, n: int, gamma: object, rho: object, L: object) -> None:
+        self.gamma, self.rho, self.L = above(gamma), above(rho), above(L)
+        self.reach = above(sqrt(n)) * self.gamma
+        self.G = self.reach * self.L / (self.reach + self.L)
+
+    def drift(self, beta: T, kc: T) -> T:
+        """c = β_M(ρ + G) + √nγ k_c."""
+        return beta * (self.rho + self.G) + kc * self.reach
+
+    def cross(self, b_max: T, kv_max: T) -> T:
+        """d = λmax(B) + L λmax(K_v)."""
+        return b_max + kv_max * self.L
+
+
+class ArmBounds:
+    """β_M, k_c, λmin(B) and λmax(B) of a robot without ranges, with the entries and sizes behind them.
+
+    ‖M(q)‖ is at most the largest sum of a row of ``sizes``; ‖C(q,x)y‖ is at most ‖x‖‖y‖ times the root of
+    ``squares``, the sum of the squares of ``symbol_sizes``. These bound c_ijk, in the order of k, i, j.
+    """
+
+    def __init__(self, robot: RobotModel) -> None:
+        n = robot.n
+        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
+        self.mass = [entry for row in mass_matrix(robot) for entry in row]
+        self.symbols = [entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row]
+        self.sizes, self.symbol_sizes = entry_sizes(self.mass), entry_sizes(self.symbols)
+        self.rows = [sum(self.sizes[n * i : n * i + n], Fraction(0)) for i in range(n)]
+        self.squares = sum((size**2 for size in self.symbol_sizes), Fraction(0))
+        self.beta, self.kc = above(max(self.rows)), above(sqrt(self.squares))
+        friction = [number.value for number in robot.viscous]
+        self.b_min, self.b_max = min(friction), max(friction)
 
 
 def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fraction | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.statements import Statement
@@ -65,6 +65,26 @@ class Proof:
     def add(self, claim_id: str, says: str, statement: Statement, **about: object) -> None:
         """Add a claim whose statement does not depend on the case."""
         self.claim(claim_id, says, **about)(lambda case: statement)  # type: ignore[arg-type]
+
+    def adopt(self, script: str, *ids: str, section: str = "") -> None:
+        """Take claims from another proof script, with all that they use, under the ids they have there.
+
+        Args:
+            script: a path, or the name of a script that comes with lyapcheck.
+            ids: the claims wanted; those that this proof has already are left as they are.
+            section: where reports list them; as in the other script by default.
+
+        Raises:
+            InputError: there is no such script, or no such claim in it.
+        """
+        from lyapcheck.claims.script import check_ids, find_script, load_proof
+
+        other = load_proof(find_script(script))
+        check_ids(other, ids, script)
+        wanted = other.needed(ids)
+        for name, claim in other.claims.items():
+            if name in wanted:
+                self.claims.setdefault(name, replace(claim, section=section or claim.section))
 
     def order(self, file: str) -> list[Claim]:
         """The claims so that each comes after all it uses; otherwise in the order of the text.

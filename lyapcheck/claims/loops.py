@@ -25,7 +25,9 @@ from lyapcheck.claims.arms import (
     transpose,
     vector,
 )
+from lyapcheck.claims.bounds import FamilyBounds
 from lyapcheck.claims.expressions import Expr, diff, total, var
+from lyapcheck.claims.statements import Majorant, majorant
 
 
 @dataclass(frozen=True)
@@ -131,3 +133,24 @@ def rate_with(s: Loop, moved: Vector) -> Expr:
     pull = [a - b for a, b in zip(moved, apply(s.M, shift), strict=True)]
     turning = form(s.y, plus(s.C, transpose(s.C)), s.y) / 2
     return dot(s.y, pull) + turning - dot(s.w, scaled(s.kp, s.h))
+
+
+def norms(known: FamilyBounds) -> dict[str, tuple[Majorant, ...]]:
+    """What is known of the norm of each factor in ``terms``, in a = ‖h(e)‖, w = ‖w‖, v = ‖q̇‖ and constants.
+
+    ``beta``, ``kc``, ``b_max`` and ``kv_max`` are the bounds of M, C, B and K_v.
+    """
+    return {
+        "eps": (majorant(eps=1),),
+        "ê·w": (majorant(w=1),),
+        "h(e)": (majorant(a=1), majorant(known.reach)),
+        "h(e)/(1+r)": (majorant(known.G),),
+        "h(w)": (majorant(known.L, w=1),),
+        "h'(e)∘w": (majorant(known.rho, w=1),),
+        "w": (majorant(w=1),),
+        "M": (majorant(beta=1),),
+        "C(q,w)": (majorant(kc=1, w=1),),
+        "C(q,q̇)": (majorant(kc=1, v=1),),
+        "K_v": (majorant(kv_max=1),),
+        "B": (majorant(b_max=1),),
+    }

@@ -1,0 +1,359 @@
+"""The tracking scheme (21): uniform asymptotic stability for every bounded q̇_d.
+
+With w = −(q̇_d − q̇), (21) closes a loop of the form (11) in which C(q, q̇) stands for C(q, w), q̇ = q̇_d + w;
+Ṁ = C + Cᵀ holds for C(q, q̇) too, so V of (13) has the same eleven terms for its rate. Two of them have C:
+
+    −ε hᵀCᵀw ≤ ε k_c (b + v_d) a b   and   ½ε² hᵀ(C + Cᵀ)h ≤ ε² k_c (b + v_d) a²,   v_d = sup ‖q̇_d(t)‖.
+
+With a ≤ √nγ where b stands, the form is that of proofs/scalar.py with v_d in two places,
+
+    θ'11 = ε (k − ε k_c v_d),   θ'12 = −½ ε (d + k_c v_d + ε c),   θ'22 = λmin(B) − ε c,
+
+and for every v_d < ∞ some ε₀ makes it positive definite. The error system depends on time through q_d(t),
+as q = q_d(t) − q̃. So the conclusion needs bounds of V and of its rate in which there is no t: 21.below,
+21.above and 21.form. They hold whatever q_d(t) is, so stability is uniform in the initial time, and in q_d as
+long as ‖q̇_d‖ ≤ v_d. Taken for granted: q_d has two continuous derivatives, and (21) knows M, C, g, B exactly.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from lyapcheck.claims import (
+    ArmBounds,
+    Constant,
+    FamilyBounds,
+    ForSmall,
+    Proof,
+    all_of,
+    always_positive,
+    apply,
+    dot,
+    entry_floors,
+    expr,
+    for_all,
+    gamma,
+    identity,
+    implies,
+    lacking,
+    largest_with,
+    leading_minors,
+    loops,
+    majorant,
+    mass_matrix,
+    nonnegative,
+    norm_chain,
+    positive,
+    rho,
+    scaled,
+    secant_bound,
+    theorem,
+    total,
+    var,
+    vector,
+)
+
+proof = Proof(
+    "tracking",
+    "The tracking scheme (21): uniform asymptotic stability for every bounded q̇_d",
+    reference="reyes2019family",
+)
+
+SPEED = Fraction(2)
+"""v_d in rad/s for the conclusion with numbers."""
+SHARE = Fraction(99, 100)
+"""ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
+
+SAME_TERMS = [f"rate.{k}" for k in (1, 2, 3, 4, 6, 7, 8, 10, 11)]
+proof.adopt("scalar.py", "V.positive", "V.unbounded", *SAME_TERMS)
+
+LOOP = "The loop that (21) closes"
+
+
+def known_of(case):
+    """γ, √nγ, ρ, L and G of h_m in decimals."""
+    return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
+
+
+@proof.claim(
+    "21.loop",
+    "w = −(q̇_d − q̇) obeys (11) with C(q, q̇) in place of C(q, w); the origin is an equilibrium",
+    place="(1), (21)",
+    section=LOOP,
+    uses=["h.odd"],
+)
+def _(case):
+    """(21) minus the left side of (1) at q̇ = q̇_d + w, q̈ = q̈_d + ẇ, with h(ė) = −h(w) as h is odd."""
+    n = case.n
+    s = loops.loop(n)
+    z, speed, acceleration, weight = (vector(name, n) for name in ("z", "vd", "ad", "g"))
+    applied = [
+        total(parts)
+        for parts in zip(
+            scaled(s.kp, s.h),
+            [-damping for damping in scaled(s.kv, s.hw)],
+            apply(s.M, acceleration),
+            apply(s.C, speed),
+            weight,
+            scaled(s.b, speed),
+            strict=True,
+        )
+    ]
+    velocity = [v + w for v, w in zip(speed, s.w, strict=True)]
+    needed = [
+        total(parts)
+        for parts in zip(
+            apply(s.M, [d + a for d, a in zip(acceleration, s.a, strict=True)]),
+            apply(s.C, velocity),
+            weight,
+            scaled(s.b, velocity),
+            strict=True,
+        )
+    ]
+    zero = [expr(0)] * n
+    origin = replace(s, w=zero, hw=zero, h=zero)
+    return all_of(
+        loop=identity(dot(z, applied) - dot(z, needed), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
+        equilibrium=identity(dot(z, loops.force(origin)), 0),
+    )
+
+
+RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ, with ‖q̇_d‖ ≤ v_d"
+
+
+def with_speed(case, names, product, bound):
+    """A product with ‖q̇‖ in it, and ‖q̇‖ ≤ v_d + b and a ≤ √nγ in that."""
+    norms = loops.norms(known_of(case))
+    a, b, v, vd, reach = map(var, ("a", "b", "v", "vd", "reach"))
+    variables = nonnegative("eps", "kc", "a", "b", "v", "vd", "reach")
+    powers = dict(product.powers)
+    symbols = {"eps": var("eps"), "kc": var("kc"), "v": v, "a": a, "w": b}
+    size = expr(1)
+    for name, power in powers.items():
+        size = size * symbols[name] ** power
+    return all_of(
+        product=norm_chain([norms[name] for name in names], product),
+        split=implies(variables, (v <= vd + b, a <= reach), size <= bound),
+    )
+
+
+@proof.claim(
+    "21.5",
+    "term 5: −ε hᵀC(q,q̇)ᵀw ≤ ε k_c v_d a b + ε√nγ k_c b²",
+    place="(15), term 5",
+    section=RATE,
+    uses=["rate", "h.bound"],
+)
+def _(case):
+    a, b, eps, kc, vd, reach = map(var, ("a", "b", "eps", "kc", "vd", "reach"))
+    product = majorant(eps=1, kc=1, v=1, a=1, w=1)
+    bound = eps * kc * vd * a * b + eps * reach * kc * b**2
+    return with_speed(case, ["eps", "h(e)", "C(q,q̇)", "w"], product, bound)
+
+
+@proof.claim(
+    "21.9",
+    "term 9: ½ε² hᵀ(C + Cᵀ)h ≤ ε² k_c v_d a² + ε²√nγ k_c a b",
+    place="(15), term 9",
+    section=RATE,
+    uses=["rate", "h.bound"],
+)
+def _(case):
+    a, b, eps, kc, vd, reach = map(var, ("a", "b", "eps", "kc", "vd", "reach"))
+    product = majorant(eps=2, kc=1, v=1, a=2)
+    bound = eps**2 * kc * vd * a**2 + eps**2 * reach * kc * a * b
+    return with_speed(case, ["eps", "eps", "h(e)", "C(q,q̇)", "h(e)"], product, bound)
+
+
+def theta(eps, k, b_min, c, d, turn):
+    """θ'11, θ'12, θ'22; ``turn`` is k_c v_d."""
+    return eps * (k - eps * turn), -eps / 2 * (d + turn + eps * c), b_min - eps * c
+
+
+@proof.claim(
+    "21.form",
+    "dV/dt ≤ −[a b] Θ' [a b]ᵀ, in which there is no t",
+    place="in place of (16)",
+    section=RATE,
+    uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
+)
+def _(case):
+    """The bounds of the eleven terms add up to the form."""
+    known = known_of(case)
+    names = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
+    a, b, eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
+    bounds = [
+        expr(0),
+        -b_min * b**2,
+        eps * known.rho * beta * b**2,
+        eps * known.G * beta * b**2,
+        eps * kc * vd * a * b + eps * known.reach * kc * b**2,
+        -eps * k * a**2,
+        eps * b_max * a * b,
+        eps * known.L * kv_max * a * b,
+        eps**2 * kc * vd * a**2 + eps**2 * known.reach * kc * a * b,
+        eps**2 * known.G * beta * a * b,
+        eps**2 * known.rho * beta * a * b,
+    ]
+    c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
+    corner, side, low = theta(eps, k, b_min, c, d, kc * vd)
+    return identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2))
+
+
+UNIFORM = "Uniform asymptotic stability, for every arm"
+SIZES = positive("mu", "beta") + nonnegative("yy", "yMy", "stored")
+
+
+@proof.claim(
+    "21.below",
+    "V ≥ ½λmin(M)‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
+    place="(13)",
+    section=UNIFORM,
+    uses=["V.positive"],
+)
+def _(case):
+    """λmin(M) is one number μ > 0 for all q(t): M is positive definite on the compact torus of angles."""
+    mu, yy, size, stored = map(var, ("mu", "yy", "yMy", "stored"))
+    return implies(SIZES, (mu * yy <= size,), mu * yy / 2 + stored <= size / 2 + stored)
+
+
+@proof.claim(
+    "21.above",
+    "V ≤ ½β_M‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
+    place="(13)",
+    section=UNIFORM,
+    uses=["V.positive"],
+)
+def _(case):
+    beta, yy, size, stored = map(var, ("beta", "yy", "yMy", "stored"))
+    return implies(SIZES, (size <= beta * yy,), size / 2 + stored <= beta * yy / 2 + stored)
+
+
+@proof.claim(
+    "21.small",
+    "for every v_d some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
+    place="in place of (18)",
+    section=UNIFORM,
+)
+def _(case):
+    known = known_of(case)
+    names = ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc", "vd")
+    eps0, k, b, more, kv, beta, kc, vd = map(var, names)
+    variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc", "vd")
+    c, d = known.drift(beta, kc), known.cross(b + more, kv)
+    corner, side, low = theta(eps0 * var("share"), k, b, c, d, kc * vd)
+    return all_of(
+        corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
+        determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
+    )
+
+
+DIRECT_METHOD = {
+    "equilibrium": "21.loop",
+    "differentiable": "V.smooth",
+    "bounded_below_by_a_positive_definite_function": "21.below",
+    "bounded_above_by_a_positive_definite_function": "21.above",
+    "radially_unbounded": "V.unbounded",
+    "rate_bounded_by_a_form": "21.form",
+}
+
+
+@proof.claim(
+    "21",
+    "(21) makes the origin globally uniformly asymptotically stable, whatever v_d = sup‖q̇_d‖ < ∞ is",
+    place="Remark II, (21)",
+    section=UNIFORM,
+    uses=[*DIRECT_METHOD.values(), "21.small"],
+)
+def _(case):
+    """For every robot with Properties 2.1–2.7 and all positive gains; ε₀ is not part of the controller."""
+    case.read.update(("m", "n"))
+    return theorem(
+        "Lyapunov's direct method, time-varying", **DIRECT_METHOD, form_negative_definite="21.small"
+    )
+
+
+# With numbers for the robot, the gains and v_d -------------------------------------------------------------
+
+ARM = "This arm, with a number for v_d"
+proof.adopt("scalar.py", "arm.properties", "arm.M", "arm.C", "arm.B")
+
+
+def form_numbers(case):
+    """λmin(K_p), λmin(B), c, d and k_c v_d for the robot and gains at hand."""
+    if len(case.gains.kp) != case.robot.n:
+        raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
+    known, arm = known_of(case), ArmBounds(case.robot.fixed())
+    c, d = known.drift(arm.beta, arm.kc), known.cross(arm.b_max, max(case.gains.kv))
+    return min(case.gains.kp), arm.b_min, c, d, arm.kc * SPEED
+
+
+def eps0_of(case):
+    """ε₀: a share of the largest one for which Θ' ≻ 0; both entries and det Θ'/ε fall with ε up to there.
+
+    Raises:
+        Lacking: there is none, as where a joint has no friction.
+    """
+    k, b, c, d, turn = form_numbers(case)
+
+    def positive_definite(eps):
+        corner, side, low = theta(eps, k, b, c, d, turn)
+        return corner > 0 and low > 0 and side**2 < corner * low
+
+    largest = largest_with(positive_definite)
+    if largest is None:
+        raise lacking("no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive")
+    return SHARE * largest
+
+
+@proof.claim(
+    "arm.inertia", "M(q) − μI is positive definite for a number μ > 0", place="Property 2.1", section=ARM
+)
+def _(case):
+    mass = mass_matrix(case.robot.fixed())
+
+    def minors(mu):
+        rows = range(len(mass))
+        return leading_minors([[mass[i][j] - mu if i == j else mass[i][j] for j in rows] for i in rows])
+
+    halves = (Fraction(1, 2**k) for k in range(3, 20))
+    mu = next((mu for mu in halves if min(entry_floors(minors(mu))) > 0), None)
+    if mu is None:
+        raise lacking("the Fourier sums of the leading minors of M do not show M − μI ≻ 0 for any μ")
+    return all_of(positive=Constant(expr(0) < mu), minors=always_positive(minors(mu)))
+
+
+@proof.claim(
+    "arm.21.theta",
+    f"Θ' is positive definite for every ε in (0, ε₀], at these numbers and v_d = {SPEED} rad/s",
+    place="in place of (18)",
+    section=ARM,
+)
+def _(case):
+    eps, eps0 = var("x"), eps0_of(case)
+    k, b, c, d, turn = map(expr, form_numbers(case))
+    return all_of(
+        corner=for_all(expr(0) < k - eps * turn, 0, eps0),
+        determinant=for_all(eps / 4 * (d + turn + eps * c) ** 2 < (k - eps * turn) * (b - eps * c), 0, eps0),
+    )
+
+
+@proof.claim(
+    "arm.21",
+    f"for ‖q̇_d‖ ≤ {SPEED} rad/s the origin is globally uniformly asymptotically stable, with this ε₀ in V",
+    place="Remark II, (21)",
+    section=ARM,
+    uses=[
+        *DIRECT_METHOD.values(),
+        "arm.properties",
+        "arm.inertia",
+        "arm.M",
+        "arm.C",
+        "arm.B",
+        "arm.21.theta",
+    ],
+)
+def _(case):
+    case.read.update(("m", "n"))
+    return theorem(
+        "Lyapunov's direct method, time-varying", **DIRECT_METHOD, form_negative_definite="arm.21.theta"
+    )
