@@ -1,0 +1,95 @@
+"""Gains asserted in a user's own tests: pytest finds the fixture ``accepted_gains`` by itself.
+
+    def test_gains_of_the_arm(accepted_gains):
+        accepted_gains("config/gains.toml")
+
+Outside a test function, or without the plugin, :func:`assert_accepted` does the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import pytest
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GateResult
+
+
+class AcceptedGains(Protocol):
+    """What the fixture hands to a test."""
+
+    def __call__(
+        self, path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+    ) -> list[GateResult]:
+        """See :func:`assert_accepted`; a relative path is meant from pytest's root directory."""
+        ...
+
+
+def assert_accepted(
+    path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+) -> list[GateResult]:
+    """Fail unless every gain set of a file is accepted by the conditions.
+
+    Args:
+        path: a gain file.
+        robot: an arm that replaces the one the file names.
+        conditions: which of ``10``, ``10p`` and ``19`` must hold.
+
+    Returns:
+        What the gate found, one result a gain set.
+
+    Raises:
+        AssertionError: a set is rejected or undecided; says where, why and what to change.
+        InputError: the file, the arm or a condition cannot be used.
+
+    Soundness: that of the gate, which decides exactly.
+    """
+    __tracebackhide__ = True
+    from lyapcheck.control import gate, read_gain_file
+
+    _require_known(conditions)
+    results = gate(read_gain_file(path), robot, conditions)
+    complaints = [line for result in results for line in _complaints(result)]
+    if complaints:
+        raise AssertionError("\n".join(complaints))
+    return results
+
+
+@pytest.fixture
+def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
+    """Assert that the gate accepts a gain file: ``accepted_gains("config/gains.toml")``."""
+    root = request.config.rootpath
+
+    def accepted(
+        path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+    ) -> list[GateResult]:
+        __tracebackhide__ = True
+        return assert_accepted(root / path, robot=robot, conditions=conditions)
+
+    return accepted
+
+
+def _require_known(conditions: Sequence[str]) -> None:
+    from lyapcheck.control.conditions import CONDITIONS
+    from lyapcheck.errors import argument_error
+
+    unknown = [name for name in conditions if name not in CONDITIONS]
+    if unknown or not conditions:
+        raise argument_error(
+            "conditions", ", ".join(unknown), "names no condition", f"use some of: {', '.join(CONDITIONS)}"
+        )
+
+
+def _complaints(result: GateResult) -> list[str]:
+    """A line a failed check, with the place of the gain."""
+    from lyapcheck.control.gate_formats.words import KEYS, advice
+
+    lines = []
+    for check in result.failures:
+        place = result.file.place(result.gains, KEYS[check.id], check.joint)
+        where = result.file.path if place is None else f"{result.file.path}:{place.line}:{place.column}"
+        lines.append(f"{where}: {result.name} {check.verdict}: {advice(result, check)}")
+    return lines
