@@ -7,6 +7,7 @@ over tokens and keeps count of lines and columns.
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -49,6 +50,11 @@ def _tokens(text: str) -> Iterator[_Token]:
         breaks = match[0].count("\n")
         if breaks:
             line, start = line + breaks, match.start() + match[0].rindex("\n") + 1
+
+
+def _unquoted(key: str) -> str:
+    """What a quoted key says."""
+    return str(tomllib.loads(f"key = {key}")["key"]) if "\\" in key else key[1:-1]
 
 
 class _Walk:
@@ -98,7 +104,7 @@ class _Walk:
         while not self._is(end):
             token = self.tokens[self.at]
             keys += (
-                [token.text[1:-1]]
+                [_unquoted(token.text)]
                 if token.kind == "text"
                 else [part for part in token.text.split(".") if part]
             )
