@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import json
 import subprocess
 import sys
@@ -332,3 +333,7 @@ def test_asking_for_help_or_importing_the_api_loads_no_solver():
         "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_example_of_the_documentation_is_true():
+    assert doctest.testmod(sys.modules["lyapcheck.tune.tuning"]) == (0, 2)

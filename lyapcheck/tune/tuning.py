@@ -51,8 +51,8 @@ def tune(
 
     Example:
         >>> tuning = tune("buap3", (1,))
-        >>> [str(joint.kp) for joint in tuning.sets[0].joints]
-        ['28633/1000', '63112/1000', '7381/1000']
+        >>> [float(joint.kp) for joint in tuning.sets[0].joints]
+        [28.633, 63.112, 7.381]
     """
     model = load(robot)
     wanted = targets or Targets()
