@@ -1,4 +1,7 @@
-"""sin, cos and the functions of a family on recorded terms: in plain doubles, short, without branches."""
+"""sin, cos and the functions of a family in plain doubles, short and without branches.
+
+They are written for recorded code, and serve arrays as well.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from lyapcheck.compiled.straight_line import Code, Term
+from lyapcheck.compiled.plain_arrays import PlainArrays
+from lyapcheck.compiled.straight_line import Code
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.elementary import ElementaryFamily, NumericForms
@@ -19,64 +23,61 @@ _LN2 = 0.6931471805599453
 
 
 @dataclass(frozen=True, eq=False)
-class TermForms:
-    """What formulas ask of an arithmetic, for terms of one piece of code and one family."""
+class PlainForms:
+    """What formulas ask of an arithmetic, for one family: terms of one piece of code, or arrays."""
 
-    code: Code
+    code: Code | PlainArrays
     family: Family
 
-    def sin(self, x: Term) -> Term:
+    def sin(self, x: Any) -> Any:
         """sin x."""
         return self.code.call("sine", x)
 
-    def cos(self, x: Term) -> Term:
+    def cos(self, x: Any) -> Any:
         """cos x."""
         return self.code.call("cosine", x)
 
-    def sqrt(self, x: Term) -> Term:
+    def sqrt(self, x: Any) -> Any:
         """√x."""
         return self.code.call("sqrt", x)
 
-    def ratio(self, a: Term, b: Term) -> Term:
+    def ratio(self, a: Any, b: Any) -> Any:
         """a/b, and 0 where b = 0."""
         return a / self.code.where(b > 0.0, b, 1.0)
 
-    def h(self, x: Term) -> Term:
+    def h(self, x: Any) -> Any:
         """h(x)."""
-        result: Term = self._forms(x).h
-        return result
+        return self._forms(x).h
 
-    def dh(self, x: Term) -> Term:
+    def dh(self, x: Any) -> Any:
         """h'(x)."""
-        result: Term = self._forms(x).dh
-        return result
+        return self._forms(x).dh
 
-    def potential(self, x: Term) -> Term:
+    def potential(self, x: Any) -> Any:
         """U(x)."""
-        result: Term = self._forms(x).potential
-        return result
+        return self._forms(x).potential
 
-    def _forms(self, x: Term) -> Any:
+    def _forms(self, x: Any) -> Any:
         if self.family.name in _WITH_POWERS:
             return Hyperbolic(self.code, self.family.m or 1, x)
         if isinstance(self.family, ElementaryFamily):
-            return self.family.numeric(terms_arithmetic(self.code), x)
+            return self.family.numeric(_arithmetic(self.code), x)
         return NumericForms(h=x, dh=self.code.term(1), potential=0.5 * x * x, secant=self.code.term(1))
 
 
 _WITH_POWERS = ("hyperbolic", "tanh")
 
 
-def has_terms(family: Family) -> bool:
+def has_plain_forms(family: Family) -> bool:
     """Whether a family can be written in plain doubles."""
     known = family.name == "linear" or family.name in _WITH_POWERS or isinstance(family, ElementaryFamily)
     return known and (family.m or 1) <= LARGEST_MEMBER
 
 
-def terms_arithmetic(code: Code) -> Arithmetic:
-    """The operations of families on recorded terms."""
+def _arithmetic(code: Code | PlainArrays) -> Arithmetic:
+    """The operations of families in plain doubles."""
 
-    def of(function: str) -> Callable[..., Term]:
+    def of(function: str) -> Callable[..., Any]:
         return lambda *x: code.call(function, *x)
 
     return Arithmetic(
@@ -109,7 +110,7 @@ class Hyperbolic:
     bound of its relative error.
     """
 
-    def __init__(self, code: Code, m: int, x: Term) -> None:
+    def __init__(self, code: Code | PlainArrays, m: int, x: Any) -> None:
         self.code, self.m, self.x = code, m, x
         self.a = code.call("fabs", x)
         self.t = code.call("exp_of_negative", self.a)
@@ -119,24 +120,24 @@ class Hyperbolic:
         self.p = code.call("smaller", over, under) * self.inverse
 
     @cached_property
-    def P(self) -> Term:
+    def P(self) -> Any:
         """p^(2m)."""
         return self._power(self.m)
 
     @cached_property
-    def share(self) -> Term:
+    def share(self) -> Any:
         """1/(1 + P)."""
         return 1.0 / (1.0 + self.P)
 
     @property
-    def h(self) -> Term:
+    def h(self) -> Any:
         """h_m(x)."""
         size = (1.0 + self.t * self.t) * self.inverse * self.share
         odd_power = self.p * self._power(self.m - 1)
         return self.code.call("copysign", size * self.code.where(self.near, odd_power, 1.0), self.x)
 
     @property
-    def dh(self) -> Term:
+    def dh(self) -> Any:
         """h_m'(x)."""
         m, P, Q, square = self.m, self.P, self._power(self.m - 1), self.p * self.p
         near = Q * ((2.0 * m - 1.0) + 2.0 * m * square - P)
@@ -144,17 +145,17 @@ class Hyperbolic:
         return self.code.where(self.near, near, far) * self.share * self.share
 
     @property
-    def potential(self) -> Term:
+    def potential(self) -> Any:
         """U_m(x)."""
         log_sinh = (self.a - _LN2) + self.code.call("log_one_plus", self._bounded_square())
         rest = self.code.call("log_one_plus", self.P) * (1.0 / (2 * self.m))
         return rest + self.code.where(self.near, 0.0, log_sinh)
 
-    def _bounded_square(self) -> Term:
+    def _bounded_square(self) -> Any:
         """−t², cut where it is not needed and the logarithm would leave its range."""
         return -self.code.call("smaller", self.t * self.t, 0.2)
 
-    def _power(self, k: int) -> Term:
+    def _power(self, k: int) -> Any:
         """p^(2k) by repeated squaring."""
         base, result = self.p * self.p, self.code.term(1)
         while k:

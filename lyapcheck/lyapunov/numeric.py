@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.compiled.columns import ColumnForms
-from lyapcheck.compiled.forms import TermForms, has_terms
+from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.state_map import StateMap, state_map
 from lyapcheck.compiled.straight_line import Code, Term
 from lyapcheck.family import Family
@@ -84,7 +84,7 @@ class LyapunovNumeric:
         return None if kernel is None else kernel(q, e, w, self._parameters)
 
     def _kernel(self, name: Name, count: int) -> StateMap | None:
-        if count < LARGE or not has_terms(self.family):
+        if count < LARGE or not has_plain_forms(self.family):
             return None
         return _compiled(self.model, self.family, name)
 
@@ -113,7 +113,7 @@ def _compiled(model: RobotModel, family: Family, name: Name) -> StateMap | None:
     n = model.n
 
     def formula(code: Code, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
-        forms = TermForms(code, family)
+        forms = PlainForms(code, family)
         certificate = Certificate(model, forms, p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n])
         return [getattr(certificate, name)(q, e, w)]
 

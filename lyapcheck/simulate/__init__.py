@@ -6,6 +6,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lyapcheck.simulate.batch import simulate_many
+    from lyapcheck.simulate.batch_runs import Runs
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.csv import run_csv
@@ -21,12 +23,14 @@ _HOME = {
     "Printed": "printed",
     "Promises": "run",
     "Run": "run",
+    "Runs": "batch_runs",
     "SimulationFailed": "run",
     "Task": "task",
     "experiment": "trial",
     "printed_for": "printed",
     "run_csv": "csv",
     "simulate": "closed_loop",
+    "simulate_many": "batch",
 }
 
 __all__ = [
@@ -36,12 +40,14 @@ __all__ = [
     "Printed",
     "Promises",
     "Run",
+    "Runs",
     "SimulationFailed",
     "Task",
     "experiment",
     "printed_for",
     "run_csv",
     "simulate",
+    "simulate_many",
 ]
 
 

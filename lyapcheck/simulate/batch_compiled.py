@@ -1,0 +1,108 @@
+"""The batch of runs integrated by compiled code."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.compiled.forms import PlainForms, has_plain_forms
+from lyapcheck.compiled.library import library
+from lyapcheck.compiled.state_map import MOST_STATEMENTS
+from lyapcheck.compiled.straight_line import Code
+from lyapcheck.compiled.threads import over_shares
+from lyapcheck.family import Family
+from lyapcheck.robots import RobotModel
+from lyapcheck.simulate import dop853
+from lyapcheck.simulate.batch_paths import Paths
+from lyapcheck.simulate.batch_rates import Loop, parameter_count
+from lyapcheck.simulate.dop853 import Weights
+
+Array = NDArray[np.float64]
+
+LANES = 8
+"""Runs that advance together in one thread."""
+
+
+class CompiledRuns:
+    """The integrator for one arm and one family; `compiled_runs` makes one."""
+
+    name = "compiled"
+
+    def __init__(self, call: Any) -> None:
+        self._call = call
+
+    def __call__(
+        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+    ) -> Paths:
+        """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
+        runs, size = y0.shape
+        paths = Paths(np.empty((runs, points, size)), np.empty(runs, np.int32), np.empty(runs, np.int32))
+
+        def share(start: int, stop: int) -> int:
+            given = (x[start:stop].ctypes.data for x in (y0, parameters))
+            numbers = (T, tolerance, tolerance / 100, max_steps)
+            filled = (x[start:stop].ctypes.data for x in (paths.y, paths.status, paths.steps))
+            self._call(stop - start, points, *given, *numbers, *filled)
+            return 0
+
+        over_shares(share, runs, LANES)
+        return paths
+
+
+@lru_cache(maxsize=32)
+def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
+    """Compile the integrator; none where there is no compiler or the arm's formulas are too long."""
+    source = _source(model, family) if has_plain_forms(family) else None
+    found = None if source is None else library(source)
+    if found is None:
+        return None
+    whole, number, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
+    call = found.integrate_runs
+    call.restype = None
+    call.argtypes = [whole, whole, place, place, number, number, number, whole, place, place, place]
+    return CompiledRuns(call)
+
+
+def _source(model: RobotModel, family: Family) -> str | None:
+    code, size, count = Code(), 2 * model.n + 2, parameter_count(model)
+    loop = Loop(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
+    rates = loop.rate([code.name(f"y[{i}][l]") for i in range(size)])
+    if len(code.lines) > MOST_STATEMENTS:
+        return None
+    body = code.store([f"f[{i}][l]" for i in range(size)], rates)
+    sizes = {"N": model.n, "D": size, "P": count, "LANES": LANES}
+    defines = [f"#define {name} {value}" for name, value in (sizes | _table()).items()]
+    return "\n".join([*defines, _RATE.replace("BODY", body), _resource()])
+
+
+_RATE = """
+static void rate(const double y[D][LANES], const double p[P][LANES], double f[D][LANES])
+{
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) {
+BODY
+    }
+}
+"""
+
+
+def _resource() -> str:
+    return files("lyapcheck.simulate").joinpath("batch.c").read_text(encoding="utf-8")
+
+
+def _table() -> dict[str, str]:
+    """The weights of the method as C expressions in the stages k."""
+    rows = {f"STAGE_{i}": row for i, row in enumerate(dop853.STAGES, start=1)}
+    rows |= {f"EXTRA_{i}": row for i, row in enumerate(dop853.EXTRA, start=13)}
+    rows |= {f"DENSE_{i}": row for i, row in enumerate(dop853.DENSE, start=3)}
+    rows |= {"STEP": dop853.STEP, "ERROR_5": dop853.ERROR_5, "ERROR_3": dop853.ERROR_3}
+    return {name: _sum(row) for name, row in rows.items()}
+
+
+def _sum(row: Weights) -> str:
+    return " + ".join(f"({weight.hex()}) * s->k[{j}][i][l]" for j, weight in row.items())

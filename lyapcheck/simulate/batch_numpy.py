@@ -1,0 +1,169 @@
+"""The batch of runs integrated by NumPy, all runs at once, each with its own steps."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.compiled.columns import ColumnForms
+from lyapcheck.compiled.forms import PlainForms, has_plain_forms
+from lyapcheck.compiled.plain_arrays import PlainArrays
+from lyapcheck.family import Family
+from lyapcheck.lyapunov.along import Forms
+from lyapcheck.robots import RobotModel
+from lyapcheck.simulate import dop853
+from lyapcheck.simulate.batch_paths import OUT_OF_RANGE, STEP_TOO_SMALL, TOO_MANY_STEPS, Paths
+from lyapcheck.simulate.batch_rates import Loop
+from lyapcheck.simulate.dop853 import Weights
+
+Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+
+_LARGEST = 1e15
+
+
+def array_forms(family: Family) -> Forms:
+    """The formulas of the compiled integrator on arrays, or the accurate ones where it has none."""
+    return PlainForms(PlainArrays(), family) if has_plain_forms(family) else ColumnForms(family)
+
+
+class NumpyRuns:
+    """The integrator for one arm and one family, in the steps of `batch.c`."""
+
+    name = "numpy"
+
+    def __init__(self, model: RobotModel, family: Family) -> None:
+        self._model, self._forms = model, array_forms(family)
+
+    def __call__(
+        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+    ) -> Paths:
+        """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
+        runs, size = y0.shape
+        y = np.full((runs, points, size), np.nan)
+        y[:, 0] = y0
+        paths = Paths(y, np.zeros(runs, np.int32), np.zeros(runs, np.int32))
+        with np.errstate(all="ignore"):
+            march = _March(self, parameters, paths, T, tolerance)
+            while march.who.size:
+                march.step(max_steps)
+        return paths
+
+    def rate(self, y: Array, parameters: Array) -> Array:
+        """ẏ of columns y (d, R) with parameters (p, R)."""
+        return np.stack(Loop(self._model, self._forms, list(parameters)).rate(list(y)))
+
+
+class _March:
+    """The runs that are still under way, as columns."""
+
+    def __init__(
+        self, engine: NumpyRuns, parameters: Array, paths: Paths, T: float, tolerance: float
+    ) -> None:
+        self.engine, self.paths, self.T, self.tolerance = engine, paths, T, tolerance
+        runs, points, _ = paths.y.shape
+        self.times = T * np.arange(points) / (points - 1)
+        self.who: Whole = np.arange(runs)
+        self.p, self.y = parameters.T.copy(), paths.y[:, 0].T.copy()
+        self.rate = engine.rate(self.y, self.p)
+        self.t, self.sample, self.rejected = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
+        self.h = self._first_step()
+
+    def step(self, max_steps: int) -> None:
+        """One step of every run, with the size each of them wants."""
+        k, new = self._stages()
+        error = self._error(k, new)
+        good = error < 1.0
+        self._write(k, new, good)
+        self.t = np.where(good, self.t + self.h, self.t)
+        self.y, self.rate = np.where(good, new, self.y), np.where(good, k[12], self.rate)
+        most = np.where(good & ~self.rejected, 10.0, 1.0)
+        wanted = np.where(error < np.inf, 0.9 / np.maximum(error, 1e-300) ** 0.125, 0.2)
+        following = self.h * np.maximum(0.2, np.minimum(wanted, most))
+        left = self.T - self.t
+        self.h = np.where(left - following < 1e-12 * self.T, left, np.minimum(following, left))
+        self.rejected = ~good
+        self.paths.steps[self.who] += 1
+        self._settle(following, max_steps)
+
+    def _stages(self) -> tuple[list[Array], Array]:
+        k = [self.rate]
+        for weights in dop853.STAGES:
+            k.append(self._rate(k, weights))
+        new = self.y + self.h * _sum(weights=dop853.STEP, k=k)
+        return [*k, self.engine.rate(new, self.p)], new
+
+    def _rate(self, k: list[Array], weights: Weights) -> Array:
+        return self.engine.rate(self.y + self.h * _sum(weights, k), self.p)
+
+    def _error(self, k: list[Array], new: Array) -> Array:
+        """The error of the step, at most 1 if it is within the tolerance."""
+        scale = self.tolerance * (0.01 + np.maximum(np.abs(self.y), np.abs(new)))
+        fifth, third = (
+            np.sum((_sum(row, k) / scale) ** 2, axis=0) for row in (dop853.ERROR_5, dop853.ERROR_3)
+        )
+        both = np.sqrt((fifth + 0.01 * third) * len(new))
+        return np.asarray(np.where(both == 0.0, 0.0, self.h * fifth / both))
+
+    def _write(self, k: list[Array], new: Array, good: NDArray[np.bool_]) -> None:
+        """The samples within the step, for the runs whose step is good."""
+        end = self.t + self.h + 1e-14 * self.T
+        due = good & self._before(end)
+        if not due.any():
+            return
+        dense = self._between(k, new)
+        while due.any():
+            x = (self.times[self.sample[due]] - self.t[due]) / self.h[due]
+            self.paths.y[self.who[due], self.sample[due]] = (self.y[:, due] + _value(dense[:, :, due], x)).T
+            self.sample[due] += 1
+            due = good & self._before(end)
+
+    def _before(self, end: Array) -> NDArray[np.bool_]:
+        last = self.times.size - 1
+        return np.asarray((self.sample <= last) & (self.times[np.minimum(self.sample, last)] <= end))
+
+    def _between(self, k: list[Array], new: Array) -> Array:
+        """The coefficients of the polynomial between the two ends of the step, (7, d, R)."""
+        for weights in dop853.EXTRA:
+            k.append(self._rate(k, weights))
+        rise = new - self.y
+        low = [rise, self.h * k[0] - rise, 2.0 * rise - self.h * (k[12] + k[0])]
+        return np.stack([*low, *(self.h * _sum(row, k) for row in dop853.DENSE)])
+
+    def _settle(self, following: Array, max_steps: int) -> None:
+        """Let go of the runs that are done, and of those that cannot go on."""
+        bad = ~np.all(np.abs(self.y) <= _LARGEST, axis=0)
+        status = np.select(
+            [bad, self.paths.steps[self.who] >= max_steps, ~(following > 1e-15 * self.T)],
+            [OUT_OF_RANGE, TOO_MANY_STEPS, STEP_TOO_SMALL],
+        )
+        done = self.sample == self.times.size
+        self.paths.status[self.who] = np.where(done & ~bad, 0, status)
+        on = ~done & (status == 0)
+        for name in ("who", "t", "h", "sample", "rejected"):
+            setattr(self, name, getattr(self, name)[on])
+        for name in ("p", "y", "rate"):
+            setattr(self, name, getattr(self, name)[:, on])
+
+    def _first_step(self) -> Array:
+        scale = self.tolerance * (0.01 + np.abs(self.y))
+        size, speed = (np.sqrt(np.mean((x / scale) ** 2, axis=0)) for x in (self.y, self.rate))
+        tiny = (size < 1e-5) | (speed < 1e-5)
+        return np.minimum(np.where(tiny, 1e-6, 0.01 * size / speed), self.T)
+
+
+def _sum(weights: Weights, k: list[Array]) -> Array:
+    """Σ weight_j k_j."""
+    (first, weight), *rest = weights.items()
+    total = weight * k[first]
+    for j, weight in rest:
+        total += weight * k[j]
+    return total
+
+
+def _value(dense: Array, x: Array) -> Array:
+    """The polynomial of a step at the fraction x of it, without the value at its start."""
+    total = x * dense[6]
+    for i in reversed(range(6)):
+        total = (total + dense[i]) * (x if i % 2 == 0 else 1.0 - x)
+    return np.asarray(total)

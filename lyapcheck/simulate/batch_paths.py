@@ -1,0 +1,56 @@
+"""What an integrator of many runs hands back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Counts = NDArray[np.int32]
+
+TOO_MANY_STEPS, STEP_TOO_SMALL, OUT_OF_RANGE = 1, 2, 3
+
+FAILURES = (
+    "",
+    "the steps allowed were not enough",
+    "the step became too small",
+    "the state left every sensible range",
+)
+"""What a status means; 0 is a run that reached its end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """The samples of many runs: ``y`` (R, points, 2n + 2), NaN from where a run failed."""
+
+    y: Array
+    status: Counts
+    """(R,) an index of `FAILURES`."""
+    steps: Counts
+    """(R,) steps tried."""
+
+
+class Integrator(Protocol):
+    """Solves (11) for many runs on one arm and for one family."""
+
+    name: str
+    """``compiled`` or ``numpy``."""
+
+    def __call__(
+        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+    ) -> Paths:
+        """The samples at ``points`` even times from 0 to T.
+
+        Args:
+            y0: (R, 2n + 2) q, w, dissipated energy, ∫‖e‖²; without gaps.
+            parameters: (R, p) in the order of `Loop`; without gaps.
+            T: s.
+            points: at least 2.
+            tolerance: relative error allowed per step; the absolute one is a hundredth of it.
+            max_steps: a budget for each run.
+
+        Soundness: an error estimate per step is not a bound: compare with a smaller tolerance.
+        """
