@@ -34,7 +34,7 @@ kv = [0.1, 0.20, 0.3]
 LINES = {key: number for number, line in enumerate(GOOD.splitlines(), 1) for key in [line.split(" = ")[0]]}
 
 
-@pytest.fixture()
+@pytest.fixture
 def file(tmp_path: Path) -> Path:
     return tmp_path / "gains.toml"
 
@@ -46,7 +46,7 @@ def problems(file: Path, text: str | bytes) -> list[Problem]:
     return caught.value.problems
 
 
-# --- what is right -------------------------------------------------------------------------------------------
+# --- what is right -----------------------------------------------------------------------------------------
 
 
 def test_a_file_is_read_whole(file: Path) -> None:
@@ -87,6 +87,7 @@ def test_decimals_are_exact_and_keep_their_digits(
     assert places_of(found) == places
 
 
+@settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-50, 50))
 def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent: int) -> None:
     text = f"{str(digits).rjust(places + 1, '0')}"
@@ -94,6 +95,7 @@ def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent
     assert written(text) == Fraction(digits) * Fraction(10) ** (exponent - places)
 
 
+@settings(max_examples=60, deadline=None)
 @given(st.fractions(), st.integers(0, 30))
 def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places: int) -> None:
     rounded, unit = round_down(value, places), Fraction(1, 10**places)
@@ -102,6 +104,7 @@ def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places:
     assert Fraction(decimal_text(rounded, places)) == rounded
 
 
+@settings(max_examples=60, deadline=None)
 @given(st.fractions(), st.integers(0, 30))
 def test_decimal_text_says_the_exact_value(value: Fraction, places: int) -> None:
     text = decimal_text(value, places)
@@ -133,7 +136,7 @@ def test_every_gain_knows_its_line_and_column(file: Path) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        'gains = [{name="a", m=1, kp=[1], kv=[1]},\n   {name="b", m=2, kp=[1],\n kv=[\n1, # one\n]}]\n',
+        'gains = [{name="a", m=1, kp=[1], kv=[1]},\n   {name="b", m=2, kp=[1], kv=[\n1, # one\n]}]\n',
         "\ufeff" + GOOD,
         GOOD.replace("\n", "\r\n"),
         GOOD.replace("name", '"name"').replace("kp", "'kp'"),
@@ -181,7 +184,7 @@ def test_a_robot_file_is_looked_for_beside_the_gain_file(file: Path) -> None:
     assert read_gain_file(file).robot == str(file.parent / "arms" / "mine.toml")
 
 
-# --- what is wrong -------------------------------------------------------------------------------------------
+# --- what is wrong -----------------------------------------------------------------------------------------
 
 
 def changed(old: str, new: str) -> str:
@@ -209,7 +212,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "gains of one table": (changed("[[gains]]", "[gains]"), 3, "gains", "array of tables", "[[gains]]"),
     "no gain sets": ("gains = []\n", 1, "gains", "array of tables", "[[gains]]"),
     "gains of numbers": ("gains = [1, 2]\n", 1, "gains", "array of tables", "[[gains]]"),
-    "unknown key": (GOOD + "kd = [1, 1, 1]\n", 8, "gains[1].kd", "not a known key", "did you mean k"),
+    "unknown key": (GOOD + "kd = [1, 1, 1]\n", 8, "gains[1].kd", "not a known key", "use one of: angle"),
     "misspelt key": (changed("name", "nmae"), 4, "gains[1].nmae", "not a known key", "did you mean name?"),
     "unknown top key": ("robots = 1\n" + GOOD, 1, "robots", "not a known key", "did you mean robot?"),
     "unknown table": (
@@ -228,7 +231,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     ),
     "key of control characters": (
         GOOD + '"a\\u001b\\n" = 1\n',
-        3,
+        8,
         r"gains[1].a\x1b\n",
         "known key",
         "remove",
@@ -491,7 +494,7 @@ def test_a_file_name_of_any_bytes_can_be_said(tmp_path: Path) -> None:
 RUN = "from lyapcheck.cli.main import main; main()"
 
 
-# --- whatever comes ------------------------------------------------------------------------------------------
+# --- whatever comes ----------------------------------------------------------------------------------------
 
 SCALARS = st.one_of(
     st.sampled_from(
@@ -532,33 +535,41 @@ SPLICED = st.builds(
 )
 
 
-def read_or_refuse(path: Path, content: bytes) -> None:
-    path.write_bytes(content)
+def refusal(path: Path) -> InputError | None:
     try:
         found = read_gain_file(path)
     except InputError as error:
+        return error
+    assert isinstance(found, GainFile)
+    assert found.gains
+    for gains in found.gains:
+        assert all(k > 0 for k in (*gains.kp, *gains.kv))
+        assert found.place(gains, "kv", gains.n - 1) is not None
+    return None
+
+
+def read_or_refuse(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
+    error = refusal(path)
+    if error is not None:
         assert error.problems
         assert all(problem.rule and problem.repair for problem in error.problems)
         assert all(printable(str(problem)) == str(problem) for problem in error.problems)
-    else:
-        assert isinstance(found, GainFile)
-        assert found.gains
-        for gains in found.gains:
-            assert all(k > 0 for k in (*gains.kp, *gains.kv))
-            assert found.place(gains, "kv", gains.n - 1) is not None
 
 
-@settings(max_examples=300)
+@settings(max_examples=150, deadline=None)
 @given(st.one_of(SHUFFLED, SPLICED).map(lambda text: text.encode("utf-8", "surrogatepass")))
 def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
+@settings(max_examples=60, deadline=None)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
+@settings(max_examples=60, deadline=None)
 @given(st.text())
 def test_printable_text_is_one_line(text: str) -> None:
     shown = printable(text)
