@@ -3,12 +3,13 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report test test-slow lint types bench lock clean help
+.PHONY: report test test-slow test-robots lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
 	@echo "make test       the fast tests"
 	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
+	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make lint       style (ruff) and formatting"
 	@echo "make types      static types (mypy --strict)"
 	@echo "make bench      benchmarks; writes reports/benchmarks.md"
@@ -22,6 +23,11 @@ test: .venv/.ready
 
 test-slow: .venv/.ready
 	$(BIN)/pytest -n 2 -m slow
+
+# Packages that only these tests need; users never do.
+test-robots: .venv/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
+	$(BIN)/pytest tests/against_pinocchio.py
 
 lint: .venv/.ready
 	$(BIN)/ruff check .
