@@ -10,12 +10,14 @@ from lyapcheck.claims import (
     Constant,
     ForSmall,
     Proof,
+    above,
     agrees,
     all_of,
     always_positive,
     apply,
     bounded,
     coriolis_matrix,
+    damping_below,
     dh,
     diff,
     dot,
@@ -254,17 +256,37 @@ def _(case):
     if None in numbers:
         raise lacking("needs a torque limit and a gravity bound for every joint; add them to the arm file")
     limits = [number.value for number in case.robot.torque_limit]
-    gravity = gravity_vector(case.robot.fixed())
-    norm = sqrt(total(expr(value) ** 2 for value in limits))
-    bound = sqrt(total(expr(number.value) ** 2 for number in case.robot.gravity_bound))
-    last = case.n
-    torque = var(f"kp{last}") * h(case.m, var(f"e{last}")) + gravity[-1]
-    gains = [f"k{kind}{i + 1}" for kind in "pv" for i in range(last)]
-    budget = (norm - bound) / (sqrt(last) * gamma(case.m))
-    return implies(
-        positive(*gains) + reals(f"e{last}", *(f"q{i + 1}" for i in range(last))),
-        tuple(var(f"kp{i + 1}") + var(f"kv{j + 1}") <= budget for i in range(last) for j in range(last)),
-        torque <= limits[-1],
+    gravity = [number.value for number in case.robot.gravity_bound]
+    norm, bound = (sqrt(total(expr(value) ** 2 for value in values)) for values in (limits, gravity))
+    share = (norm - bound) / sqrt(case.n)
+    parts = {}
+    for i, joint in enumerate(case.robot.joints):
+        inside = above(share + gravity[i]) <= limits[i]
+        parts[joint] = bounded_torque(case, i, share) if inside else actual_torque(case, i, share)
+    return all_of(**parts)
+
+
+def actual_torque(case, i, share):
+    """|τ_i| ≤ its limit at every state, for all gains with k_pi + k_vj ≤ (‖τmax‖ − k_g)/(√n γ)."""
+    n, m = case.n, case.m
+    kp, kv, budget = vector("kp", n), vector("kv", n), share / gamma(m)
+    gains = positive(*(f"{kind}{k + 1}" for kind in ("kp", "kv") for k in range(n)))
+    state = reals(*(f"{name}{k + 1}" for name in "qew" for k in range(n)))
+    drive = kp[i] * h(m, var(f"e{i + 1}")) - kv[i] * h(m, var(f"w{i + 1}"))
+    torque = drive + gravity_vector(case.robot.fixed())[i]
+    given = tuple(p + v <= budget for p in kp for v in kv)
+    return implies(gains + state, given, abs(torque) <= case.robot.torque_limit[i].value)
+
+
+def bounded_torque(case, i, share):
+    """The same from |h| ≤ γ and |g_i| ≤ k_gi, for a joint whose limit is beyond what (10) allows."""
+    ph, vh, own, most = (var(name) for name in ("abs_h_e", "abs_h_w", "abs_g", "share"))
+    names = ("gamma", "kp", "kv", "kg", "share", "abs_h_e", "abs_h_w", "abs_g")
+    given = (ph <= g, vh <= g, own <= kg, (kp + kv) * g <= most)
+    robot = case.robot
+    return all_of(
+        torque=implies(nonnegative(*names), given, kp * ph + kv * vh + own <= most + kg),
+        limit=Constant(share + robot.gravity_bound[i].value <= robot.torque_limit[i].value),
     )
 
 
@@ -773,6 +795,18 @@ def _(case):
 
 
 @proof.claim(
+    "19n",
+    "(19) is necessary: gains that break it admit no ε₀ > 0 with dV/dt < 0",
+    place="after (19)",
+    section=CONDITIONS,
+)
+def _(case):
+    """For the gains at hand and all gains with another multiple of their K_v."""
+    least = min(number.value for number in case.robot.viscous)
+    return damping_below(case.robot.fixed(), case.gains, least / (sqrt(case.n) * gamma(case.m)))
+
+
+@proof.claim(
     "P",
     "the origin is globally asymptotically stable",
     place="Proposition",
@@ -928,3 +962,7 @@ for figure, m, joint, torque in FIGURES:
         place=f"Fig. {figure}",
         section=ARITHMETIC,
     )
+
+# Remark II: tracking --------------------------------------------------------------------------------------
+
+proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)")

@@ -1,12 +1,16 @@
 """The paper's own proof: verdicts found by hand elsewhere, and faults planted in the script."""
 
 import re
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
+from lyapcheck.robots import Number, load
 from lyapcheck.verdicts import Verdict
 
 ONE = Path(find_script("published.py"))
@@ -26,6 +30,9 @@ BY_HAND = {
     ("18", None): "refuted",
     ("19", None): "proved",
     ("10j", 1): "refuted",  # one gain may use the whole norm of the limits
+    ("19n", 1): "refuted",  # any K_v admits an ε₀, by norms alone
+    ("19n", 2): "refuted",
+    ("21", 2): "proved",
     ("14", 3): "proved",
     ("15", 3): "proved",
     ("P", 1): "undecided",  # its proof goes through 16
@@ -45,6 +52,24 @@ BY_HAND = {
 }
 
 
+GAIN_SETS, JOINTS = ("m1", "m2", "m3"), ("base", "shoulder", "elbow")
+IDS = {
+    *(f"2.{k}" for k in range(1, 9)),
+    *("6", "7a", "7b", "7g", "7i", "8", "8a", "8b", "9", "10", "10j", "10p", "11"),
+    *("12", "12p", "12u", "12d", "14", "15", "16", *(f"16.{k}" for k in range(1, 12))),
+    *("17a", "17b", "17c", "17d", "18", "18e", "19", "19n", "P", "21"),
+    *(f"T1.torque.{name}.{joint}" for name in (*GAIN_SETS, "pd") for joint in JOINTS),
+    *(f"T2.{rule}.{name}.{g}" for rule in ("10p", "19") for name in GAIN_SETS for g in ("printed", "true")),
+    *(f"T2.{rule}.{joint}" for rule in ("pd", "pdkv") for joint in JOINTS),
+    *(f"S4.norm.{name}" for name in (*GAIN_SETS, "pd")),
+    *(f"S4.percent.{name}" for name in GAIN_SETS),
+    "S4.ratio.m3",
+    *(f"F.{figure}.{joint}" for figure in ("4", "10") for joint in JOINTS),
+    *("F.6.shoulder", "F.6.elbow", "F.8.shoulder"),
+}
+"""Every claim that the paper makes on the way, in the order of its text, tables and figures."""
+
+
 @pytest.fixture(scope="module")
 def result():
     return run_proof("published.py")
@@ -53,6 +78,10 @@ def result():
 def test_verdicts_worked_out_by_hand_are_found(result):
     rows = {(row.id, row.m): row.verdict.value for row in result.claims}
     assert {key: rows[key] for key in BY_HAND} == BY_HAND
+
+
+def test_no_claim_of_the_paper_is_left_out(result):
+    assert {row.id for row in result.claims} >= IDS
 
 
 def test_no_claim_ends_in_an_error_and_every_one_is_supported(result):
@@ -84,6 +113,49 @@ def test_some_bounds_depend_on_the_number_of_joints():
 def test_large_members_of_the_family_are_decided_too():
     rows = run_proof("published.py", ms=(12,), only=("6", "7a", "7b", "8", "8b", "16.1", "16.6")).claims
     assert [row.verdict.value for row in rows] == ["proved"] * 6 + ["refuted"]
+
+
+def test_the_witness_against_10j_is_a_state_with_gains_that_meet_it(result):
+    """Worked out again in floating point: every pair of gains within the budget, one joint over its limit."""
+    row = next(row for row in result.claims if row.id == "10j" and row.m == 1)
+    at = {name: float(Fraction(value)) for name, value in row.decision.witness["point"].items()}
+    kp, kv = ([at[f"{kind}{i}"] for i in (1, 2, 3)] for kind in ("kp", "kv"))
+    limits, gravity = np.array([50, 150, 15]), np.array([0, 40.28, 1.81])
+    budget = (np.linalg.norm(limits) - np.linalg.norm(gravity)) / np.sqrt(3)
+    assert max(kp) + max(kv) <= budget
+    q2, q3 = at["q2"], at["q3"]
+    pull = np.array([0, 38.47 * np.sin(q2) + 1.81 * np.sin(q2 + q3), 1.81 * np.sin(q2 + q3)])
+    e, w = (np.array([at[f"{name}{i}"] for i in (1, 2, 3)]) for name in "ew")
+    torque = np.array(kp) * np.tanh(e) - np.array(kv) * np.tanh(w) + pull
+    assert np.any(np.abs(torque) > limits)
+
+
+@pytest.mark.parametrize(
+    ("robot", "limits", "gravity", "verdicts"),
+    [
+        ("pendulum1", [20], [5], ["proved"]),  # one joint: (10) is the rule of that joint
+        ("buap3", [100, 140, 101], [0, 40, 2], ["proved"] * 3),  # limits as far apart as gravity
+        ("buap3", [100, 140, 9000], [0, 40, 2], ["refuted", "refuted", "proved"]),
+    ],
+)
+def test_condition_10_protects_joints_whose_limit_is_beyond_the_mean(robot, limits, gravity, verdicts):
+    limits, gravity = (tuple(Number(Fraction(value)) for value in values) for values in (limits, gravity))
+    model = replace(load(robot), torque_limit=limits, gravity_bound=gravity)
+    row = run_proof("published.py", ms=(2,), robot=model, only=("10j",)).claims[0]
+    assert [part["verdict"] for part in row.decision.evidence["parts"]] == verdicts
+    assert row.verdict.value == ("proved" if set(verdicts) == {"proved"} else "refuted")
+
+
+def test_whether_a_bound_of_the_damping_is_necessary_depends_on_the_bound(tmp_path):
+    """With 1000 times the bound, gains that break it are found too: no bound of K_v is necessary."""
+    source = ONE.read_text(encoding="utf-8")
+    right = "least / (sqrt(case.n) * gamma(case.m)))"
+    assert right in source
+    path = tmp_path / "other.py"
+    path.write_text(source.replace(right, "1000 * " + right), encoding="utf-8")
+    row = run_proof(path, ms=(2,), only=("19n",)).claims[0]
+    assert row.verdict is Verdict.REFUTED
+    assert Fraction(row.decision.witness["point"]["factor of K_v"]) > 1000
 
 
 @pytest.mark.parametrize("robot", ["reyes-kelly2", "pelican2", "pendulum1"])
