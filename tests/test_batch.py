@@ -1,0 +1,299 @@
+"""Many runs at once: the same motions as one at a time, by two engines, whatever their company."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import fields
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from lyapcheck import robots
+from lyapcheck.compiled.compiler import OFF, compiler
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.simulate import PAPER_TASK, Runs, simulate, simulate_many
+from lyapcheck.simulate import batch as batch_module
+from lyapcheck.simulate.batch_compiled import compiled_runs
+from lyapcheck.simulate.batch_rates import solve_definite
+from lyapcheck.simulate.batch_signals import compiled_signals
+from lyapcheck.simulate.dynamics import closed_loop
+from lyapcheck.simulate.gains import gains_for
+
+TABLE2 = (
+    *read_gain_file(paper_gain_file("table2")).gains,
+    *read_gain_file(paper_gain_file("table2_pd")).gains,
+)
+ENGINE = "numpy" if compiler() is None else "compiled"
+SHOULDER_AND_ELBOW = GainSet("two", 2, TABLE2[1].kp[1:], TABLE2[1].kv[1:])
+
+
+def gains(n: int, m: int | None = 2, family: str = "hyperbolic", kp: int = 10, kv: int = 2) -> GainSet:
+    return GainSet("set", m, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
+
+
+def starts(n: int, count: int, size: float = 2.0) -> np.ndarray:
+    return np.random.default_rng(11).uniform(-size, size, (count, n))
+
+
+@pytest.fixture
+def no_compiler(monkeypatch) -> Iterator[None]:
+    monkeypatch.setenv(OFF, "1")
+    compiled_runs.cache_clear()
+    compiled_signals.cache_clear()
+    yield
+    compiled_runs.cache_clear()
+    compiled_signals.cache_clear()
+
+
+def assert_same(one: Runs, other: Runs) -> None:
+    for entry in fields(Runs):
+        a, b = getattr(one, entry.name), getattr(other, entry.name)
+        if isinstance(a, np.ndarray):
+            assert np.array_equal(a, b, equal_nan=a.dtype.kind == "f"), entry.name
+        else:
+            assert a == b, entry.name
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
+    model, task = robots.load("buap3"), PAPER_TASK
+    single = simulate(gain_set, model, task.q_d, T=task.T)
+    many = simulate_many(gain_set, model, task.q_d, task.q0, task.T, points=2001, motions=True)
+    assert many.engine == ENGINE
+    for name in ("q", "w", "V"):
+        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=0, atol=1e-8)
+    for name in ("L2", "settling", "overshoot", "peak_torque"):
+        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
+    assert many.energy_balance[0] < 1e-9
+    assert many.complete.all()
+
+
+@pytest.mark.parametrize(
+    ("m", "family"),
+    [
+        (1, "hyperbolic"),
+        (3, "hyperbolic"),
+        (None, "tanh"),
+        (None, "arctan"),
+        (None, "algebraic"),
+        (None, "linear"),
+    ],
+)
+def test_every_family_moves_as_it_does_alone(m, family):
+    model, gain_set = robots.load("reyes-kelly2"), gains(2, m, family, kp=40, kv=12)
+    single = simulate(gain_set, model, [0.5, -1.0], [1.0, 1.0], T=2.0, points=201)
+    many = simulate_many(gain_set, model, [0.5, -1.0], [1.0, 1.0], 2.0, points=201, motions=True)
+    np.testing.assert_allclose(many.q[0], single.q, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(many.w[0], single.w, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(many.settling[0], single.settling, rtol=0, atol=1e-7)
+
+
+@pytest.mark.parametrize("kv", [1, 5])
+def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
+    """M ë + (k_v + b) ė + k_p e = 0 with M = 1/4, b = 1/2, solved by hand."""
+    model, first = robots.load("pendulum1"), np.linspace(-3, 3, 40)[:, None]
+    runs = simulate_many(gains(1, None, "linear", kv=kv), model, [1.0], first, 3.0, motions=True)
+    roots = np.roots([0.25, kv + 0.5, 10.0]).astype(complex)
+    weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([1.0, 0.0]))
+    shape = np.real(np.exp(np.outer(runs.t, roots)) @ weights)
+    np.testing.assert_allclose(runs.q[:, :, 0], 1.0 - (1.0 - first) * shape, rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_a_tighter_run_changes_nothing_above_the_promised_accuracy(gain_set):
+    model, first = robots.load("buap3"), starts(3, 60)
+    runs, finer = (
+        simulate_many(gain_set, model, PAPER_TASK.q_d, first, motions=True, tolerance=tolerance)
+        for tolerance in (batch_module.TOLERANCE, batch_module.TOLERANCE / 20)
+    )
+    assert finer.steps.mean() > 1.2 * runs.steps.mean()
+    assert max(np.max(abs(runs.q - finer.q)), np.max(abs(runs.w - finer.w))) < 1e-8
+    assert np.max(runs.energy_balance) < 1e-9
+
+
+def test_the_error_falls_with_the_eighth_power_of_the_step():
+    """A tolerance a hundred times smaller takes some 100^(1/8) = 1.8 times the steps."""
+    model, first = robots.load("reyes-kelly2"), starts(2, 20)
+    coarse, fine = (
+        simulate_many(SHOULDER_AND_ELBOW, model, [0.5, 0.5], first, tolerance=tolerance).steps.mean()
+        for tolerance in (1e-9, 1e-11)
+    )
+    assert 1.5 < fine / coarse < 2.1
+
+
+def test_both_engines_find_the_same_motions(request):
+    model, first = robots.load("buap3"), starts(3, 9)
+
+    def run() -> Runs:
+        return simulate_many(TABLE2[:3] * 3, model, PAPER_TASK.q_d, first, 0.4, motions=True)
+
+    runs = run()
+    request.getfixturevalue("no_compiler")
+    by_numpy = run()
+    assert (runs.engine, by_numpy.engine) == (ENGINE, "numpy")
+    for name in ("q", "w", "V", "L2", "peak_torque", "settling", "overshoot"):
+        np.testing.assert_allclose(getattr(runs, name), getattr(by_numpy, name), rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(runs.steps, by_numpy.steps, atol=12)
+
+
+def test_large_members_are_left_to_numpy():
+    model = robots.load("pendulum1")
+    mixed = [gains(1, 200), gains(1, 2)]
+    runs = simulate_many(mixed, model, [0.5], starts(1, 2), 0.5)
+    assert runs.engine == ("numpy" if ENGINE == "numpy" else "numpy and compiled")
+    assert runs.complete.all()
+
+
+def test_a_run_does_not_depend_on_its_company(monkeypatch):
+    """Other controllers and goals beside it, another place in the batch, smaller batches: equal bits."""
+    model, count = robots.load("reyes-kelly2"), 37
+    random = np.random.default_rng(2)
+    sets = [
+        gains(2, int(m), kp=int(k)) for m, k in zip(random.integers(1, 4, count), range(5, 60), strict=False)
+    ]
+    q_d, first, w0 = (random.uniform(-1, 1, (count, 2)) for _ in range(3))
+    together = simulate_many(sets, model, q_d, first, 1.0, w0=w0, motions=True)
+    for k in (0, 7, count - 1):
+        alone = simulate_many(sets[k], model, q_d[k], first[k], 1.0, w0=w0[k], motions=True)
+        assert np.array_equal(alone.q[0], together.q[k])
+        assert np.array_equal(alone.settling[0], together.settling[k], equal_nan=True)
+    monkeypatch.setattr(batch_module, "_NUMBERS_AT_ONCE", 10_000)
+    assert_same(simulate_many(sets, model, q_d, first, 1.0, w0=w0, motions=True), together)
+
+
+def test_uncertain_parameters_vary_from_run_to_run():
+    model = robots.load("buap3")
+    name, number = next(iter(model.parameters.items()))
+    values = [number.low, number.value, number.high]
+    runs = simulate_many(
+        TABLE2[1],
+        model,
+        PAPER_TASK.q_d,
+        [0, 0, 0],
+        1.0,
+        parameters={name: [float(x) for x in values]},
+        motions=True,
+    )
+    for k, value in enumerate(values):
+        fixed = model.fixed(**{name: Fraction(value)})
+        single = simulate(TABLE2[1], fixed, PAPER_TASK.q_d, T=1.0, points=501)
+        np.testing.assert_allclose(runs.q[k], single.q, rtol=0, atol=1e-8)
+    assert np.ptp(runs.L2) > 1e-3
+
+
+def test_v_is_that_of_the_certificate_and_falls():
+    model, gain_set, eps0 = robots.load("reyes-kelly2"), SHOULDER_AND_ELBOW, 0.5
+    q_d = np.array([0.5, 1.0])
+    runs = simulate_many(gain_set, model, q_d, starts(2, 30), eps0=eps0, motions=True)
+    made = gains_for(gain_set, 2)
+    certificate = LyapunovNumeric(model, made.family, made.kp, made.kv, eps0)
+    np.testing.assert_allclose(runs.V, certificate.V(runs.q, q_d - runs.q, runs.w), rtol=1e-12, atol=1e-300)
+    assert np.all(runs.V_rise < 0)
+    assert np.isnan(runs.energy_balance).all()
+
+
+def test_a_broken_certificate_shows_as_a_rise():
+    runs = simulate_many(
+        SHOULDER_AND_ELBOW, robots.load("reyes-kelly2"), [0.5, 1.0], starts(2, 30), eps0=200.0
+    )
+    assert np.max(runs.V_rise) > 0
+
+
+@pytest.mark.parametrize("engine", ["default", "numpy"])
+def test_a_run_that_fails_is_marked_and_stops_no_other(engine, request):
+    if engine == "numpy":
+        request.getfixturevalue("no_compiler")
+    model, q_d = robots.load("reyes-kelly2"), [0.5, 0.5]
+    first = np.array([q_d, [30.0, -20.0], q_d])
+    runs = simulate_many(SHOULDER_AND_ELBOW, model, q_d, first, 5.0, max_steps=60, motions=True)
+    assert list(runs.complete) == [True, False, True]
+    assert runs.failure == ("", "the steps allowed were not enough", "")
+    assert runs.steps[1] == 60
+    reached = np.isfinite(runs.q[1, :, 0])
+    assert reached[0]
+    assert not reached[-1]
+    assert np.all(np.diff(reached.astype(int)) <= 0)
+    assert np.isnan(runs.L2[1])
+    assert np.isnan(runs.peak_torque[1]).all()
+    assert np.isnan(runs.settling[1]).all()
+    assert np.all(runs.L2[[0, 2]] < 1e-6)
+
+
+def test_at_the_goal_nothing_moves():
+    runs = simulate_many(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, PAPER_TASK.q_d, 2.0, motions=True)
+    assert np.array_equal(runs.q[0], np.tile(PAPER_TASK.q_d, (501, 1)))
+    assert runs.L2[0] == 0
+    assert np.array_equal(runs.settling[0], np.zeros(3))
+    assert np.isnan(runs.overshoot[0]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"starts": [[0.0, np.nan]]}, "starts[0, 1]"),
+        ({"starts": [[0.0, 0.0], [1e9, 0.0]]}, "starts[1, 0]"),
+        ({"starts": [[0.0, 0.0, 0.0]]}, "starts"),
+        ({"starts": np.zeros((0, 2))}, "starts"),
+        ({"starts": "home"}, "starts"),
+        ({"starts": np.zeros((3, 2)), "q_d": np.zeros((2, 2))}, "q_d"),
+        ({"q_d": [np.inf, 0.0]}, "q_d[0, 0]"),
+        ({"w0": [[1e4, 0.0]]}, "w0[0, 0]"),
+        ({"T": 0.0}, "T"),
+        ({"T": np.nan}, "T"),
+        ({"points": 1}, "points"),
+        ({"eps0": -1.0}, "eps0"),
+        ({"parameters": {"weight": 1.0}}, "parameter"),
+        ({"gain_set": gains(3)}, "gains"),
+        ({"gain_set": []}, "gain sets"),
+    ],
+)
+def test_what_an_arm_cannot_be_given_is_refused(change, key):
+    given = {"gain_set": gains(2), "q_d": [0.0, 0.0], "starts": [0.0, 0.0], "T": 1.0} | change
+    with pytest.raises(InputError) as refused:
+        simulate_many(model=robots.load("reyes-kelly2"), **given)
+    assert key in [problem.key for problem in refused.value.problems]
+
+
+def test_progress_rises_to_the_end():
+    told: list[float] = []
+    model = robots.load("pendulum1")
+    sets = [gains(1, 1 + k % 3) for k in range(9)]
+    simulate_many(sets, model, [0.5], [0.0], 0.1, on_progress=lambda done, _: told.append(done))
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 6])
+def test_definite_systems_are_solved(n):
+    random = np.random.default_rng(n)
+    A = random.standard_normal((n, n))
+    M, b = A @ A.T + np.eye(n), random.standard_normal(n)
+    np.testing.assert_allclose(solve_definite(M.tolist(), b.tolist()), np.linalg.solve(M, b), rtol=1e-10)
+
+
+def test_twenty_times_faster_than_a_loop_of_scipy():
+    """The same tolerance, and a right-hand side that CasADi has compiled."""
+    model, gain_set, q_d = robots.load("buap3"), TABLE2[1], np.array(PAPER_TASK.q_d)
+    first = starts(3, 400)
+    rate = closed_loop(gains_for(gain_set, 3), model).compiled_rate()
+    simulate_many(gain_set, model, q_d, first[:8])
+
+    def loop() -> None:
+        y0 = np.concatenate([first[0], np.zeros(5)])
+        t = np.linspace(0, 5, 501)
+        solve_ivp(lambda _, y: rate(y, q_d), (0, 5), y0, "LSODA", t, rtol=1e-12, atol=1e-14)
+
+    ours = min(_seconds(lambda: simulate_many(gain_set, model, q_d, first)) for _ in range(3)) / len(first)
+    assert min(_seconds(loop) for _ in range(3)) / ours >= (20 if ENGINE == "compiled" else 0.1)
+
+
+def _seconds(work) -> float:
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
