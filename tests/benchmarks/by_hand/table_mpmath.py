@@ -24,7 +24,7 @@ def ddh_sign(m, u):
 
 
 def bracketed(f, low, high):
-    return findroot(f, (mpf(low), mpf(high)), solver="anderson", verify=False)
+    return findroot(f, (mpf(low), mpf(high)), solver="anderson", verify=False, maxsteps=200)
 
 
 def row(m):

@@ -1,0 +1,44 @@
+"""Run all benchmarks and write reports/benchmarks.md."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from . import alone, epsilon, gate, simulate, table, throughput
+from .machine import description
+from .render import markdown
+from .results import CommandResult
+
+OUT = Path(__file__).parents[2] / "reports" / "benchmarks.md"
+
+
+def commands() -> Iterator[CommandResult]:
+    """The commands beside their by-hand counterparts, then those without one."""
+    for module in (table, gate, simulate, epsilon):
+        yield module.benchmark()
+    yield from alone.benchmark()
+
+
+def tell(line: str) -> None:
+    """Progress."""
+    print(f"bench: {line}", file=sys.stderr, flush=True)
+
+
+def main() -> None:
+    """Measure, then write the document in one piece."""
+    measured, rates = [], []
+    for result in commands():
+        tell(f"{result.command}: {result.seconds:.2f} s")
+        measured.append(result)
+    for rate in throughput.benchmark():
+        tell(f"{rate.function} on {rate.arm}: {next(iter(rate.rates.values())):.2e} states/s")
+        rates.append(rate)
+    OUT.parent.mkdir(exist_ok=True)
+    OUT.write_text(markdown(description(), measured, rates), encoding="utf-8")
+    tell(f"written: {OUT.relative_to(Path.cwd()) if OUT.is_relative_to(Path.cwd()) else OUT.name}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""What the benchmarks hand to the renderer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class CommandResult:
+    """One command beside its by-hand counterpart, if there is one.
+
+    Args:
+        command: the command line, for the reader.
+        seconds: the median wall time of the whole process.
+        runs: how many were measured.
+        by_hand: what a user would do instead; empty if nothing compares.
+        by_hand_seconds: its median wall time.
+        agreement: how far the two results agree, and what the by-hand way leaves open.
+    """
+
+    command: str
+    seconds: float
+    runs: int
+    by_hand: str = ""
+    by_hand_seconds: float | None = None
+    agreement: str = ""
+
+
+@dataclass(frozen=True)
+class RateResult:
+    """States a second of one function on one arm, by each of several ways.
+
+    Args:
+        function: V or dV/dt.
+        arm: its name.
+        joints: how many.
+        rates: states a second by way, the first being lyapcheck.
+        difference: the largest difference between the ways, relative to the largest value.
+    """
+
+    function: str
+    arm: str
+    joints: int
+    rates: dict[str, float]
+    difference: float

@@ -1,0 +1,126 @@
+"""The benchmarks compare like with like, and say what they measured."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from lyapcheck import load_robot
+from lyapcheck.robots.numeric import NumericModel
+
+from . import epsilon, gate, simulate, table, throughput
+from .by_hand import arms
+from .machine import description
+from .measure import Disagreement, states_per_second
+from .render import markdown
+from .results import CommandResult, RateResult
+
+MEASURED = [
+    CommandResult("lyapcheck table", 0.25, 5, "mpmath", 0.5, "equal"),
+    CommandResult("lyapcheck explain 7a", 0.2, 3),
+]
+RATES = [RateResult("V", "buap3", 3, {"lyapcheck": 2e7, "CasADi": 1e6}, 3e-16)]
+
+
+def cells(text, first):
+    (line,) = [line for line in text.splitlines() if line.startswith(f"| {first}")]
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def test_a_row_has_the_times_and_their_ratio():
+    text = markdown(["a machine"], MEASURED, RATES)
+    assert "- a machine" in text
+    assert cells(text, "`lyapcheck table`")[1:] == ["0.25 s", "5", "0.50 s", "2.00", "mpmath", "equal"]
+    assert cells(text, "`lyapcheck explain")[1:] == ["0.20 s", "3", "—", "—", "nothing compares", "—"]
+    assert cells(text, "V | buap3 (n = 3) | CasADi")[3:] == ["1.00e+06", "0.0500", "3e-16"]
+
+
+def test_every_table_row_is_as_wide_as_its_head():
+    text = markdown(["a machine"], MEASURED, RATES)
+    for block in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
+        assert len({line.count("|") for line in block.splitlines()}) == 1
+
+
+def test_the_machine_is_described_without_naming_it():
+    text = "\n".join(description())
+    assert "processors" in text
+    assert "numpy" in text
+    assert "/" not in text
+
+
+def test_gamma_5_by_hand_is_the_certified_one():
+    result = table.benchmark(5, 5, 30, runs=1)
+    assert result.agreement == "3 constants agree to 29 digits"
+    assert result.seconds > 0
+    assert result.by_hand_seconds > 0
+
+
+def test_a_wrong_constant_is_noticed():
+    bounds = {"lower": "1.17", "upper": "1.18"}
+    ours = json.dumps({"rows": [{"m": 5, "gamma": bounds, "rho": bounds, "L": bounds}]})
+    assert table.compare(ours, "5 1.171 1.172 1.175", 30) == 3
+    with pytest.raises(Disagreement, match="rho_5"):
+        table.compare(ours, "5 1.171 1.181 1.175", 30)
+
+
+def test_the_gate_by_hand_gives_the_same_verdicts():
+    assert gate.benchmark(runs=1).agreement.startswith("the same 3 verdicts")
+
+
+def test_other_verdicts_are_noticed():
+    ours = json.dumps({"results": [{"name": "a", "verdict": "rejected"}]})
+    with pytest.raises(Disagreement):
+        gate.compare(ours, "a accepted\n")
+
+
+def test_another_motion_is_noticed():
+    ours = json.dumps({"results": [{"name": "a", "L2": 31.0}]})
+    assert simulate.compare(ours, "a 31.0000001\n") < 1e-8
+    with pytest.raises(Disagreement):
+        simulate.compare(ours, "a 31.01\n")
+    with pytest.raises(Disagreement):
+        simulate.compare(ours, "b 31.0\n")
+
+
+def test_a_sample_below_the_certificate_is_noticed():
+    ours = json.dumps({"results": [{"certified": "0.13", "falsified": "0.14"}]})
+    assert epsilon.compare(ours, "0.2\n") == (0.13, 0.14, 0.2)
+    with pytest.raises(Disagreement):
+        epsilon.compare(ours, "0.12\n")
+
+
+@pytest.mark.parametrize("name", sorted(arms.ARMS))
+def test_the_arms_by_hand_are_those_of_lyapcheck(name):
+    model = NumericModel(load_robot(name))
+    q, x = np.random.default_rng(7).normal(size=(2, 20, model.n))
+    M, dM = arms.ARMS[name](q)
+    np.testing.assert_allclose(M, model.mass(q), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(arms.coriolis(dM, x), model.coriolis(q, x), rtol=0, atol=1e-14)
+    np.testing.assert_array_equal(arms.VISCOUS[name], model.viscous)
+
+
+def test_every_way_to_the_rates_gives_the_same_values():
+    found = list(throughput.benchmark(throughput.Sizes(400, 200, 50)))
+    assert {(rate.function, rate.joints) for rate in found} == {
+        ("V", 2), ("V", 3), ("dV/dt", 2), ("dV/dt", 3)
+    }  # fmt: skip
+    assert all(rate.difference < 1e-12 for rate in found)
+    assert all(len(rate.rates) == 4 and min(rate.rates.values()) > 0 for rate in found)
+
+
+def test_states_per_second_counts_states_and_not_calls():
+    few, many = (states_per_second(lambda: sum(range(20_000)), states) for states in (1, 1000))
+    assert many > 50 * few
+
+
+@pytest.mark.slow
+def test_the_motion_by_hand_is_the_simulated_one():
+    assert "L2 indices agree" in simulate.benchmark(runs=1).agreement
+
+
+@pytest.mark.slow
+def test_sampling_refutes_nothing_that_is_proved():
+    assert "sampling proves nothing" in epsilon.benchmark(states=100_000).agreement
