@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from flint import fmpq, fmpq_poly
 
@@ -42,8 +43,7 @@ class GammaBound:
             return self.enclosure
         if self.m is None:
             return _of_family(self.family, digits)
-        with precision(4 * digits + 64):
-            return Enclosure.from_arb(gamma_value(self.m, peak_of_h(self.m)))
+        return _of_member(self.m, digits)
 
     def squared_less(self, s: Fraction) -> bool:
         """Decide γ² < s.
@@ -88,6 +88,14 @@ def _peak_equation(m: int) -> fmpq_poly:
     return fmpq_poly([0] * m + [1]) - fmpq_poly([2 * m - 1, 2 * m])
 
 
+@lru_cache(maxsize=1024)
+def _of_member(m: int, digits: int) -> Enclosure:
+    """γ_m, for m >= 2."""
+    with precision(4 * digits + 64):
+        return Enclosure.from_arb(gamma_value(m, peak_of_h(m)))
+
+
+@lru_cache(maxsize=64)
 def _of_family(family: str, digits: int) -> Enclosure:
     from lyapcheck.family import named
 

@@ -104,8 +104,7 @@ def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
     bound = NormLimit.of(torques, limits.gravity, gamma)
     places = max(places_of(k) for k in (*gains.kp, *gains.kv))
     verdict = ACCEPTED if bound.admits(value) else REJECTED
-    tied = verdict == ACCEPTED and bound.equals(value)
-    limit = Enclosure.exact(value) if tied else _apart(value, places, bound.enclosure)
+    limit = _apart(value, bound.enclosure(_bits(places)), bound.enclosure, lambda: bound.equals(value))
     return [Check("10", None, verdict, value, limit, *_largest(bound.admits, limit, places))]
 
 
@@ -127,15 +126,18 @@ def _scaled(
     if gamma.enclosure is None:
         return Check(name, joint, REJECTED, value, None, None, _UNBOUNDED)
 
-    def passes(k: Fraction) -> bool:
-        return below(k, budget, n, gamma)
-
     def enclosed(bits: int) -> Enclosure:
         return scaled_limit(budget, n, gamma.within(bits // 3), bits)
 
+    near = enclosed(_bits(places))
+
+    def passes(k: Fraction) -> bool:
+        if near.lower <= k < near.upper:
+            return below(k, budget, n, gamma)
+        return k < near.lower
+
     verdict = ACCEPTED if passes(value) else REJECTED
-    tied = budget > 0 and gamma.squared_is_root(-(budget**2), n * value**2, Fraction(0))
-    limit = Enclosure.exact(value) if tied else _apart(value, places, enclosed)
+    limit = _apart(value, near, enclosed, lambda: _is_scaled_limit(value, budget, n, gamma))
     return Check(name, joint, verdict, value, limit, *_largest(passes, limit, places))
 
 
@@ -180,11 +182,24 @@ def _largest(
     return largest, "", places
 
 
-def _apart(value: Fraction, places: int, enclosed: Callable[[int], Enclosure]) -> Enclosure:
-    """A limit that does not equal ``value``, tight enough to be on one side of it and for its decimals."""
-    bits = 160 + 4 * places
-    limit = enclosed(bits)
-    while limit.lower < value < limit.upper:
+def _bits(places: int) -> int:
+    """Bits that tell decimals of so many places apart."""
+    return 160 + 4 * places
+
+
+def _is_scaled_limit(value: Fraction, budget: Fraction, n: int, gamma: GammaBound) -> bool:
+    """Decide value = budget/(√n γ) for value > 0: whether γ² is the root of n value² x = budget²."""
+    return budget > 0 and gamma.squared_is_root(-(budget**2), n * value**2, Fraction(0))
+
+
+def _apart(
+    value: Fraction, limit: Enclosure, enclosed: Callable[[int], Enclosure], tied: Callable[[], bool]
+) -> Enclosure:
+    """A limit that is tight enough to be on one side of a value, or is that value exactly."""
+    bits = 2 * _bits(0)
+    while limit.lower <= value <= limit.upper:
+        if tied():
+            return Enclosure.exact(value)
         bits *= 2
         limit = enclosed(bits)
     return limit

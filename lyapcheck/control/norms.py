@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from flint import arb
 
@@ -51,12 +52,11 @@ class NormLimit:
             return False
         if self.equals(value):
             return True
-        bits = _FIRST_BITS
-        while True:
-            limit = self.enclosure(bits)
-            if not limit.lower < value < limit.upper:
-                return value <= limit.lower
+        limit, bits = self._near, _FIRST_BITS
+        while limit.lower < value < limit.upper:
             bits *= 2
+            limit = self.enclosure(bits)
+        return value <= limit.lower
 
     def equals(self, value: Fraction) -> bool:
         """Decide value = limit for value > 0 and T > G.
@@ -64,13 +64,16 @@ class NormLimit:
         Soundness: of the two roots of the quadratic only the smaller one is below (T + G)/s; for G = 0 they
         are one.
         """
-        near = self.enclosure(_FIRST_BITS)
-        if not near.lower <= value <= near.upper:
+        if not self._near.lower <= value <= self._near.upper:
             return False
         t, g, s = self.torque_squared, self.gravity_squared, self.n * value**2
         if not self.gamma.squared_is_root((t - g) ** 2, -2 * s * (t + g), s * s):
             return False
         return g == 0 or self.gamma.squared_less((t + g) / s)
+
+    @cached_property
+    def _near(self) -> Enclosure:
+        return self.enclosure(_FIRST_BITS)
 
     def enclosure(self, bits: int = _FIRST_BITS) -> Enclosure:
         """The limit in balls of so many bits."""

@@ -1,0 +1,235 @@
+"""The gate: the verdicts on the paper's gains, the exit codes, and what the command loads."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.cli import main as cli
+from lyapcheck.control import GateResult, gate, gate_exit, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.verdicts import Exit
+
+HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "scipy", "sympy")
+
+
+def table2(**options: object) -> dict[str, GateResult]:
+    found = gate(read_gain_file(paper_gain_file("table2")), **options)  # type: ignore[arg-type]
+    return {result.name: result for result in found}
+
+
+def command(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
+    monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", *words])
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    assert isinstance(left.value.code, int)
+    return left.value.code
+
+
+@pytest.fixture
+def one(tmp_path: Path) -> Path:
+    """Gains that every condition admits."""
+    return gain_file(tmp_path / "one.toml", "robot = 'buap3'")
+
+
+def gain_file(
+    path: Path, top: str, kp: str = "[1, 1, 1]", kv: str = "[0.1, 0.1, 0.1]", end: str = ""
+) -> Path:
+    path.write_text(f"{top}\n[[gains]]\nname = 'a'\nm = 2\nkp = {kp}\nkv = {kv}\n{end}")
+    return path
+
+
+# --- the paper's gains -------------------------------------------------------------------------------
+
+
+def test_table_2_with_the_true_gamma() -> None:
+    """(19) lets k_v = 0.233 pass for m = 1, and k_v = 0.223 for neither m = 2 nor m = 3."""
+    results = table2()
+    assert {name: result.verdict for name, result in results.items()} == {
+        "tau_m1": "accepted",
+        "tau_m2": "rejected",
+        "tau_m3": "rejected",
+    }
+    for name in ("tau_m2", "tau_m3"):
+        assert [(check.id, check.joint) for check in results[name].failures] == [
+            ("19", 0),
+            ("19", 1),
+            ("19", 2),
+        ]
+    assert results["tau_m1"].failures == ()
+
+
+def test_table_2_with_the_printed_gamma() -> None:
+    """0.406/(√3 · 1.05) = 0.22324… admits 0.223, which the true γ_2 does not; 1.11 does not save m = 3."""
+    verdicts = {name: result.verdict for name, result in table2(gamma="printed").items()}
+    assert verdicts == {"tau_m1": "accepted", "tau_m2": "accepted", "tau_m3": "rejected"}
+
+
+@pytest.mark.parametrize("gamma", ["true", "printed"])
+def test_table_2_keeps_every_torque_within_its_limit(gamma: str) -> None:
+    for result in table2(gamma=gamma, deciding=("10", "10p")).values():
+        assert result.verdict == "accepted"
+
+
+def test_what_table_2_would_have_to_be() -> None:
+    """The largest three-digit k_v: below 0.406/(√3 γ_m) = 0.234404…, 0.222485…, 0.210377…"""
+    largest = {
+        name: {check.largest_admissible for check in result.checks if check.id == "19"}
+        for name, result in table2().items()
+    }
+    assert largest == {
+        "tau_m1": {Fraction("0.234")},
+        "tau_m2": {Fraction("0.222")},
+        "tau_m3": {Fraction("0.210")},
+    }
+
+
+def test_pd_keeps_no_torque_within_a_limit_for_every_state() -> None:
+    (result,) = gate(read_gain_file(paper_gain_file("table2_pd")))
+    assert result.verdict == "rejected"
+    assert all("unbounded" in check.reason for check in result.failures)
+
+
+def test_the_conditions_that_decide_can_be_chosen() -> None:
+    """Of (10), (10p) and (19) only the last refuses tau_m2; none at all decides nothing."""
+    verdicts = {
+        deciding: table2(deciding=deciding)["tau_m2"].verdict
+        for deciding in ((), ("10",), ("10p",), ("19",), ("10", "10p"), ("10", "19"))
+    }
+    assert list(verdicts.values()) == [
+        "undecided",
+        "accepted",
+        "accepted",
+        "rejected",
+        "accepted",
+        "rejected",
+    ]
+
+
+def test_what_the_verdict_rests_on_is_said() -> None:
+    assert any("friction" in text for text in table2()["tau_m1"].limits.assumptions)
+
+
+def test_no_assumption_is_said_where_the_file_gives_the_number(tmp_path: Path) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'buap3'", end="[bounds]\nviscous_min = 0.406\n")
+    (result,) = gate(read_gain_file(path))
+    assert not any("friction" in text for text in result.limits.assumptions)
+
+
+def test_another_arm_can_replace_the_one_of_the_file(one: Path) -> None:
+    (result,) = gate(read_gain_file(one), "buap3-small")
+    assert result.limits.torque == (15, 50, 4)
+
+
+# --- exit codes --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "code"),
+    [
+        ([], Exit.UNDECIDED),
+        (["accepted"], Exit.PROVED),
+        (["accepted", "undecided"], Exit.UNDECIDED),
+        (["accepted", "undecided", "rejected"], Exit.REFUTED),
+    ],
+)
+def test_the_worst_verdict_is_the_exit_code(tmp_path: Path, verdicts: list[str], code: Exit) -> None:
+    arms = {"accepted": ("buap3", "0.1"), "rejected": ("buap3", "0.3"), "undecided": ("pelican2", "0.001")}
+    results = []
+    for verdict in verdicts:
+        robot, kv = arms[verdict]
+        n = 2 if robot == "pelican2" else 3
+        path = gain_file(
+            tmp_path / "g.toml", f"robot = '{robot}'", f"[{', '.join('1' * n)}]", f"[{', '.join([kv] * n)}]"
+        )
+        found = gate(read_gain_file(path))
+        assert [result.verdict for result in found] == [verdict]
+        results += found
+    assert gate_exit(results) == code
+
+
+def test_the_command_leaves_with_the_exit_code(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, one: Path
+) -> None:
+    paper = str(paper_gain_file("table2"))
+    undecided = str(gain_file(tmp_path / "u.toml", "robot = 'pelican2'", "[1, 1]", "[0.001, 0.001]"))
+    assert command(monkeypatch, str(one)) == 0
+    assert command(monkeypatch, paper) == 1
+    assert command(monkeypatch, str(one), paper) == 1
+    assert command(monkeypatch, paper, "--condition", "10p") == 0
+    assert command(monkeypatch, paper, "--condition", "10p", "--condition", "19") == 1
+    assert command(monkeypatch, undecided) == 3
+    assert command(monkeypatch, undecided, paper) == 1
+    assert capsys.readouterr().err == ""
+    assert command(monkeypatch, str(one), "--format", "yaml") == 2
+    assert command(monkeypatch, str(one), "--condition", "20") == 2
+    assert command(monkeypatch) == 2
+
+
+def test_one_bad_file_does_not_hide_the_others(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, one: Path
+) -> None:
+    bad = gain_file(tmp_path / "bad.toml", "robot = 'buap3'", "[0, 1, 1]")
+    assert command(monkeypatch, str(bad), str(one), str(tmp_path / "none.toml")) == 2
+    out, err = capsys.readouterr()
+    assert "one.toml" in out
+    assert "bad.toml:5" in err
+    assert "none.toml" in err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--robot", "nope"),
+        ("--robot", "pelican2"),
+        ("--robot", "nope.urdf"),
+        ("--robot", "/"),
+        ("--robot", ""),
+    ],
+)
+def test_an_arm_that_cannot_be_used(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], one: Path, words: tuple[str, ...]
+) -> None:
+    assert command(monkeypatch, str(one), *words) == (0 if words[1] == "" else 2)
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_the_printed_gamma_of_another_m_is_a_mistake(tmp_path: Path) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'buap3'")
+    path.write_text(path.read_text().replace("m = 2", "m = 7"))
+    with pytest.raises(InputError, match="prints no γ"):
+        gate(read_gain_file(path), gamma="printed")
+
+
+def test_a_thousand_sets_are_judged(tmp_path: Path) -> None:
+    sets = (
+        f"[[gains]]\nname = 's{i}'\nm = {i % 9 + 1}\nkp = [1, 1, 1]\nkv = [0.10{i:03}, 0.1, 0.1]\n"
+        for i in range(1000)
+    )
+    path = tmp_path / "many.toml"
+    path.write_text("robot = 'buap3'\n" + "".join(sets))
+    results = gate(read_gain_file(path))
+    assert len(results) == 1000
+    assert {result.verdict for result in results} == {"accepted"}
+
+
+# --- what it takes -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("format_name", ["text", "json", "junit", "sarif", "github", "markdown"])
+def test_the_gate_loads_no_heavy_package(format_name: str) -> None:
+    code = (
+        "import sys\n"
+        "from lyapcheck.cli.main import main\n"
+        "try:\n    main()\n"
+        "except SystemExit as left:\n"
+        f"    print(left.code, [name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)\n"
+    )
+    words = ["gate", str(paper_gain_file("table2")), "--format", format_name]
+    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=True)
+    assert done.stderr == "1 []\n"
+    assert done.stdout
