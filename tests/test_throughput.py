@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from types import SimpleNamespace
 
 import casadi as ca
@@ -12,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import family, robots
+from lyapcheck.compiled import straight_line, threads
 from lyapcheck.compiled.compiler import OFF, compiler
 from lyapcheck.compiled.forms import LARGEST_MEMBER
 from lyapcheck.compiled.state_map import state_map
@@ -193,6 +195,24 @@ def test_elementary_functions_are_right_to_the_last_places(name, data):
         assert np.all(abs(values - truth(x)) <= 4 * np.spacing(abs(truth(x))) + near_zero)
 
 
+def test_too_long_a_formula_is_left_to_arrays(monkeypatch, few):
+    monkeypatch.setattr(straight_line, "MOST_STATEMENTS", 20)
+    numeric_module._compiled.cache_clear()
+    kept = lyapunov("reyes-kelly2", family.hyperbolic(2))
+    assert kept.engine(few) == "numpy"
+    numeric_module._compiled.cache_clear()
+
+
+@pytest.mark.slow
+def test_six_joints_agree_too():
+    model = robots.load(str(Path(__file__).parent / "arms" / "ur5.urdf"))
+    kept = LyapunovNumeric(model, family.hyperbolic(2), KP + KP, KV + KV, EPS0)
+    columns = states(6, LARGE)
+    assert kept.engine() == EXPECTED
+    for name, size in zip(("V", "rate"), term_sizes(kept, *columns), strict=True):
+        assert np.all(abs(getattr(kept, name)(*columns) - by_arrays(kept, name, *columns)) <= 1e-12 * size)
+
+
 def test_recorded_code_shares_and_folds():
     code = Code()
     x, y = code.name("x"), code.name("y")
@@ -235,14 +255,26 @@ def seconds(work, repeats: int) -> float:
 @pytest.mark.parametrize("arm", ["reyes-kelly2", "buap3"])
 def test_ten_times_the_throughput_of_casadi(arm, m):
     kept = lyapunov(arm, family.hyperbolic(m))
-    columns = states(kept.model.n, LARGE)
+    columns, times = states(kept.model.n, LARGE), 8
+    many = [np.tile(x, (times, 1)) for x in columns]
     inputs = [ca.DM(x.T) for x in columns]
     for name, formula in (("V", "value"), ("rate", "rate")):
-        casadi = leanest_casadi(kept, formula, LARGE)
-        np.testing.assert_allclose(
-            np.array(casadi(*inputs)).ravel(), getattr(kept, name)(*columns), rtol=1e-9, atol=1e-9
-        )
-        ratio = seconds(lambda f=casadi: f(*inputs), 3) / seconds(
-            lambda f=name: getattr(kept, f)(*columns), 40
-        )
+        casadi, ours = leanest_casadi(kept, formula, LARGE), getattr(kept, name)
+        np.testing.assert_allclose(np.array(casadi(*inputs)).ravel(), ours(*columns), rtol=1e-9, atol=1e-9)
+        ratio = times * seconds(lambda f=casadi: f(*inputs), 3) / seconds(lambda f=ours: f(*many), 15)
         assert ratio >= (1 if compiler() is None else 10)
+
+
+@pytest.mark.parametrize(("count", "unit"), [(0, 1), (1, 64), (63, 64), (1000, 64), (1001, 1), (7, 8)])
+@pytest.mark.parametrize("workers", [1, 2, 5])
+def test_shares_cover_everything_once(count, unit, workers, monkeypatch):
+    monkeypatch.setattr(threads, "processors", lambda: workers)
+    seen: list[int] = []
+
+    def work(start: int, stop: int) -> int:
+        assert start % unit == 0
+        seen.extend(range(start, stop))
+        return stop - start
+
+    assert threads.over_shares(work, count, unit) == count
+    assert sorted(seen) == list(range(count))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.compiled.library import library, resource
-from lyapcheck.compiled.straight_line import Code, Term
+from lyapcheck.compiled.straight_line import Code, Term, TooLong
 from lyapcheck.compiled.threads import over_shares
 
 Array = NDArray[np.float64]
@@ -20,9 +20,6 @@ Formula = Callable[[Code, Columns, Columns, Columns, Columns], Sequence[Any]]
 
 LANES = 64
 """States worked on together."""
-
-MOST_STATEMENTS = 4000
-"""Longer lines are left to arrays: a compiler would take too long over them."""
 
 
 class StateMap:
@@ -69,8 +66,11 @@ def state_map(formula: Formula, n: int, parameters: int, outputs: int) -> StateM
         parameters: how many parameters it has.
         outputs: how many numbers it gives.
     """
-    source = _source(formula, n, parameters, outputs)
-    found = None if source is None else library(source)
+    try:
+        source = _source(formula, n, parameters, outputs)
+    except TooLong:
+        return None
+    found = library(source)
     if found is None:
         return None
     call = found.map_states
@@ -79,12 +79,10 @@ def state_map(formula: Formula, n: int, parameters: int, outputs: int) -> StateM
     return StateMap(call, n, outputs)
 
 
-def _source(formula: Formula, n: int, parameters: int, outputs: int) -> str | None:
+def _source(formula: Formula, n: int, parameters: int, outputs: int) -> str:
     code = Code()
     q, e, w = ([code.name(f"{x}[{i}][l]") for i in range(n)] for x in "qew")
     values = formula(code, q, e, w, [code.name(f"p[{i}]") for i in range(parameters)])
-    if len(code.lines) > MOST_STATEMENTS:
-        return None
     body = code.store([f"out[{k}][l]" for k in range(outputs)], values)
     sizes = {"N": n, "P": parameters, "OUT": outputs, "LANES": LANES}
     defines = [f"#define {name} {size}" for name, size in sizes.items()]

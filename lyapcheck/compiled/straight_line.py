@@ -14,6 +14,14 @@ from typing import Any
 Scalar = int | float | Fraction
 
 
+MOST_STATEMENTS = 4000
+"""Longer lines are left to arrays: a compiler would take too long over them."""
+
+
+class TooLong(Exception):
+    """A formula needs more statements than are worth compiling."""
+
+
 @dataclass(frozen=True, eq=False)
 class Term:
     """A double in recorded code: ``text`` is a C name or literal, ``value`` is known for literals only."""
@@ -80,8 +88,14 @@ class Code:
         return Term(self, text)
 
     def record(self, expression: str) -> Term:
-        """The value of a C expression, computed once."""
+        """The value of a C expression, computed once.
+
+        Raises:
+            TooLong: after `MOST_STATEMENTS`.
+        """
         if expression not in self.known:
+            if len(self.lines) >= MOST_STATEMENTS:
+                raise TooLong
             known = self.known[expression] = Term(self, f"t{len(self.known)}")
             self.lines.append(f"const double {known.text} = {expression};")
         return self.known[expression]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
@@ -23,12 +24,24 @@ def over_shares(work: Callable[[int, int], int], count: int, unit: int = 1) -> i
         count: how much there is.
         unit: shares are whole multiples of it, except the last.
     """
-    workers = processors()
-    shares = _shares(count, _A_FEW * workers, unit) if workers > 1 else [(0, count)]
+    helpers = processors() - 1
+    shares = _shares(count, _A_FEW * (helpers + 1), unit) if helpers else [(0, count)]
     if len(shares) == 1:
         return work(*shares[0])
-    with ThreadPoolExecutor(workers) as pool:
-        return sum(pool.map(lambda share: work(*share), shares))
+    open_shares = deque(shares)
+
+    def drain() -> int:
+        total = 0
+        while True:
+            try:
+                share = open_shares.popleft()
+            except IndexError:
+                return total
+            total += work(*share)
+
+    with ThreadPoolExecutor(min(helpers, len(shares) - 1)) as pool:
+        others = [pool.submit(drain) for _ in range(helpers)]
+        return drain() + sum(other.result() for other in others)
 
 
 def _shares(count: int, parts: int, unit: int) -> list[tuple[int, int]]:

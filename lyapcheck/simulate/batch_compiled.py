@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
-from lyapcheck.compiled.state_map import MOST_STATEMENTS
-from lyapcheck.compiled.straight_line import Code
+from lyapcheck.compiled.straight_line import Code, TooLong
 from lyapcheck.compiled.threads import over_shares
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
@@ -57,8 +56,12 @@ class CompiledRuns:
 @lru_cache(maxsize=32)
 def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
     """Compile the integrator; none where there is no compiler or the arm's formulas are too long."""
-    source = _source(model, family) if has_plain_forms(family) else None
-    found = None if source is None else library(source)
+    if not has_plain_forms(family):
+        return None
+    try:
+        found = library(_source(model, family))
+    except TooLong:
+        return None
     if found is None:
         return None
     whole, number, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
@@ -68,12 +71,10 @@ def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
     return CompiledRuns(call)
 
 
-def _source(model: RobotModel, family: Family) -> str | None:
+def _source(model: RobotModel, family: Family) -> str:
     code, size, count = Code(), 2 * model.n + 2, parameter_count(model)
     loop = Loop(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
     rates = loop.rate([code.name(f"y[{i}][l]") for i in range(size)])
-    if len(code.lines) > MOST_STATEMENTS:
-        return None
     body = code.store([f"f[{i}][l]" for i in range(size)], rates)
     sizes = {"N": model.n, "D": size, "P": count, "LANES": LANES}
     defines = [f"#define {name} {value}" for name, value in (sizes | _table()).items()]
