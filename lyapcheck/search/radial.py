@@ -67,6 +67,12 @@ def _holds(setting: Setting, parts: Parts, eps0: Fraction) -> bool:
     return closure.admissible and Inequality(closure, parts).shown()
 
 
+def holds_radially(closure: Closure, data: Radial) -> bool:
+    """Whether the inequality in r holds for a closure; its tree is not looked at."""
+    with precision(BITS):
+        return closure.admissible and Inequality(closure, Parts(closure, data)).shown()
+
+
 def radial_data(setting: Setting) -> Radial | None:
     """Weights, μ and the tree behind it: the tightest μ that the checker accepts within the budget."""
     closure = setting.closure(Fraction(1))

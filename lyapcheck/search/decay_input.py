@@ -1,0 +1,54 @@
+"""What bounds of a motion start from, as exact numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+
+from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.search.setting import Setting
+
+Start = tuple[tuple[Fraction, ...], tuple[Fraction, ...]]
+"""Errors in rad and rates in rad/s."""
+
+LARGEST = 1e3
+"""rad, as for simulations."""
+FASTEST = 1e3
+"""rad/s, as for simulations."""
+
+
+def start_of(setting: Setting, e0: Sequence[float], w0: Sequence[float] | None, delta: float) -> Start:
+    """The start as exact numbers, or every problem with it at once."""
+    if not setting.family.bounded:
+        rule = f"{setting.gains.name} has an unbounded h, of which no margin is known"
+        raise argument_error("gains", setting.gains.name, rule, "choose gains of a bounded family")
+    if setting.ranges:
+        raise argument_error("ranges", "", "bounds are for the nominal arm only", "leave the ranges out")
+    rates = (0.0,) * setting.n if w0 is None else w0
+    problems = [*_vector("e0", e0, setting.n, LARGEST), *_vector("w0", rates, setting.n, FASTEST)]
+    if not 0.0 < delta <= LARGEST:
+        rule = f"must be more than 0 and at most {LARGEST:g} rad"
+        problems.append(Problem("argument", None, "delta", str(delta), rule, "give a small angle"))
+    if problems:
+        raise InputError(problems)
+    return tuple(map(Fraction, e0)), tuple(map(Fraction, rates))
+
+
+def _vector(name: str, values: Sequence[float], n: int, most: float) -> list[Problem]:
+    if len(values) == n and all(math.isfinite(x) and abs(x) <= most for x in values):
+        return []
+    text = ", ".join(f"{float(x):g}" for x in values)
+    rule = f"must be {n} finite values of at most {most:g} in size"
+    return [Problem("argument", None, name, text, rule, f"give {n} values, one a joint")]
+
+
+def torques_of(setting: Setting, name: str, values: Sequence[Fraction | float]) -> tuple[Fraction, ...]:
+    """Torques, one a joint and none below 0."""
+    if not values:
+        return (Fraction(0),) * setting.n
+    if len(values) != setting.n or not all(math.isfinite(x) and x >= 0 for x in values):
+        text = ", ".join(f"{float(x):g}" for x in values)
+        rule = f"must be {setting.n} finite torques in N·m, none below 0"
+        raise argument_error(name, text, rule, "give one bound a joint")
+    return tuple(Fraction(x) for x in values)

@@ -1,0 +1,157 @@
+"""Margins of dV/dt < 0: how much friction and stiffness its proof can do without, searched in doubles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
+from lyapcheck.check.decay import Margin, shown
+from lyapcheck.check.stability import Closure
+from lyapcheck.check.stability.radial import Radial
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import MOST_JOINTS
+from lyapcheck.search.radial import holds_radially, radial_data
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
+
+Array = NDArray[np.float64]
+
+FRICTION = tuple(Fraction(k, 100) for k in (8, 15, 25, 40, 60))
+"""The η that are weighed against each other: less for the proof allows less ε₀."""
+STIFFNESS = Fraction(19, 20)
+"""κ: the proof needs little of K_p."""
+LOSS = Fraction(1, 50)
+"""The share of κ k_pi that the mixed terms may cost; t follows from it."""
+SLACK = Fraction(1, 2)
+SHARES = tuple(Fraction(k, 100) for k in (92, 85, 75, 60, 40, 20))
+"""Shares of the largest ε₀ that samples allow, tried one after the other."""
+SAMPLES = 4_000
+SEED = 20190301
+MAX_BOXES = 60_000
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A margin that the checker has accepted, and the data by which it was."""
+
+    margin: Margin
+    by: BoxTree | RadialBounds
+
+
+def candidates(setting: Setting, disturbed: bool) -> list[Margin]:
+    """One margin for each η, with the largest ε₀ that samples, or the bounds in ‖e‖, allow.
+
+    Args:
+        setting: gains and nominal arm, with a bounded h.
+        disturbed: whether damping has to be left for disturbances.
+    """
+    inertia = radial_data(setting)
+    if inertia is None:
+        return []
+    slack = SLACK if disturbed else Fraction(0)
+    allows = _by_samples(setting) if setting.n <= MOST_JOINTS else _by_bounds(inertia)
+    found = []
+    for friction in FRICTION:
+        eps0 = _largest(lambda x, eta=friction: allows(margin_at(setting, x, eta, slack, inertia).reduced))
+        if eps0 > 0:
+            found.append(margin_at(setting, eps0, friction, slack, inertia))
+    return found
+
+
+def margin_at(
+    setting: Setting, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: Radial
+) -> Margin:
+    """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
+    closure = setting.closure(eps0)
+    rows = zip(closure.arm.viscous, closure.kp, strict=True)
+    split = max(friction * b * eps0 / (4 * LOSS * STIFFNESS * k) for b, k in rows)
+    return Margin(closure, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
+
+
+def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
+    """The margin at the largest share of its ε₀ for which the checker accepts a proof.
+
+    Soundness: ``lyapcheck.check.decay.shown`` has accepted what is handed back.
+    """
+    for share in SHARES:
+        eps0 = _short(margin.closure.eps0 * share)
+        tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
+        by = _data(setting, tried, max_boxes)
+        if by is not None and shown(tried, by, jobs):
+            return Shown(tried, by)
+    return None
+
+
+def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:
+    """Untrusted data for the reduced closure."""
+    closure = margin.reduced
+    if not closure.admissible:
+        return None
+    if setting.n <= MOST_JOINTS:
+        outcome = certify(Problem(closure, setting.ranged), max_boxes)
+        return BoxTree(outcome.tree) if outcome.proved else None
+    data = reduced_radial(margin)
+    return RadialBounds(data.weights, data.inertia, data.angles, data.tree, data.cuts)
+
+
+def reduced_radial(margin: Margin) -> Radial:
+    """The data in r for (1 − η)B: weights shrink by a root of it, and μ grows by its inverse."""
+    data = margin.inertia
+    root = Fraction(math.isqrt(math.floor((1 - margin.friction) * 10**12)), 10**6)
+    weights = tuple(d * root for d in data.weights)
+    return replace(data, weights=weights, inertia=data.inertia / (root * root))
+
+
+def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
+    """Whether P ≻ 0 at random q and e of all sizes."""
+    random = np.random.default_rng(SEED)
+    angles = len(setting.closure(Fraction(1)).angles)
+    q = random.uniform(-np.pi, np.pi, (SAMPLES, angles))
+    e = random.normal(size=(SAMPLES, setting.n))
+    e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    points = np.hstack((q, e))
+    boxes = np.stack((points, points), axis=1)
+
+    def allows(closure: Closure) -> bool:
+        return closure.admissible and bool(Problem(closure, setting.ranged).proved(boxes).all())
+
+    return allows
+
+
+def _by_bounds(inertia: Radial) -> Callable[[Closure], bool]:
+    """Whether the inequality in ‖e‖ holds."""
+
+    def allows(closure: Closure) -> bool:
+        root = min(
+            Fraction(math.isqrt(math.floor(b / (d * d) * 10**12)), 10**6)
+            for b, d in zip(closure.arm.viscous, inertia.weights, strict=True)
+        )
+        weights = tuple(d * root for d in inertia.weights)
+        return holds_radially(
+            closure, replace(inertia, weights=weights, inertia=inertia.inertia / (root * root))
+        )
+
+    return allows
+
+
+def _largest(allows: Callable[[Fraction], bool]) -> Fraction:
+    """The largest ε₀ that is allowed, to a per cent; 0 where none is."""
+    low, high = Fraction(0), Fraction(1, 64)
+    while high < 64 and allows(high):
+        low, high = high, 2 * high
+    while high > Fraction(1, 10**6) and high - low > high / 100:
+        middle = (low + high) / 2
+        low, high = (middle, high) if allows(middle) else (low, middle)
+    return low
+
+
+def _short(value: Fraction) -> Fraction:
+    """A positive number rounded down to five significant digits."""
+    scale = Fraction(10) ** (4 - math.floor(math.log10(value)))
+    return Fraction(math.floor(value * scale)) / scale
