@@ -1,0 +1,271 @@
+"""A proof of one's own, as an example: τ = K_p arctan(q̃) − K_v arctan(q̇) + g(q) for every arm and all gains.
+
+Run it with ``lyapcheck check proofs/examples/arctan.py``; ``--help`` lists what can be chosen.
+
+How a script is made:
+
+- ``proof = Proof(...)`` once; then one function per claim, decorated with its id and what it says in words.
+  The function gets the case (``case.n``, ``case.robot``, …) and returns the statement as data.
+- Numbers are exact: write "1.5708" or Fraction(11, 7), never the float 1.5708.
+- ``uses`` names the claims that a step rests on. If one of them is not proved, neither is the step.
+- Nothing says here what is true: each statement is decided, a wrong one is refuted with a witness.
+
+The proof is that of ``proofs/scalar.py`` for another function: h = arctan has γ = π/2, ρ = 1 and L = 1.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from lyapcheck.claims import (
+    Constant,
+    FamilyBounds,
+    ForSmall,
+    Proof,
+    all_of,
+    atan,
+    decreasing,
+    diff,
+    dot,
+    expr,
+    for_all,
+    identity,
+    implies,
+    log,
+    loops,
+    majorant,
+    nonnegative,
+    norm_bound,
+    norm_chain,
+    pi,
+    positive,
+    reals,
+    theorem,
+    total,
+    var,
+    vector,
+)
+from lyapcheck.control import GainSet
+
+proof = Proof("arctan", "arctan in place of h: global asymptotic stability for every arm and all gains")
+
+x = var("x")
+U = x * atan(x) - log(1 + x**2) / 2
+
+
+def known_of(case):
+    """γ, √nγ, ρ, L and G, rounded up to decimals."""
+    return FamilyBounds(case.n, gamma=pi / 2, rho=1, L=1)
+
+
+# One variable: inequalities on the whole line or on a part of it --------------------------------------------
+
+FUNCTION = "The function arctan"
+
+
+@proof.claim("sign", "arctan has the sign of x", section=FUNCTION)
+def _(case):
+    return all_of(
+        right_of_0=for_all(expr(0) < atan(x), 0, open_low=True),
+        left_of_0=for_all(atan(x) < 0, None, 0, open_high=True),
+        product=for_all(expr(0) <= x * atan(x)),
+    )
+
+
+@proof.claim("bound", "|arctan x| ≤ π/2 ≤ γ", section=FUNCTION)
+def _(case):
+    return all_of(
+        from_above=for_all(atan(x) <= pi / 2),
+        from_below=for_all(-pi / 2 <= atan(x)),
+        rounded_up=Constant(pi / 2 <= known_of(case).gamma),
+    )
+
+
+@proof.claim("slope", "‖arctan(x)‖ ≤ ‖x‖ for x in Rⁿ", section=FUNCTION)
+def _(case):
+    return norm_bound(atan(x), case.n, known_of(case).L, power=1)
+
+
+@proof.claim("steep", "0 ≤ arctan' ≤ 1", section=FUNCTION)
+def _(case):
+    return all_of(
+        derivative=identity(diff(atan(x), "x"), 1 / (1 + x**2)),
+        below=for_all(expr(0) <= 1 / (1 + x**2)),
+        above=for_all(1 / (1 + x**2) <= known_of(case).rho),
+    )
+
+
+@proof.claim(
+    "potential",
+    "U = x arctan x − ½ ln(1 + x²): U' = arctan, U > 0 unless x = 0, U ≥ ½|x| − 1",
+    section=FUNCTION,
+)
+def _(case):
+    return all_of(
+        derivative=identity(diff(U, "x"), atan(x)),
+        positive_right_of_0=for_all(expr(0) < U, 0, open_low=True),
+        positive_left_of_0=for_all(expr(0) < U, None, 0, open_high=True),
+        unbounded_right=for_all(x / 2 - 1 <= U, 0),
+        unbounded_left=for_all(-x / 2 - 1 <= U, None, 0),
+    )
+
+
+# Many variables: identities and implications between inequalities -------------------------------------------
+
+LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − ε arctan(q̃)"
+
+
+@proof.claim("share", "a ≤ √nγ and a ≤ Lr give a/(1 + r) ≤ √nγL/(√nγ + L) = G", section=LYAPUNOV)
+def _(case):
+    a, r, reach, L = map(var, ("a", "r", "reach", "L"))
+    variables = positive("reach", "L") + nonnegative("a", "r")
+    return implies(variables, (a <= reach, a <= L * r), a / (1 + r) <= reach * L / (reach + L))
+
+
+@proof.claim(
+    "smooth", "V is continuously differentiable, also at q̃ = 0", section=LYAPUNOV, uses=["slope", "steep"]
+)
+def _(case):
+    r, eps0, a = map(var, ("r", "eps0", "norm_h"))
+    variables = positive("eps0") + nonnegative("r", "norm_h")
+    return all_of(
+        differentiable=implies(variables, (a <= r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * r**2),
+        gradient=implies(variables, (a <= r,), eps0 * a / (1 + r) ** 2 <= eps0 * r),
+    )
+
+
+@proof.claim("unbounded", "V is radially unbounded", section=LYAPUNOV, uses=["bound", "potential"])
+def _(case):
+    """U takes care of q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ."""
+    y, w, a, eps, eps0, reach = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach"))
+    variables = nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach")
+    return implies(variables, (w <= y + eps * a, a <= reach, eps <= eps0), w <= y + eps0 * reach)
+
+
+@proof.claim(
+    "equilibrium", "at rest Mẇ = K_p arctan(q̃), which vanishes only with q̃", section=LYAPUNOV, uses=["sign"]
+)
+def _(case):
+    s, zero = loops.loop(case.n), [expr(0)] * case.n
+    still = replace(s, w=zero, hw=zero)
+    z = vector("z", case.n)
+    return identity(
+        dot(z, loops.force(still)), total(z_i * k * a for z_i, k, a in zip(z, s.kp, s.h, strict=True))
+    )
+
+
+@proof.claim("rate", "dV/dt is the sum of eleven terms", section=LYAPUNOV, uses=["potential", "smooth"])
+def _(case):
+    s = loops.loop(case.n)
+    return all_of(
+        chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
+        terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
+    )
+
+
+# Norms: products of factors whose bounds are known ----------------------------------------------------------
+
+
+@proof.claim(
+    "bounds",
+    "each of the terms is at most its part of the form",
+    section=LYAPUNOV,
+    uses=["rate", "sign", "bound", "slope", "steep", "share"],
+)
+def _(case):
+    known, n = known_of(case), case.n
+    norms = loops.norms(known)
+
+    def chain(names, constant=1, **powers):
+        return norm_chain([norms[name] for name in names.split()], majorant(constant, **powers))
+
+    k, t, w, a, over = (vector(name, n) for name in ("kv", "t", "w", "h", "c"))
+    least, eps = var("least"), var("eps")
+    indices = range(1, n + 1)
+    variables = positive("least", "eps") + nonnegative(*(f"c{i}" for i in indices))
+    excess_w = total((least + c) * x_i**2 for c, x_i in zip(over, w, strict=True))
+    excess_a = total((least + c) * x_i**2 for c, x_i in zip(over, a, strict=True))
+    return all_of(
+        term_1=implies(nonnegative(*(f"{s}{i}" for s in ("kv", "t") for i in indices)), (), -dot(k, t) <= 0),
+        term_2=implies(variables + reals(*(f"w{i}" for i in indices)), (), -excess_w <= -least * dot(w, w)),
+        term_3=chain("eps h'(e)∘w M w", known.rho, eps=1, beta=1, w=2),
+        term_4=chain("eps ê·w h(e)/(1+r) M w", known.G, eps=1, beta=1, w=2),
+        term_5=chain("eps h(e) C(q,w) w", known.reach, eps=1, kc=1, w=2),
+        term_6=implies(
+            variables + reals(*(f"h{i}" for i in indices)), (), -eps * excess_a <= -eps * least * dot(a, a)
+        ),
+        term_7=chain("eps h(e) B w", eps=1, b_max=1, a=1, w=1),
+        term_8=chain("eps h(e) K_v h(w)", known.L, eps=1, kv_max=1, a=1, w=1),
+        term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=2, kc=1, a=1, w=1),
+        term_10=chain("eps eps ê·w h(e)/(1+r) M h(e)", known.G, eps=2, beta=1, a=1, w=1),
+        term_11=chain("eps eps h'(e)∘w M h(e)", known.rho, eps=2, beta=1, a=1, w=1),
+    )
+
+
+def theta(eps, k, b_min, c, d):
+    """θ'11, θ'12, θ'22."""
+    return eps * k, -eps / 2 * (d + eps * c), b_min - eps * c
+
+
+@proof.claim(
+    "form", "dV/dt ≤ −[a b] Θ' [a b]ᵀ with a = ‖arctan(q̃)‖, b = ‖q̇‖", section=LYAPUNOV, uses=["bounds"]
+)
+def _(case):
+    known = known_of(case)
+    names = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
+    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(var, names)
+    c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
+    squares = -b_min * b**2 - eps * k * a**2
+    squares += eps * (known.rho * beta + known.G * beta + known.reach * kc) * b**2
+    mixed = eps * (b_max + known.L * kv_max) + eps**2 * (known.reach * kc + known.G * beta + known.rho * beta)
+    corner, side, low = theta(eps, k, b_min, c, d)
+    return identity(squares + mixed * a * b, -(corner * a**2 + 2 * side * a * b + low * b**2))
+
+
+# A parameter that may be chosen small, and the theorem ------------------------------------------------------
+
+CONCLUSION = "Conclusion"
+
+
+@proof.claim("small", "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]", section=CONCLUSION)
+def _(case):
+    known = known_of(case)
+    eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
+    variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
+    corner, side, low = theta(eps0 * var("share"), k, b, known.drift(beta, kc), known.cross(b + more, kv))
+    return all_of(
+        corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
+        determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
+    )
+
+
+@proof.claim(
+    "stable",
+    "the origin is globally asymptotically stable for every arm with friction and all positive gains",
+    section=CONCLUSION,
+    uses=["equilibrium", "smooth", "potential", "unbounded", "form", "small"],
+)
+def _(case):
+    case.read.add("n")
+    return theorem(
+        "Lyapunov's direct method",
+        only_equilibrium="equilibrium",
+        differentiable="smooth",
+        positive_definite="potential",
+        radially_unbounded="unbounded",
+        rate_bounded_by_a_form="form",
+        form_negative_definite="small",
+    )
+
+
+# Every state of one arm with numbers ------------------------------------------------------------------------
+
+
+@proof.claim(
+    "arm",
+    "dV/dt < 0 at every state but the origin of this arm with these gains, ε₀ = 0.02",
+    section=CONCLUSION,
+)
+def _(case):
+    kp, kv = (28, 60, 5), ("0.3", "0.3", "0.3")
+    gains = GainSet("arctan", None, tuple(map(Fraction, kp)), tuple(map(Fraction, kv)), family="arctan")
+    return decreasing(case.robot, gains, "0.02")
