@@ -97,6 +97,14 @@ BAD = [
     ("simulate TABLE2 --csv none/run.csv", ["--csv = none/run.csv: there is no directory none"]),
     ("simulate TABLE2 --plot none", ["--plot = none: is not a directory"]),
     ("simulate TABLE2 --robot pelican2", ["--target: is missing"]),
+    ("tune", ["Missing argument 'ROBOT'"]),
+    ("tune nobody", ["robot = nobody: is neither"]),
+    ("tune buap3 --m 0", ["--m = 0: m must be at least 1"]),
+    ("tune buap3 --digits -1", ["--digits = -1: must be from 0"]),
+    ("tune buap3 --torque 1,2", ["--torque = 2: has 2 values for 3 joints"]),
+    ("tune buap3 --kv-min x", ["--kv-min = x: is not a decimal number"]),
+    ("tune buap3 --out none/x.toml", ["--out = none/x.toml: there is no directory none"]),
+    ("tune buap3 --compare none.toml", ["none.toml: file: cannot be read"]),
     ("report --m 0", ["--m = 0: m must be at least 1"]),
     ("report --m 1:21", ["a report covers at most 20 members"]),
     ("report --format html,docx", ["'docx' is not a format"]),
@@ -122,6 +130,10 @@ def test_bad_input_gets_a_message_an_error_and_nothing_else(line, pieces, run, t
     for piece in pieces:
         assert sum(piece.replace("TABLE2", TABLE2) in message for message in told) == 1
     assert not list(tmp_path.iterdir()), "bad input must leave nothing behind"
+
+
+def test_the_table_covers_every_command():
+    assert {line.split()[0] for line, _ in BAD} >= set(COMMANDS)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
