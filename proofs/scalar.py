@@ -540,7 +540,7 @@ def _(case):
     eps0 = eps0_of(case)
     return all_of(
         corner=Constant(expr(0) < k),
-        determinant=for_all(condition(x, expr(k), expr(b), expr(c), expr(d)), 0, eps0),
+        determinant=for_all(condition(x * eps0, expr(k), expr(b), expr(c), expr(d)), 0, 1),
     )
 
 

@@ -329,11 +329,11 @@ def _(case):
     section=ARM,
 )
 def _(case):
-    eps, eps0 = var("x"), eps0_of(case)
+    eps = var("x") * eps0_of(case)
     k, b, c, d, turn = map(expr, form_numbers(case))
     return all_of(
-        corner=for_all(expr(0) < k - eps * turn, 0, eps0),
-        determinant=for_all(eps / 4 * (d + turn + eps * c) ** 2 < (k - eps * turn) * (b - eps * c), 0, eps0),
+        corner=for_all(expr(0) < k - eps * turn, 0, 1),
+        determinant=for_all(eps / 4 * (d + turn + eps * c) ** 2 < (k - eps * turn) * (b - eps * c), 0, 1),
     )
 
 

@@ -1,0 +1,93 @@
+"""The example proofs: one of another family that is proved, and one that must not be accepted."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.check.certificates.document import judge
+from lyapcheck.claims import run_proof
+from lyapcheck.claims.certificates import certificates
+from lyapcheck.claims.script import find_script
+from lyapcheck.cli.main import build_app
+from lyapcheck.verdicts import Exit, Verdict
+
+EXAMPLES = Path(find_script("published.py")).parent / "examples"
+ARCTAN, MUST_FAIL = EXAMPLES / "arctan.py", EXAMPLES / "must_fail.py"
+
+
+def verdicts(path, **options):
+    rows = run_proof(path, ms=(1,), **options).claims
+    return {row.id: row.verdict.value for row in rows}
+
+
+@pytest.mark.parametrize("options", [{}, {"n": 1}, {"n": 5}])
+def test_arctan_is_proved_for_any_number_of_joints(options):
+    found = verdicts(ARCTAN, **options)
+    if options:
+        assert found.pop("arm") == "undecided", "a number of joints is no arm"
+    assert set(found.values()) == {"proved"}
+
+
+def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
+    result = run_proof(MUST_FAIL, ms=(1,))
+    found = {row.id: row.verdict.value for row in result.claims}
+    assert found == {
+        "wrong": "refuted",
+        "rests": "undecided",
+        "sign": "refuted",
+        "large": "refuted",
+        "right": "proved",
+    }
+    assert result.exit_code is Exit.REFUTED
+    for certificate in certificates(result).values():
+        assert judge(certificate).verdict == found[certificate.claim.id]
+
+
+def test_the_command_says_so_too():
+    run = CliRunner().invoke(build_app(), ["check", str(MUST_FAIL), "--m", "1", "--only", "wrong"])
+    assert run.exit_code == Exit.REFUTED
+    assert "refuted    wrong" in run.output
+
+
+CHANGES = [
+    (ARCTAN, "bound", "atan(x) <= pi / 2", "atan(x) <= '1.57'"),
+    (ARCTAN, "slope", "gamma=pi / 2, rho=1, L=1", "gamma=pi / 2, rho=1, L='0.99'"),
+    (ARCTAN, "steep", "gamma=pi / 2, rho=1, L=1", "gamma=pi / 2, rho='0.99', L=1"),
+    (ARCTAN, "potential", "log(1 + x**2) / 2", "log(1 + x**2)"),
+    (
+        ARCTAN,
+        "bounds",
+        'term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=2',
+        'term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=3',
+    ),
+    (ARCTAN, "arm", '"0.02"', '"20"'),
+    (MUST_FAIL, "right", "x - x**3 / 3 <= atan(x), 0)", "x - x**3 / 4 <= atan(x), 0)"),
+]
+
+
+@pytest.mark.parametrize(("path", "claim", "right", "wrong"), CHANGES, ids=[row[1] for row in CHANGES])
+def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, wrong):
+    source = path.read_text(encoding="utf-8")
+    assert right in source
+    changed = tmp_path / "changed.py"
+    changed.write_text(source.replace(right, wrong), encoding="utf-8")
+    row = run_proof(changed, ms=(1,), only=(claim,)).claims[0]
+    assert row.verdict in (Verdict.REFUTED, Verdict.UNDECIDED)
+
+
+REPAIRS = [
+    ("wrong", "x - x**3 / 3, 0)", "x, 0)"),
+    ("sign", "s.w) / 2 + s.eps", "s.w) / 2 - s.eps"),
+    ("large", "case.gains, 2)", 'case.gains, "0.02")'),
+]
+
+
+@pytest.mark.parametrize(("claim", "wrong", "right"), REPAIRS, ids=[row[0] for row in REPAIRS])
+def test_a_repaired_claim_is_proved(tmp_path, claim, wrong, right):
+    source = MUST_FAIL.read_text(encoding="utf-8")
+    repaired = tmp_path / "repaired.py"
+    text = source.replace(wrong, right)
+    assert text != source
+    repaired.write_text(text, encoding="utf-8")
+    assert run_proof(repaired, ms=(1,), only=(claim,)).claims[0].verdict is Verdict.PROVED

@@ -1,0 +1,148 @@
+"""Claims about every state of an arm: what proves and what refutes them, and changed certificates."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.document import About, Certificate, judge, parse, read
+from lyapcheck.check.certificates.proofs import DampingAbove
+from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
+from lyapcheck.claims.case import Lacking
+from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.run import paper_case
+from lyapcheck.control import GainSet
+from lyapcheck.family import hyperbolic
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import load
+from lyapcheck.verdicts import Verdict
+
+F = Fraction
+CASE = paper_case(2)
+BOUND = F("0.406") / sqrt(3) / gamma(2)
+STATEMENT = damping_below(CASE.robot, CASE.gains, BOUND)
+
+
+def planar(eps0, kv="0.2", **options):
+    """A claim about the two-joint arm."""
+    gains = GainSet("g", 2, (F(40), F(4)), (F(kv), F(kv)))
+    return decreasing(load("reyes-kelly2"), gains, eps0, **options)
+
+
+@pytest.mark.parametrize(
+    ("eps0", "verdict", "method"),
+    [("0.005", "proved", "norms"), ("0.05", "proved", "branch and bound"), ("3", "refuted", "a state")],
+)
+def test_a_growing_eps0_is_decided_by_norms_then_boxes_then_against(eps0, verdict, method):
+    decision = decide(planar(eps0))
+    assert decision.verdict.value == verdict
+    assert method in decision.method
+    assert verify(planar(eps0), decision.certificate).verdict == verdict
+
+
+def test_the_witness_has_dv_dt_above_zero_in_plain_floating_point_too():
+    statement, decision = planar(3), decide(planar(3))
+    at = {name: float(F(value)) for name, value in decision.witness["point"].items()}
+    q, e, w = (np.array([[at[f"{name}1"], at[f"{name}2"]]]) for name in "qew")
+    gains = ([float(k) for k in statement.kp], [float(k) for k in statement.kv])
+    assert LyapunovNumeric(load("reyes-kelly2"), hyperbolic(2), *gains, 3.0).rate(q, e, w)[0] > 0
+
+
+def test_what_cannot_be_decided_says_what_to_try():
+    assert "positive" in decide(planar(-1)).reason
+    frictionless = replace(planar("0.01"), viscous=((F(0), F(0)),) * 2)
+    assert decide(frictionless).verdict is Verdict.UNDECIDED
+
+
+def test_gains_of_another_arm_or_an_unbounded_h_are_lacking():
+    with pytest.raises(Lacking, match="3 joints"):
+        decreasing(load("pendulum1"), CASE.gains, "0.1")
+    with pytest.raises(Lacking, match="unbounded"):
+        decreasing(load("pendulum1"), GainSet("pd", None, (F(1),), (F(1),), family="linear"), "0.1")
+
+
+def test_over_the_ranges_less_is_true():
+    """An ε₀ between the two limits holds for the nominal arm and fails for some arm of the ranges."""
+    nominal, ranged = (decreasing(CASE.robot, CASE.gains, "0.03", ranges=r) for r in (False, True))
+    assert nominal.parameters == ()
+    assert len(ranged.parameters) == 4
+    assert decide(nominal).verdict is Verdict.PROVED
+
+
+# A bound of the damping that is said to be necessary --------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def against():
+    return decide(STATEMENT)
+
+
+def test_gains_that_break_19_have_an_eps0(against):
+    assert against.verdict is Verdict.REFUTED
+    assert against.witness["point"] == {"factor of K_v": "1", "eps0": "1/32"}
+    about = About("19n", "19n", 2, 3, "test")
+    proof = against.certificate
+    certificate = Certificate(about, STATEMENT, "refuted", against.grade.label, proof)
+    assert judge(read(parse(certificate.text()))).verdict == "refuted"
+
+
+def test_gains_within_the_bound_are_scaled_until_they_break_it():
+    small = replace(STATEMENT, kv=(F(1, 100),) * 3)
+    assert F(decide(small).witness["point"]["factor of K_v"]) > 20
+
+
+CHANGES = [
+    ("factor", {"factor": F(1, 2)}, "bound"),  # then (19) holds
+    ("negative factor", {"factor": F(-1)}, "factor"),
+    ("large ε₀", {"eps0": F(2)}, "tree"),
+    ("no ε₀", {"eps0": F(0)}, "positive"),
+]
+
+
+@pytest.mark.parametrize(("change", "why"), [row[1:] for row in CHANGES], ids=[row[0] for row in CHANGES])
+def test_a_changed_proof_is_refused(against, change, why):
+    assert isinstance(against.certificate, DampingAbove)
+    with pytest.raises(Refused, match=why):
+        verify(STATEMENT, replace(against.certificate, **change))
+
+
+@pytest.mark.parametrize(
+    "change", [{"kv": (F(0),) * 3}, {"kp": (F(1),)}, {"bound": ("var", "x")}, {"viscous": ()}]
+)
+def test_a_statement_that_says_nothing_is_refused(against, change):
+    with pytest.raises(Refused):
+        verify(replace(STATEMENT, **change), against.certificate)
+
+
+def test_an_arm_without_friction_leaves_it_open():
+    assert decide(replace(STATEMENT, viscous=((F(0), F(0)),) * 3)).verdict is Verdict.UNDECIDED
+
+
+# Decimal bounds ---------------------------------------------------------------------------------------------
+
+
+@given(st.fractions(-100, 100), st.integers(0, 9))
+@settings(max_examples=60, deadline=None)
+def test_rounding_goes_outward_by_less_than_one_unit(value, digits):
+    unit = F(1, 10**digits)
+    slack = F(1, 10**30)
+    assert value <= above(value, digits) < value + unit + slack
+    assert value - unit - slack < below(value, digits) <= value
+
+
+def test_irrational_numbers_are_rounded_outward():
+    assert above(pi) == F("3.1416")
+    assert below(pi) == F("3.1415")
+    assert above(gamma(1)) == 1
+    assert above(expr(4)) == 4
+
+
+def test_the_largest_number_with_a_property():
+    assert float(largest_with(lambda x: x**2 < 2)) == pytest.approx(2**0.5, rel=1e-5)
+    assert largest_with(lambda x: x**2 < 2) ** 2 < 2
+    assert float(largest_with(lambda x: x < F(1, 1000))) == pytest.approx(1e-3, rel=1e-5)
+    assert largest_with(lambda x: False) is None
