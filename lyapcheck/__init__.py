@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lyapcheck.claims.explain import explain
     from lyapcheck.claims.result import ClaimResult, ProofResult
     from lyapcheck.claims.run import run_proof
+    from lyapcheck.constants.bounds import RobotConstants, robot_constants
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
     from lyapcheck.control.gate import GateResult, gate
     from lyapcheck.control.limits import Limits, limits_for
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.robots.registry import load as load_robot
     from lyapcheck.robots.registry import names as robot_names
-    from lyapcheck.search.robot_constants import RobotConstants, robot_constants
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.trial import experiment as run_experiment
@@ -113,7 +113,7 @@ _HOMES = {
     "Problem": "errors",
     "Proof": "claims.claim",
     "ProofResult": "claims.result",
-    "RobotConstants": "search.robot_constants",
+    "RobotConstants": "constants.bounds",
     "RobotModel": "robots.model",
     "Run": "simulate.run",
     "Verdict": "verdicts",
@@ -130,7 +130,7 @@ _HOMES = {
     "paper_gain_file": "control.paper",
     "read_gain_file": "control.gains",
     "recheck": "check.certificates.recheck",
-    "robot_constants": "search.robot_constants",
+    "robot_constants": "constants.bounds",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "claims.run",

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.constants import Constant, arm_constants
 from lyapcheck.robot_report.properties import Property, properties
 from lyapcheck.robots import RobotModel
-from lyapcheck.search.arm_constants import Constant, arm_constants
 from lyapcheck.verdicts import Exit, exit_code
 
 Progress = Callable[[float, str], None]
 MAX_BOXES = 200_000
 """Over the square of the number of joints: the budget that takes a minute or so."""
 SMALL = 3
-"""Up to so many joints a search over directions pays for k_c, and the paper's script decides in seconds."""
+"""Up to so many joints the paper's script decides in seconds."""
 
 
 @dataclass(frozen=True)
@@ -44,19 +43,6 @@ def build(
     """
     budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
     constants = arm_constants(model, budget, on_progress=on_progress)
-    if model.n <= SMALL:
-        constants = tuple(_sharper(model, item) if item.name == "k_c" else item for item in constants)
     if on_progress is not None:
         on_progress(1.0, "properties 2.1–2.8")
     return RobotReport(model, properties(model, constants, by_script=model.n <= SMALL), constants)
-
-
-def _sharper(model: RobotModel, constant: Constant) -> Constant:
-    """k_c between the better ends of two searches, both of which hold."""
-    from lyapcheck.search.robot_constants import robot_constants
-
-    other = robot_constants(model)
-    lower = max(constant.enclosure.lower, other.k_c.lower)
-    upper = min(constant.enclosure.upper, other.k_c.upper)
-    state = constant.state if lower == constant.enclosure.lower else other.k_c_at
-    return replace(constant, enclosure=Enclosure(lower, upper), state=state)

@@ -14,7 +14,7 @@ from lyapcheck.verdicts import Grade, Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.claims.decision import Decision
-    from lyapcheck.search.arm_constants import Constant
+    from lyapcheck.constants import Constant
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
 SAYS = {

@@ -6,11 +6,11 @@ import json
 from importlib.metadata import version
 from typing import Any
 
+from lyapcheck.constants import SEED, Constant
 from lyapcheck.files import decimal_text
 from lyapcheck.robot_report.build import RobotReport
 from lyapcheck.robot_report.properties import Property
 from lyapcheck.robots import Number
-from lyapcheck.search.arm_constants import SEED, Constant
 
 SCHEMA = "lyapcheck/robot/1"
 _DIGITS = 15

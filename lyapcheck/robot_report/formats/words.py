@@ -8,10 +8,10 @@ from lyapcheck.files import decimal_text
 from lyapcheck.robots.number import with_unit
 
 if TYPE_CHECKING:
+    from lyapcheck.constants import Constant
     from lyapcheck.robot_report.build import RobotReport
     from lyapcheck.robot_report.properties import Property
     from lyapcheck.robots import Number
-    from lyapcheck.search.arm_constants import Constant
 
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
 _DIGITS = 6

@@ -1,8 +1,8 @@
 """Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
 
 Over a box with half widths r a wave with frequencies k turns by at most d = Σ k_i r_i from its value in the
-middle. It moves by at most min(2, d), and by at most d²/2 from its linear part. Waves that turn far are
-bounded by their size, waves that hardly turn by their slope and the square.
+middle. It moves by at most d within [−1, 1], and by at most d²/2 from its linear part. Waves that turn far
+are bounded by the former, waves that hardly turn by their slope and the square, or by something sharper.
 
 Soundness: floating point with the error bounded beforehand: every value is trusted within ``SLACK`` times
 the sum of the sizes of all coefficients, far more than the rounding of sines, products and sums amounts to.
@@ -17,12 +17,13 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.search.wave_basis import basis_of
-from lyapcheck.search.waves import Wave
+from lyapcheck.constants.basis import basis_of
+from lyapcheck.constants.waves import Wave
 
 Array = NDArray[np.float64]
+PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
-_NEAR = 1.0
+_NEAR = 0.5
 """Waves that turn by less than this many radians over half a box are bounded by their slope."""
 
 
@@ -31,11 +32,13 @@ class Reach:
     """Polynomials on boxes: middle + Σ_i t_i linear_i with |t_i| ≤ 1, up to the radius.
 
     Args:
-        middle: values in the middles, (boxes, entries).
+        value: in the middles of the boxes, (boxes, entries).
+        middle: of what the polynomials reach, (boxes, entries).
         linear: slopes times half widths, one an angle that matters, (boxes, angles, entries).
         radius: what that leaves, (boxes, entries).
     """
 
+    value: Array
     middle: Array
     linear: Array
     radius: Array
@@ -73,19 +76,28 @@ class Torus:
         used = self._sizes.any(axis=1)
         self.angles = tuple(np.flatnonzero(self._basis.frequency[used].any(axis=0)).tolist())
 
+    @property
+    def lost(self) -> float:
+        """What rounding can take from the size of all polynomials together."""
+        return float(2 * np.sum(self.slack))
+
     def on(self, middle: Array, half: Array) -> Reach:
         """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
         at = self._basis.at(middle)
         turn = half @ self._basis.frequency.T
         near = turn < _NEAR
-        radius = np.where(near, 0.5 * turn * turn, np.minimum(turn, 2.0)) @ self._sizes + self.slack
+        low, high = np.maximum(at.values - turn, -1.0), np.minimum(at.values + turn, 1.0)
+        bent, rest = at.bent(np.minimum(turn, _NEAR))
+        middles = np.where(near, bent, 0.5 * (low + high))
+        radius = np.where(near, rest, 0.5 * (high - low)) @ self._sizes + self.slack
         linear = np.zeros((len(middle), 0, len(self.slack)))
         if half.any():
             parts = [
                 (np.where(near, at.slopes(i), 0.0) @ self._coefficients) * half[:, [i]] for i in self.angles
             ]
             linear = np.stack(parts, axis=1) if parts else linear
-        return Reach(at.values @ self._coefficients, linear, radius * (1.0 + 1e-9))
+        value, middle = at.values @ self._coefficients, middles @ self._coefficients
+        return Reach(value, middle, linear, radius * (1.0 + 1e-9))
 
     def angles_at(self, p: Array) -> Array:
         """The joint angles of coordinates (n,), rad, each within one turn around 0."""

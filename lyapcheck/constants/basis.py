@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.search.waves import Wave
+from lyapcheck.constants.waves import Wave
 
 Array = NDArray[np.float64]
 Rows = list[dict[int, Fraction]]
@@ -25,6 +25,13 @@ class Values(Protocol):
     """The functions at some states."""
 
     values: Array
+
+    def bent(self, turn: Array) -> tuple[Array, Array]:
+        """Middle and radius of what the functions are beyond their linear part, where they turn that far.
+
+        Args:
+            turn: how far at most in rad, not above π; one number a function.
+        """
 
     def slopes(self, i: int) -> Array:
         """Their derivatives with respect to q_i."""
@@ -97,6 +104,12 @@ class _SumsAt:
         self._turned = np.where(basis.sine, cosine, -sine)
         self._multiples = basis.multiples
 
+    def bent(self, turn: Array) -> tuple[Array, Array]:
+        """v cos d + u sin d at the distance d, v itself and u its slope: what is left of it without u d."""
+        least = np.cos(turn)
+        radius = np.abs(self.values) * 0.5 * (1 - least) + np.abs(self._turned) * (turn - np.sin(turn))
+        return self.values * 0.5 * (1 + least), radius
+
     def slopes(self, i: int) -> Array:
         return np.asarray(self._turned * self._multiples[:, i])
 
@@ -120,6 +133,10 @@ class _ProductsAt:
         self._basis = _factors(q, int(waves.max()))
         self._factors = [self._basis[waves[:, i], :, i].T for i in range(n)]
         self.values: Array = np.prod(self._factors, axis=0)
+
+    def bent(self, turn: Array) -> tuple[Array, Array]:
+        """Along any line the second derivative is at most the square of the frequency."""
+        return self.values, 0.5 * turn * turn
 
     def slopes(self, i: int) -> Array:
         basis = self._basis[:, :, i]

@@ -9,9 +9,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.constants.torus import Torus
+from lyapcheck.constants.waves import Waves, derivative, waves
 from lyapcheck.robots import RobotModel, trig
-from lyapcheck.search.torus import Torus
-from lyapcheck.search.waves import Waves, derivative, waves
 
 Array = NDArray[np.float64]
 

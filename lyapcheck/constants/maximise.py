@@ -32,7 +32,7 @@ def maximise(
     half: Array,
     bounds: Bounds,
     influence: Influence,
-    start: Array,
+    witness: tuple[Array, float],
     max_boxes: int,
     gap: float,
     on_progress: Progress | None = None,
@@ -43,7 +43,7 @@ def maximise(
         half: half widths of the box, (n,); sides of width 0 stay.
         bounds: see ``Bounds``.
         influence: decides which side of a box is halved.
-        start: states to begin with, (count, n), of which the best is the first witness.
+        witness: a state to begin with, (n,), and what the function is at least there.
         max_boxes: how many boxes may be looked at.
         gap: relative distance of the two bounds that is good enough.
         on_progress: told the share of the budget used.
@@ -51,13 +51,12 @@ def maximise(
     Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
         ``bounds`` is taken at its word.
     """
-    found = bounds(start, np.zeros_like(start))[0]
-    inside, state = float(found.max()), start[np.argmax(found)]
+    state, inside = witness
     middle, width = np.zeros((1, len(half))), half[None]
     top = bounds(middle, width)[1]
     seen = 1
-    while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 * BATCH <= max_boxes:
-        chosen = np.argsort(-top, kind="stable")[:BATCH]
+    while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
+        chosen = np.argsort(-top, kind="stable")[: min(BATCH, (max_boxes - seen) // 2)]
         rest = np.ones(len(top), dtype=np.bool_)
         rest[chosen] = False
         halves = _halves(middle[chosen], width[chosen], influence)

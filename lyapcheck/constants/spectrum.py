@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_ROUNDING = 1e-13
+ROUNDING = 1e-13
 """Times n², above the rounding of sums of n products of doubles relative to the norms of the factors."""
 
 
@@ -25,11 +25,11 @@ def eigenvalues(a: Array) -> tuple[Array, Array, Array]:
     n = a.shape[-1]
     d, v = np.linalg.eigh(a)
     residual = _norm(a @ v - v * d[..., None, :])
-    skew = _norm(np.swapaxes(v, -1, -2) @ v - np.eye(n)) + _ROUNDING * n * n
+    skew = _norm(np.swapaxes(v, -1, -2) @ v - np.eye(n)) + ROUNDING * n * n
     size = _norm(a) + np.max(np.abs(d), axis=-1)
     safe = np.minimum(skew, 0.5)
     condition = np.sqrt((1 + safe) / (1 - safe))
-    distance = condition / np.sqrt(1 - safe) * (residual + _ROUNDING * n * n * size)
+    distance = condition / np.sqrt(1 - safe) * (residual + ROUNDING * n * n * size)
     return d, np.where(skew < 0.5, distance, np.inf), v
 
 
@@ -59,7 +59,7 @@ def largest_norm(a: Array, radius: Array) -> Array:
     """An upper bound of the spectral norm of every matrix (rows, columns) within ``radius`` of ``a``."""
     gram = np.swapaxes(a, -1, -2) @ a
     d, distance, _ = eigenvalues(gram)
-    rounding = _ROUNDING * a.shape[-2] * _norm(a) ** 2
+    rounding = ROUNDING * a.shape[-2] * _norm(a) ** 2
     middle = np.sqrt(np.maximum(d[..., -1] + distance + rounding, 0.0))
     around = np.sqrt(np.max(np.sum(radius, axis=-1), axis=-1) * np.max(np.sum(radius, axis=-2), axis=-1))
     return np.asarray((middle + np.minimum(around, _norm(radius))) * (1 + 1e-12))

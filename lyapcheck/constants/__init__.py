@@ -1,0 +1,7 @@
+"""Certified constants of an arm, from both sides: λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi."""
+
+from lyapcheck.constants.arm import arm_constants
+from lyapcheck.constants.bounds import RobotConstants, robot_bounds, robot_constants
+from lyapcheck.constants.constant import SEED, Constant
+
+__all__ = ["SEED", "Constant", "RobotConstants", "arm_constants", "robot_bounds", "robot_constants"]

@@ -1,0 +1,31 @@
+"""The length of g(q), or of some of its components, over boxes of angles.
+
+References: property 2.8 of reyes2019family.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.constant import Task
+from lyapcheck.constants.torus import Reach, Torus
+
+Array = NDArray[np.float64]
+
+
+def gravity_task(arm: ArmWaves, name: str, joints: Sequence[int]) -> Task:
+    """sup (Σ g_i(q)²)^½ over some joints, counted from 0."""
+    torus = Torus([arm.gravity[i] for i in joints], arm.n)
+
+    def value(entries: Array) -> Array:
+        return np.asarray(np.sqrt(np.sum(entries**2, axis=1)) * (1 - 1e-14) - torus.lost)
+
+    def most(reach: Reach) -> Array:
+        squares = (np.abs(reach.corners()) + reach.radius[:, None]) ** 2
+        return np.asarray(np.max(np.sqrt(np.sum(squares, axis=2)), axis=1) * (1 + 1e-14))
+
+    return Task(name, "N·m", torus, value, most, np.ones(len(joints)))
