@@ -308,6 +308,15 @@ def test_the_smaller_root_is_the_border(n: int, a: Fraction, b: Fraction, side: 
     assert not bound.admits(larger)
 
 
+def test_two_roots_that_balls_do_not_tell_apart_at_first() -> None:
+    """Norms 1 and 10^-60: the border is 1 − 10^-60, and 1 + 10^-60 solves the same quadratic."""
+    tiny = Fraction(1, 10**60)
+    bound = NormLimit(Fraction(1), tiny**2, 1, GammaBound(Enclosure.exact(1)))
+    assert bound.admits(1 - tiny)
+    for value in (1 - tiny / 2, Fraction(1), 1 + tiny):
+        assert not bound.admits(value)
+
+
 # γ² of m = 2 and 3 in closed form: u² − 4u − 3 = 0 gives u = 2 + √7; u³ − 6u − 5 = (u + 1)(u² − u − 5) gives
 # u = (1 + √21)/2; γ² = (2m(1 + u) − 1)²/(4m² u(1 + u)).
 TRACE_AND_NORM = {2: (Fraction(17, 16), Fraction(17 * 17 - 49 * 7, 32 * 32))}
