@@ -7,6 +7,7 @@ Ids follow the numbers of the paper's equations.
 from fractions import Fraction
 
 from lyapcheck.claims import (
+    ArmBounds,
     Constant,
     ForSmall,
     Proof,
@@ -15,6 +16,7 @@ from lyapcheck.claims import (
     all_of,
     always_positive,
     apply,
+    below,
     bounded,
     coriolis_matrix,
     damping_below,
@@ -310,6 +312,26 @@ def _(case):
         ),
         size <= limit,
     )
+
+
+@proof.claim(
+    "10p.gains",
+    "the gains at hand meet the per-joint rule with the true γ",
+    place="Section 4, tuning rule",
+    section=TORQUE,
+)
+def _(case):
+    robot, gains = case.robot, case.gains
+    if None in (*robot.torque_limit, *robot.gravity_bound):
+        raise lacking("needs a torque limit and a gravity bound for every joint; add them to the arm file")
+    if len(gains.kp) != robot.n:
+        raise lacking(f"the gains are for {len(gains.kp)} joints, {robot.name} has {robot.n}")
+    rows = zip(robot.joints, gains.kp, gains.kv, robot.torque_limit, robot.gravity_bound, strict=True)
+    parts = {}
+    for joint, kp_i, kv_i, most, gravity in rows:
+        budget = (most.value - gravity.value) / (sqrt(case.n) * gamma(case.m))
+        parts[joint] = Constant(expr(kp_i + kv_i) < budget)
+    return all_of(**parts)
 
 
 # Section 3: equilibrium and Lyapunov function -------------------------------------------------------------
@@ -804,6 +826,44 @@ def _(case):
     """For the gains at hand and all gains with another multiple of their K_v."""
     least = min(number.value for number in case.robot.viscous)
     return damping_below(case.robot.fixed(), case.gains, least / (sqrt(case.n) * gamma(case.m)))
+
+
+def numbers_at_hand(case):
+    """The constants of Θ for the robot and gains at hand; ε₀ and ε are left to the claim."""
+    if len(case.gains.kp) != case.robot.n:
+        raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
+    arm, n = ArmBounds(case.robot.fixed()), case.n
+    known = {"kp": min(case.gains.kp), "kv": max(case.gains.kv), "b": arm.b_min, "b_max": arm.b_max}
+    known |= {"beta": arm.beta, "kc": arm.kc, "n": n, "root": sqrt(n)}
+    return {name: expr(value) for name, value in known.items()} | {
+        "gamma": gamma(case.m),
+        "rho": rho(case.m),
+    }
+
+
+@proof.claim(
+    "18.gains",
+    "for the gains at hand, and bounds of the arm for β_M and k_c, every ε₀ in (18) makes Θ positive definite",
+    place="(18)",
+    section=CONDITIONS,
+)
+def _(case):
+    """At q̃ = 0, where ε = ε₀ is largest, for ε₀ = x times the end of (18), 0 < x < 1."""
+    c = numbers_at_hand(case)
+    flat, steep = bracket(c)
+    whole = c["n"] * c["gamma"] ** 2 * c["kp"]
+    inner = c["beta"] * (c["rho"] + c["gamma"]) + c["gamma"] * c["kc"]
+    slack = c["b"] - c["root"] * c["gamma"] * c["kv"]
+    if below(slack) <= 0:
+        raise lacking("(18) is empty for these gains, as (19) does not hold; take a smaller K_v")
+    eps0 = x * whole * slack / (whole * inner + flat**2 / 4)
+    low = slack - c["root"] * eps0 * inner
+    return for_all(eps0 / 4 * (flat + eps0 * steep) ** 2 < whole * low, 0, 1, open_low=True, open_high=True)
+
+
+@proof.claim("19.gains", "the gains at hand meet (19) with the true γ", place="(19)", section=CONDITIONS)
+def _(case):
+    return Constant(condition_19(numbers_at_hand(case)))
 
 
 @proof.claim(

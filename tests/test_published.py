@@ -146,6 +146,32 @@ def test_condition_10_protects_joints_whose_limit_is_beyond_the_mean(robot, limi
     assert row.verdict.value == ("proved" if set(verdicts) == {"proved"} else "refuted")
 
 
+GAINS = """robot = "buap3"
+[[gains]]
+name = "own"
+m = 2
+kp = [27, 50, {elbow}]
+kv = [{damping}, 0.2, 0.2]
+"""
+
+
+@pytest.mark.parametrize(
+    ("elbow", "damping", "verdicts"),
+    [
+        ("5", "0.222", ("proved", "proved", "refuted")),  # 0.406/(√3 γ_2) = 0.22249
+        ("5", "0.2226", ("proved", "refuted", "undecided")),  # and then (18) is empty
+        ("7.1", "0.222", ("refuted", "proved", "refuted")),  # 13.19/(√3 γ_2) = 7.228
+    ],
+)
+def test_the_gains_at_hand_matter(tmp_path, elbow, damping, verdicts):
+    path = tmp_path / "own.toml"
+    path.write_text(GAINS.format(elbow=elbow, damping=damping), encoding="utf-8")
+    ids = ("10p.gains", "19.gains", "18.gains")
+    rows = run_proof("published.py", ms=(2,), gains=path, only=ids).claims
+    found = {row.id: row.verdict.value for row in rows}
+    assert tuple(found[name] for name in ids) == verdicts
+
+
 def test_whether_a_bound_of_the_damping_is_necessary_depends_on_the_bound(tmp_path):
     """With 1000 times the bound, gains that break it are found too: no bound of K_v is necessary."""
     source = ONE.read_text(encoding="utf-8")
