@@ -53,7 +53,7 @@ def maximise(
     """
     state, inside = witness
     middle, width = np.zeros((1, len(half))), half[None]
-    top = bounds(middle, width)[1]
+    top = np.fmin(bounds(middle, width)[1], np.inf)
     seen = 1
     while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
         chosen = np.argsort(-top, kind="stable")[: min(BATCH, (max_boxes - seen) // 2)]
@@ -61,7 +61,8 @@ def maximise(
         rest[chosen] = False
         halves = _halves(middle[chosen], width[chosen], influence)
         low, high = bounds(*halves)
-        high = np.minimum(high, np.concatenate([top[chosen], top[chosen]]))
+        # a bound that is undefined is no bound: fmin then keeps that of the whole
+        high = np.fmin(high, np.concatenate([top[chosen], top[chosen]]))
         seen += len(high)
         if low.max() > inside:
             inside, state = float(low.max()), halves[0][np.argmax(low)]

@@ -7,7 +7,7 @@ With s_i the vector of the entries of S_i and X that of x xᵀ, both scaled so t
 for every N in the span of the relations x_a x_b · x_c x_d = x_a x_c · x_b x_d. Up to three joints the best N
 leaves no gap, because nonnegative quartic forms in three variables are sums of squares.
 
-References: Hilbert's theorem on ternary quartics, see reznick2000concrete.
+References: hilbert1888darstellung, for three variables.
 """
 
 from __future__ import annotations
