@@ -13,7 +13,19 @@ import typer
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
 
-COMMANDS = ("check", "epsilon", "explain", "gate", "recheck", "report", "robot", "simulate", "table", "tune")
+COMMANDS = (
+    "bounds",
+    "check",
+    "epsilon",
+    "explain",
+    "gate",
+    "recheck",
+    "report",
+    "robot",
+    "simulate",
+    "table",
+    "tune",
+)
 
 CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""

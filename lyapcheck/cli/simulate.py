@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import re
 import sys
-from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lyapcheck.cli.angles import parse_angles
 from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.progress import Advance, progress
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.cli.task import task_of
+from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -72,7 +71,7 @@ def command(
 
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))
-    task = _task(model, target, start, time, eps0)
+    task = task_of(model, target, start, time, eps0)
     _check_places(csv, plot)
     with progress("simulate") as advance:
         runs, failures = _run_all(gain_file.gains, model, task, eps0=eps0, bench=experiment, advance=advance)
@@ -80,47 +79,6 @@ def command(
     for reason in failures:
         print(f"not finished: {reason}", file=sys.stderr)
     raise typer.Exit(int(Exit.UNDECIDED if failures else Exit.PROVED))
-
-
-def _task(model: RobotModel, target: str | None, start: str | None, time: float, eps0: float) -> Task:
-    """The task of the command line, or every problem with it at once."""
-    from lyapcheck.simulate.task import task_for
-
-    problems: list[Problem] = []
-    q_d = _angles("--target", _goal(target, model, problems), model, problems)
-    q0 = _angles("--start", _home(model) if start is None else start, model, problems)
-    try:
-        task = task_for(model.n, q_d, q0, None, time, eps0=eps0)
-    except InputError as error:
-        problems += [replace(problem, key=_OPTIONS[problem.key]) for problem in error.problems]
-    if problems:
-        raise InputError(problems)
-    return task
-
-
-_OPTIONS = {"T": "--time", "eps0": "--eps0"}
-
-
-def _angles(option: str, text: str, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:
-    try:
-        return parse_angles(option, text, model.joints)
-    except InputError as error:
-        problems += error.problems
-        return (0.0,) * model.n
-
-
-def _goal(target: str | None, model: RobotModel, problems: list[Problem]) -> str:
-    """What was asked for, or the published goal, which only an arm of three joints has."""
-    if target is None and model.n != 3:
-        rule = f"is missing, and the paper's goal is for 3 joints where {model.name} has {model.n}"
-        repair = f"write --target {','.join(['45'] * model.n)}"
-        problems.append(Problem("argument", None, "--target", "", rule, repair))
-        return _home(model)
-    return "45,45,90" if target is None else target
-
-
-def _home(model: RobotModel) -> str:
-    return ",".join(["0"] * model.n)
 
 
 def _check_places(csv: str | None, plot: Path | None) -> None:

@@ -29,6 +29,7 @@ FINE = 0.93
 """Ratio of neighbouring levels, to compare margins and for the answer."""
 DEEPEST = 1e-9
 """Levels below this share of the first one are not looked at for what a disturbance leaves."""
+NOT_FALLING = "V was not shown to fall at all levels between"
 NO_MARGIN = "no margin of dV/dt < 0 was proved"
 
 
@@ -76,7 +77,15 @@ def settling_bound(
     if accepted is None:
         none = (None,) * 3
         return SettlingBound(
-            setting.gains.name, setting.model.name, goal, *none, (), (), exponential, None, reason
+            setting.gains.name,
+            setting.model.name,
+            goal,
+            *none,
+            (),
+            (),
+            exponential,
+            None,
+            reason or NOT_FALLING,
         )
     estimate = Estimate(accepted.margin, calm)
     tell(0.7, "levels of V")
@@ -93,7 +102,7 @@ def settling_bound(
         errors=estimate.reach(first),
         exponential=exponential,
         rests_on=_provenance(accepted),
-        reason="V was not shown to fall at all levels between" if descent is None else "",
+        reason=NOT_FALLING if descent is None else "",
     )
 
 
@@ -177,7 +186,7 @@ def _margin(
     """The accepted margin that promises the least ``worth``, and why there is none."""
     tell(0.05, "margins by samples")
     found = candidates(setting, disturbed)
-    rows = ((worth(margin), margin.friction, margin) for margin in found)
+    rows = ((_worth(worth, margin), margin.friction, margin) for margin in found)
     ranked = [row for row in rows if row[0] < math.inf]
     if not ranked:
         return None, "" if found else NO_MARGIN
@@ -187,6 +196,14 @@ def _margin(
         if accepted is not None:
             return accepted, ""
     return None, f"{NO_MARGIN}; allow more boxes"
+
+
+def _worth(worth: Callable[[Margin], float], margin: Margin) -> float:
+    """The worth of a margin, infinite where its level of V allows errors beyond all bounds."""
+    try:
+        return worth(margin)
+    except ValueError:
+        return math.inf
 
 
 def _descent(

@@ -29,9 +29,9 @@ STIFFNESS = Fraction(19, 20)
 LOSS = Fraction(1, 50)
 """The share of κ k_pi that the mixed terms may cost; t follows from it."""
 SLACK = Fraction(1, 2)
-SHARES = tuple(Fraction(k, 100) for k in (92, 85, 75, 60, 40, 20))
+SHARES = tuple(Fraction(k, 100) for k in (85, 75, 60, 40, 20))
 """Shares of the largest ε₀ that samples allow, tried one after the other."""
-SAMPLES = 4_000
+SAMPLES = 1_500
 SEED = 20190301
 MAX_BOXES = 60_000
 

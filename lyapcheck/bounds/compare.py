@@ -1,0 +1,120 @@
+"""The certified bounds of one gain set for one task, and the simulated motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.search.decay import disturbance_bound, settling_bound
+from lyapcheck.search.setting import Setting
+from lyapcheck.simulate.disturbed import disturbed
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound
+    from lyapcheck.simulate.task import Task
+
+Array = NDArray[np.float64]
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Bounds, certified, and what was seen in one run, in floating point.
+
+    Args:
+        settling: the time bound.
+        disturbance: what a disturbance leaves.
+        task: the motion that was simulated.
+        simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
+        simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
+        assumptions: what is taken for granted about the arm.
+    """
+
+    settling: SettlingBound
+    disturbance: DisturbanceBound
+    task: Task
+    simulated_time: float | None
+    simulated_errors: tuple[float, ...]
+    assumptions: tuple[str, ...]
+
+
+def compare(
+    gain_set: GainSet,
+    model: RobotModel,
+    task: Task,
+    delta: float,
+    torque: Sequence[float] = (),
+    dry: Sequence[float] | None = None,
+    *,
+    max_boxes: int,
+    jobs: int = 1,
+    on_progress: Progress | None = None,
+) -> Comparison:
+    """The bounds of a task and the run.
+
+    Args:
+        gain_set: the controller, of a bounded family.
+        model: the arm.
+        task: start, goal and duration of the run.
+        delta: δ, rad.
+        torque: (n,) bounds of a torque of any sign, N·m; the run has it constant and positive.
+        dry: (n,) bounds of dry friction, N·m; what is known of the arm if missing.
+        max_boxes: the budget of each attempt at a proof.
+        jobs: processes for the checker.
+        on_progress: told the share done.
+    """
+    tell = on_progress or (lambda fraction, note: None)
+    setting = Setting(gain_set, model)
+    friction = coulomb(model) if dry is None else tuple(dry)
+    settling = settling_bound(
+        setting,
+        task.step,
+        task.w0,
+        delta,
+        max_boxes=max_boxes,
+        jobs=jobs,
+        on_progress=lambda f, note: tell(0.45 * f, note),
+    )
+    left = disturbance_bound(
+        setting,
+        task.step,
+        task.w0,
+        torque,
+        friction,
+        max_boxes=max_boxes,
+        jobs=jobs,
+        on_progress=lambda f, note: tell(0.45 + 0.45 * f, note),
+    )
+    tell(0.9, "simulation")
+    calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T)
+    pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
+    return Comparison(
+        settling, left, task, inside_from(calm.t, calm.e, delta), last_errors(pushed.e), model.assumptions
+    )
+
+
+def coulomb(model: RobotModel) -> tuple[float, ...]:
+    """Dry friction of the arm, N·m; 0 where nothing is known."""
+    return tuple(0.0 if number is None else float(number.value) for number in model.coulomb)
+
+
+def inside_from(t: Array, e: Array, delta: float) -> float | None:
+    """The first sample from which on every |e_i| ≤ δ."""
+    outside = np.flatnonzero(np.abs(e).max(axis=1) > delta)
+    if outside.size == 0:
+        return float(t[0])
+    last = int(outside[-1])
+    return float(t[last + 1]) if last + 1 < t.size else None
+
+
+def last_errors(e: Array) -> tuple[float, ...]:
+    """The largest |e_i| over the last tenth of a run."""
+    tail = e[-math.ceil(len(e) / 10) :]
+    return tuple(float(x) for x in np.abs(tail).max(axis=0))

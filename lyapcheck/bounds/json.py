@@ -1,0 +1,101 @@
+"""Bounds as versioned JSON."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.files import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
+
+SCHEMA = "lyapcheck/bounds/1"
+
+
+def render(results: Sequence[Comparison]) -> str:
+    """``results: [{name, robot, settling, disturbance, simulated, …}]``; angles in degrees, rounded up."""
+    document = {"schema": SCHEMA, "version": version("lyapcheck"), "results": [_result(x) for x in results]}
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def _result(found: Comparison) -> dict[str, Any]:
+    task = found.task
+    return {
+        "name": found.settling.name,
+        "robot": found.settling.robot,
+        "target": [_degrees(x) for x in task.q_d],
+        "start": [_degrees(x) for x in task.q0],
+        "settling": _settling(found.settling),
+        "disturbance": _disturbance(found.disturbance),
+        "simulated": {
+            "duration": task.T,
+            "time": found.simulated_time,
+            "errors": [_degrees(x) for x in found.simulated_errors],
+        },
+        "assumptions": list(found.assumptions),
+    }
+
+
+def _settling(bound: SettlingBound) -> dict[str, Any]:
+    return {
+        "delta": _degrees(float(bound.delta)),
+        "time": above(bound.time),
+        "start_level": above(bound.start_level),
+        "end_level": below(bound.end_level),
+        "envelope": [{"time": above(t), "level": above(v)} for t, v in bound.envelope],
+        "errors": [_degrees_above(x) for x in bound.errors],
+        "exponential": bound.exponential,
+        "rests_on": _provenance(bound.rests_on),
+        "reason": bound.reason,
+    }
+
+
+def _disturbance(bound: DisturbanceBound) -> dict[str, Any]:
+    return {
+        "torque": [above(x) for x in bound.torque],
+        "friction": [above(x) for x in bound.dry],
+        "time": above(bound.time),
+        "level": above(bound.level),
+        "errors": [_degrees_above(x) for x in bound.errors],
+        "rest": [None if x is None else _degrees_above(x) for x in bound.rest],
+        "rests_on": _provenance(bound.rests_on),
+        "reason": bound.reason,
+    }
+
+
+def _provenance(found: Provenance | None) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    shares = {"friction_share": found.friction, "stiffness_share": found.stiffness}
+    numbers = {"eps0": found.eps0, **shares}
+    return {
+        "by": found.by,
+        "boxes": found.boxes,
+        **{name: decimal_text(value) for name, value in numbers.items()},
+    }
+
+
+def above(value: Fraction | None) -> float | None:
+    """The smallest double that is not below."""
+    return None if value is None else Enclosure(value, value).float_upper
+
+
+def below(value: Fraction | None) -> float | None:
+    """The largest double that is not above."""
+    return None if value is None else Enclosure(value, value).float_lower
+
+
+def _degrees(x: float) -> float:
+    return round(math.degrees(x), 9)
+
+
+def _degrees_above(x: float) -> float:
+    """Degrees, rounded up by more than the conversion can err."""
+    return math.ceil(math.degrees(x) * 1e6 * (1 + 1e-14)) / 1e6

@@ -1,0 +1,140 @@
+"""``lyapcheck bounds``."""
+
+from __future__ import annotations
+
+import math
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate import Task
+
+MOST_TORQUE = 1e6
+
+
+class BoundsFormat(StrEnum):
+    """How the bounds are written."""
+
+    TEXT = "text"
+    JSON = "json"
+
+
+def command(
+    file: Annotated[Path, typer.Argument(help="A gain file of bounded controllers.", metavar="FILE")],
+    robot: Annotated[
+        str | None,
+        typer.Option(help="A built-in arm or an arm file, instead of the one the gain file names."),
+    ] = None,
+    target: Annotated[
+        str | None,
+        typer.Option(help="Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."),
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option(help="Initial joint angles in degrees; all 0 if missing.")
+    ] = None,
+    delta: Annotated[float, typer.Option(help="The error to come below, in degrees.")] = 1.0,
+    disturbance: Annotated[
+        str | None, typer.Option(help="Bounds in N·m of torques of any sign, one a joint: 0.1,0.1,0.05.")
+    ] = None,
+    friction: Annotated[
+        str | None,
+        typer.Option(help="Bounds in N·m of dry friction, one a joint; those of the arm if missing."),
+    ] = None,
+    time: Annotated[float, typer.Option(help="Duration of the simulated runs in s.")] = 5.0,
+    max_boxes: Annotated[int, typer.Option(help="Budget of boxes for each attempt.", min=1)] = 60_000,
+    jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
+    format: Annotated[BoundsFormat, typer.Option(help="How to write it.")] = BoundsFormat.TEXT,  # noqa: A002
+) -> None:
+    """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
+
+    From V and a margin of dV/dt < 0: a time after which every error stays below --delta, for all postures,
+    and the errors that bounded torques and dry friction can leave.
+
+    Exit code 0: all bounds are certified, 2: unusable input, 3: one is not.
+    """
+    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.robots import load
+
+    gain_file = read_gain_file(file)
+    model = load(robot_name(robot, [gain_file]))
+    require_joints([gain_file], model)
+    task = _task(model, target, start, time, delta)
+    torque = _torques("--disturbance", disturbance, model)
+    dry = None if friction is None else _torques("--friction", friction, model)
+    with progress("bounds") as advance:
+        found = _run(
+            gain_file.gains, model, task, (math.radians(delta), torque, dry), max_boxes, jobs, advance
+        )
+    from lyapcheck.bounds import renderer
+
+    sys.stdout.write(renderer(format.value)(found))
+    whole = all(one.settling.time is not None and one.disturbance.level is not None for one in found)
+    raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
+
+
+def _task(model: RobotModel, target: str | None, start: str | None, time: float, delta: float) -> Task:
+    """The task of the command line, or every problem with it at once."""
+    from lyapcheck.cli.task import task_of
+
+    problems: list[Problem] = []
+    if not 0.0 < delta <= 180.0:
+        rule = "must be more than 0 and at most 180 degrees"
+        problems.append(Problem("argument", None, "--delta", f"{delta:g}", rule, "write --delta 1"))
+    try:
+        task = task_of(model, target, start, time)
+    except InputError as error:
+        raise InputError([*error.problems, *problems]) from error
+    if problems:
+        raise InputError(problems)
+    return task
+
+
+def _torques(option: str, text: str | None, model: RobotModel) -> tuple[float, ...]:
+    """Torques in N·m, one a joint and none below 0; none at all if there is no text."""
+    if text is None:
+        return ()
+    try:
+        values = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        values = ()
+    if len(values) != model.n or not all(0.0 <= value <= MOST_TORQUE for value in values):
+        rule = f"must be {model.n} torques from 0 to {MOST_TORQUE:g} N·m"
+        raise argument_error(option, text, rule, f"write {option} {','.join(['0.1'] * model.n)}")
+    return values
+
+
+Asked = tuple[float, tuple[float, ...], tuple[float, ...] | None]
+
+
+def _run(
+    gains: tuple[GainSet, ...],
+    model: RobotModel,
+    task: Task,
+    asked: Asked,
+    max_boxes: int,
+    jobs: int,
+    advance: Advance,
+) -> list[Comparison]:
+    """The bounds of every gain set."""
+    from lyapcheck.bounds.compare import compare
+
+    found = []
+    for done, gain_set in enumerate(gains):
+
+        def tell(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
+            advance((done + fraction) / len(gains), f"{name}: {note}")
+
+        found.append(compare(gain_set, model, task, *asked, max_boxes=max_boxes, jobs=jobs, on_progress=tell))
+    return found

@@ -1,0 +1,89 @@
+"""The closed loop (11) with a constant torque and dry friction added."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.simulate.compiled import Compiled
+from lyapcheck.simulate.dynamics import closed_loop, solve_definite
+from lyapcheck.simulate.integrate import integrate
+from lyapcheck.simulate.setup import set_up
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+
+Array = NDArray[np.float64]
+
+CREEP = 1e-3
+"""rad/s: dry friction is f tanh(w/creep), so that a joint that should stick creeps."""
+TOLERANCE = 1e-8
+
+
+@dataclass(frozen=True, eq=False)
+class DisturbedRun:
+    """A motion: ``t`` (N,) in s; ``q``, ``e`` in rad and ``w`` in rad/s, each (N, n); why it ended early."""
+
+    t: Array
+    q: Array
+    e: Array
+    w: Array
+    failure: str | None
+
+
+def disturbed(
+    gain_set: GainSet,
+    model: RobotModel,
+    q_d: Sequence[float],
+    q0: Sequence[float] | None = None,
+    w0: Sequence[float] | None = None,
+    T: float = 5.0,
+    *,
+    torque: Sequence[float] = (),
+    dry: Sequence[float] = (),
+    points: int = 1001,
+) -> DisturbedRun:
+    """Move an arm under its controller while torques act on its joints.
+
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w + d − f tanh(w/creep).
+
+    Args:
+        gain_set: the controller.
+        model: the arm, uncertain parameters at their nominal values.
+        q_d: (n,) goal in rad.
+        q0: (n,) start in rad; home if missing.
+        w0: (n,) initial rates in rad/s; rest if missing.
+        T: seconds.
+        torque: (n,) constant d in N·m; none if empty.
+        dry: (n,) dry friction f in N·m; none if empty.
+        points: samples handed back.
+
+    Raises:
+        InputError: a task the arm cannot be given.
+
+    Soundness: floating point throughout: evidence, never a proof.
+
+    References: (11) of ``reyes2019family``.
+    """
+    setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=None, points=points)
+    loop, n = closed_loop(setup.gains, model), model.n
+    from lyapcheck.robots import graph
+
+    w = loop.state[n : 2 * n]
+    added = ca.DM(list(torque) or [0.0] * n) - ca.DM(list(dry) or [0.0] * n) * ca.tanh(w / CREEP)
+    push = solve_definite(graph.mass(model, loop.state[:n]), added)
+    whole = loop.rate + ca.vertcat(ca.SX.zeros(n), push, 0, 0)
+    inputs = [loop.state, loop.goal]
+    rate = Compiled(ca.Function("rate", inputs, [ca.densify(whole)]))
+    slope = Compiled(ca.Function("slope", inputs, [ca.densify(ca.jacobian(whole, loop.state))]))
+    goal, t = np.array(setup.task.q_d), np.linspace(0.0, setup.task.T, points)
+    start = np.array([*setup.task.q0, *setup.task.w0, 0.0, 0.0])
+    path = integrate(lambda _, y: rate(y, goal), lambda _, y: slope(y, goal), start, t, TOLERANCE)
+    q = path.y[:, :n]
+    return DisturbedRun(path.t, q, goal - q, path.y[:, n : 2 * n], path.failure)

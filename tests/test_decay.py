@@ -1,0 +1,295 @@
+"""Certified decay of V, times and disturbances: what they must contain, and what they must refuse."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
+from lyapcheck.check.decay import Disturbance, Estimate, Margin, shown
+from lyapcheck.check.decay.least import Well
+from lyapcheck.check.members import member
+from lyapcheck.cli.main import main
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import load
+from lyapcheck.search.decay import disturbance_bound, settling_bound
+from lyapcheck.search.margins import Shown, margin_at, proved, reduced_radial
+from lyapcheck.search.radial import radial_data
+from lyapcheck.search.setting import Setting
+from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
+
+F = Fraction
+TABLE = {"buap3": "table2", "reyes-kelly2": "table2_shoulder_elbow"}
+CASES = [(robot, index) for robot in TABLE for index in range(3)]
+GOAL = {1: (0.5,), 2: (math.pi / 4, math.pi / 2), 3: (math.pi / 4, math.pi / 4, math.pi / 2)}
+DELTA = math.radians(10.0)
+
+
+@cache
+def setting(robot: str, index: int) -> Setting:
+    return Setting(read_gain_file(paper_gain_file(TABLE[robot])).gains[index], load(robot))
+
+
+def single(robot: str, m: int = 1) -> Setting:
+    """Gains of some size for any arm."""
+    model = load(robot)
+    kp, kv = (F(10),) * model.n, (F(1, 4),) * model.n
+    gains = GainSet(name="made", family="hyperbolic", m=m, kp=kp, kv=kv)
+    return Setting(gains, model)
+
+
+LIMIT = {"buap3": (F("0.134"), F("0.166"), F("0.104")), "reyes-kelly2": (F("0.81"), F("0.92"), F("0.63"))}
+"""Just below an ε₀ that an explicit state refutes."""
+
+
+@cache
+def accepted(robot: str, index: int) -> Shown:
+    """A margin with η = 1/4 at less than half of what is refuted."""
+    at = setting(robot, index)
+    data = radial_data(at)
+    assert data is not None
+    found = proved(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), data))
+    assert found is not None
+    return found
+
+
+def goal(at: Setting) -> tuple[float, ...]:
+    return GOAL[at.n]
+
+
+@cache
+def run(robot: str, index: int, T: float = 20.0, torque: float = 0.0, dry: bool = False) -> DisturbedRun:
+    at = setting(robot, index)
+    friction = [float(c.value) for c in at.model.coulomb if c is not None] if dry else ()
+    push = [torque] * at.n
+    return disturbed(at.gains, at.model, goal(at), T=T, torque=push, dry=friction, points=401)
+
+
+def level_along(at: Setting, eps0: Fraction, motion: DisturbedRun) -> np.ndarray:
+    numeric = LyapunovNumeric(at.model, at.family, list(at.kp), list(at.kv), float(eps0))
+    return numeric.V(motion.q, motion.e, motion.w)
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_dV_dt_is_below_the_margin_at_random_states(robot: str, index: int) -> None:
+    at, margin = setting(robot, index), accepted(robot, index).margin
+    random = np.random.default_rng(7)
+    q, w = random.uniform(-np.pi, np.pi, (2000, at.n)), random.normal(size=(2000, at.n)) * 3
+    e = random.normal(size=(2000, at.n)) * 10.0 ** random.uniform(-2, 1, (2000, 1))
+    eps0, eta, kappa = (float(x) for x in (margin.closure.eps0, margin.friction, margin.stiffness))
+    rate = LyapunovNumeric(at.model, at.family, list(at.kp), list(at.kv), eps0).rate(q, e, w)
+    eps = eps0 / (1 + np.linalg.norm(e, axis=1, keepdims=True))
+    h = at.family.h(e)
+    y = w - eps * h
+    bound = np.sum(eta * at.viscous * y * w + kappa * eps * at.kp * h * h, axis=1)
+    assert np.all(-rate >= bound * (1 - 1e-9))
+    smaller = LyapunovNumeric(at.model, at.family, list((1 - kappa) * at.kp), list(at.kv), eps0)
+    smaller.viscous = [(1 - eta) * b for b in at.viscous]
+    assert np.allclose(rate, smaller.rate(q, e, w) - bound, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_V_of_a_run_stays_under_the_envelope(robot: str, index: int) -> None:
+    at, found = setting(robot, index), accepted(robot, index)
+    estimate = Estimate(found.margin, Disturbance.none(at.n))
+    start = tuple(map(F, goal(at))), (F(0),) * at.n
+    motion = run(robot, index)
+    V = level_along(at, found.margin.closure.eps0, motion)
+    first = estimate.start_level(*start)
+    assert V[0] <= first
+    assert np.all(float(first) * (1 + 1e-9) >= V)
+    reach = np.array(estimate.reach(first))
+    assert np.all(np.abs(motion.e) <= reach)
+
+
+@pytest.mark.parametrize(("robot", "index"), [("buap3", 0), ("reyes-kelly2", 0), ("reyes-kelly2", 1)])
+def test_the_time_bound_is_kept_by_the_run(robot: str, index: int) -> None:
+    at = setting(robot, index)
+    found = settling_bound(at, goal(at), delta=DELTA)
+    assert found.time is not None
+    assert found.rests_on is not None
+    motion = run(robot, index)
+    outside = np.abs(motion.e).max(axis=1) > DELTA
+    late = motion.t[outside]
+    assert late.size == 0 or late[-1] <= found.time
+    V = level_along(at, found.rests_on.eps0, motion)
+    times, levels = (np.array([float(x[k]) for x in found.envelope]) for k in (0, 1))
+    assert np.all(np.diff(times) > 0)
+    assert np.all(np.diff(levels) < 0)
+    allowed = levels[np.searchsorted(times, motion.t, side="right") - 1]
+    assert np.all(allowed * (1 + 1e-9) >= V)
+    assert found.exponential == (at.gains.m == 1)
+
+
+@pytest.mark.parametrize("robot", ["pendulum1", "pelican2"])
+def test_other_arms_have_bounds(robot: str) -> None:
+    at = single(robot)
+    found = settling_bound(at, goal(at), delta=DELTA)
+    motion = disturbed(at.gains, at.model, goal(at), T=20.0, points=401)
+    late = motion.t[np.abs(motion.e).max(axis=1) > DELTA]
+    assert found.time is not None
+    assert float(found.time) >= late[-1]
+
+
+def test_an_arm_of_one_joint_is_bounded_sharply_enough_to_be_of_use() -> None:
+    at = single("pendulum1")
+    found = settling_bound(at, goal(at), delta=math.radians(1.0))
+    assert found.time is not None
+    assert found.time < 60
+
+
+def test_a_smaller_angle_or_a_farther_start_takes_longer() -> None:
+    at, found = setting("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
+    times = [settling_bound(at, goal(at), delta=x).time for x in (0.4, 0.1)]
+    assert all(a is not None and b is not None and a < b for a, b in itertools.pairwise(times))
+    estimate = Estimate(found.margin, Disturbance.none(2))
+    near, far = ((F(1, 2), F(1, 2)), (F(0),) * 2), ((F(1), F(1)), (F(1),) * 2)
+    assert estimate.start_level(*near) < estimate.start_level(*far)
+    assert estimate.level_within(F(1, 10)) < estimate.level_within(F(1, 5))
+
+
+@pytest.mark.parametrize(("robot", "index"), [("buap3", 0), ("reyes-kelly2", 0), ("reyes-kelly2", 2)])
+def test_runs_with_dry_friction_come_inside(robot: str, index: int) -> None:
+    at = setting(robot, index)
+    friction = [c.value for c in at.model.coulomb if c is not None]
+    found = disturbance_bound(at, goal(at), dry=friction)
+    assert found.level is not None
+    assert found.rests_on is not None
+    assert found.start_level is not None
+    motion = run(robot, index, dry=True)
+    V = level_along(at, found.rests_on.eps0, motion)
+    assert V[-1] <= found.level < found.start_level
+    assert np.all(np.abs(motion.e[-1]) <= np.array(found.errors))
+    # the regularised friction lets joints creep, so what is at rest is only reached slowly
+    assert all(x is not None and x <= y for x, y in zip(found.rest, found.errors, strict=True))
+
+
+def test_a_run_with_a_constant_torque_comes_inside() -> None:
+    at = setting("reyes-kelly2", 0)
+    found = disturbance_bound(at, goal(at), torque=[0.05, 0.05])
+    motion = run("reyes-kelly2", 0, T=100.0, torque=0.05)
+    assert found.level is not None
+    assert np.all(np.abs(motion.e[-1]) <= np.array(found.errors))
+    resting = np.array([x for x in found.rest if x is not None])
+    assert np.all(np.abs(motion.e[-1]) <= resting * (1 + 1e-6) + 1e-6)
+
+
+def test_more_disturbance_leaves_more() -> None:
+    at = setting("reyes-kelly2", 0)
+    levels = [disturbance_bound(at, goal(at), torque=[x, x]).level for x in (0.02, 0.05)]
+    assert levels[0] is not None
+    assert levels[1] is not None
+    assert levels[0] < levels[1]
+
+
+def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
+    at = setting("reyes-kelly2", 0)
+    found = disturbance_bound(at, goal(at), dry=[61, 6])
+    assert found.level is None
+    assert found.errors == ()
+    assert "too large" in found.reason
+    assert found.rest == (None, None)
+
+
+def test_the_least_value_of_a_well_is_below_all_samples() -> None:
+    from lyapcheck.check.balls import to_arb
+
+    x = np.linspace(0.0, 6.0, 3001)
+    for m, c, f, a in ((1, 1.0, 0.3, 0.4), (2, 2.0, 0.0, 0.5), (3, 1.5, 0.6, 0.05), (8, 3.0, 0.0, 1.0)):
+        family = Setting(replace(setting("reyes-kelly2", 0).gains, m=m), load("reyes-kelly2")).family
+        well = Well(member("hyperbolic", m), to_arb(F(c)), to_arb(F(f)), to_arb(F(a)))
+        sampled = float(np.min(c * family.h(x) ** 2 - f * family.h(x) - a * family.potential(x)))
+        least = float(well.least(6.0))
+        assert sampled - 1e-3 <= least <= sampled + 1e-9
+
+
+def test_a_margin_that_is_too_large_is_refused() -> None:
+    at, found = setting("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
+    margin = found.margin
+    assert shown(margin, found.by)
+    assert not shown(replace(margin, friction=F(19, 20)), found.by)
+    assert not shown(replace(margin, stiffness=F(1)), found.by)
+    assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), found.by)
+    smaller = replace(margin.inertia, inertia=margin.inertia.inertia / 2)
+    assert not shown(replace(margin, inertia=smaller), found.by)
+    heavier = replace(margin.inertia, weights=tuple(2 * d for d in margin.inertia.weights))
+    assert not shown(replace(margin, inertia=heavier), found.by)
+    assert not shown(margin_at(at, F(1), margin.friction, F(0), margin.inertia), BoxTree("."))
+
+
+def test_data_in_r_alone_show_a_margin_too() -> None:
+    at = setting("reyes-kelly2", 0)
+    data = radial_data(at)
+    assert data is not None
+    margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
+    own = reduced_radial(margin)
+    by = RadialBounds(own.weights, own.inertia, own.angles, own.tree, own.cuts)
+    assert shown(margin, by)
+    assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), by)
+
+
+def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:
+    margin: Margin = accepted("reyes-kelly2", 0).margin
+    estimate = Estimate(margin, Disturbance.none(2))
+    with pytest.raises(ValueError, match="λ"):
+        estimate.fall(F(1), F(2), 2 * estimate.steepest)
+    with pytest.raises(ValueError, match="order"):
+        estimate.fall(F(2), F(1), F(0))
+    with pytest.raises(ValueError, match="share"):
+        Estimate(margin, Disturbance((F(1), F(1)), (F(0), F(0))))
+    assert estimate.descent([F(2), F(1)], [F(0)]) is None
+
+
+def test_unusable_requests_are_all_named() -> None:
+    at = setting("reyes-kelly2", 0)
+    with pytest.raises(InputError) as caught:
+        settling_bound(at, [math.nan, 0.0], [0.0], delta=-1.0)
+    assert {problem.key for problem in caught.value.problems} == {"e0", "w0", "delta"}
+    with pytest.raises(InputError):
+        disturbance_bound(at, [0.1, 0.1], torque=[-1.0, 0.0])
+    pd = Setting(read_gain_file(paper_gain_file("table2_pd")).gains[0], load("buap3"))
+    with pytest.raises(InputError, match="unbounded"):
+        settling_bound(pd, [0.1, 0.1, 0.1])
+
+
+def test_the_command_prints_bounds_beside_the_run(monkeypatch, capsys, tmp_path) -> None:
+    gains = tmp_path / "gains.toml"
+    gains.write_text(
+        'robot = "reyes-kelly2"\n[[gains]]\nname = "one"\nm = 1\nkp = [60, 5]\nkv = [0.2, 0.2]\n'
+    )
+    asked = ["bounds", str(gains), "--target", "45,90", "--delta", "10", "--disturbance", "0.01,0.01"]
+    code, out, _ = command([*asked, "--format", "json", "--friction", "0,0"], monkeypatch, capsys)
+    data = json.loads(out)
+    assert code == 0
+    assert data["schema"] == "lyapcheck/bounds/1"
+    for result in data["results"]:
+        assert result["settling"]["time"] >= (result["simulated"]["time"] or 0.0)
+        assert result["disturbance"]["level"] > 0
+
+
+def test_the_command_refuses_what_it_cannot_use(monkeypatch, capsys) -> None:
+    gains = str(paper_gain_file("table2_shoulder_elbow"))
+    code, _, err = command(["bounds", gains, "--delta", "0"], monkeypatch, capsys)
+    assert code == 2
+    assert "--target" in err
+    assert "--delta" in err
+    code, _, err = command(["bounds", gains, "--target", "1,1", "--disturbance", "a,b"], monkeypatch, capsys)
+    assert code == 2
+    assert "--disturbance" in err
+
+
+def command(arguments: list[str], monkeypatch, capsys) -> tuple[int, str, str]:
+    monkeypatch.setattr(sys, "argv", ["lyapcheck", *arguments])
+    with pytest.raises(SystemExit) as left:
+        main()
+    return int(left.value.code or 0), *capsys.readouterr()
