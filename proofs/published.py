@@ -843,7 +843,7 @@ def numbers_at_hand(case):
 
 @proof.claim(
     "18.gains",
-    "for the gains at hand, and bounds of the arm for β_M and k_c, every ε₀ in (18) makes Θ positive definite",
+    "for the gains at hand, with bounds of β_M and k_c, every ε₀ in (18) makes Θ positive definite",
     place="(18)",
     section=CONDITIONS,
 )

@@ -10,6 +10,7 @@ import pytest
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import find_script
+from lyapcheck.errors import InputError
 from lyapcheck.family import hyperbolic
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
@@ -194,3 +195,18 @@ def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
 
 def test_no_verdict_is_written_in_the_script():
     assert re.findall(r"\b(proved|refuted|undecided|Verdict|Decision)\b", SOURCE) == []
+
+
+def test_claims_can_be_adopted_from_another_script(tmp_path):
+    """With what they use, under their ids; what the script has already stays, and unknown ids are refused."""
+    head = "from lyapcheck.claims import *\nproof = Proof('mine', 'mine')\n"
+    own = "proof.add('h.bound', 'mine', Constant(expr(1) <= 2))\n"
+    path = tmp_path / "mine.py"
+    path.write_text(head + own + "proof.adopt('scalar.py', 'rate.5', section='Theirs')\n", encoding="utf-8")
+    rows = {row.id: row for row in run_proof(path, ms=(1,), n=2).claims}
+    assert {"rate.5", "rate", "V.smooth", "h.steep"} <= set(rows)
+    assert rows["h.bound"].statement == "mine"
+    assert rows["rate.5"].section == "Theirs"
+    path.write_text(head + "proof.adopt('scalar.py', 'rate.55')\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"did you mean rate\.5"):
+        run_proof(path, ms=(1,), n=2)

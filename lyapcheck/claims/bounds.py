@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from flint import ctx
@@ -79,21 +80,56 @@ class FamilyBounds:
 class ArmBounds:
     """β_M, k_c, λmin(B) and λmax(B) of a robot without ranges, with the entries and sizes behind them.
 
-    ‖M(q)‖ is at most the largest sum of a row of ``sizes``; ‖C(q,x)y‖ is at most ‖x‖‖y‖ times the root of
-    ``squares``, the sum of the squares of ``symbol_sizes``. These bound c_ijk, in the order of k, i, j.
+    ‖M(q)‖ is at most its largest row sum of absolute values; ‖C(q,x)y‖ is at most (Σ c_ijk²)^½ ‖x‖‖y‖.
     """
 
     def __init__(self, robot: RobotModel) -> None:
-        n = robot.n
-        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
-        self.mass = [entry for row in mass_matrix(robot) for entry in row]
-        self.symbols = [entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row]
-        self.sizes, self.symbol_sizes = entry_sizes(self.mass), entry_sizes(self.symbols)
-        self.rows = [sum(self.sizes[n * i : n * i + n], Fraction(0)) for i in range(n)]
-        self.squares = sum((size**2 for size in self.symbol_sizes), Fraction(0))
-        self.beta, self.kc = above(max(self.rows)), above(sqrt(self.squares))
+        self.robot = robot
         friction = [number.value for number in robot.viscous]
         self.b_min, self.b_max = min(friction), max(friction)
+
+    @cached_property
+    def mass(self) -> list[Expr]:
+        """The entries of M(q), row by row."""
+        return [entry for row in mass_matrix(self.robot) for entry in row]
+
+    @cached_property
+    def sizes(self) -> list[Fraction]:
+        """Bounds of the entries of M(q)."""
+        return entry_sizes(self.mass)
+
+    @cached_property
+    def rows(self) -> list[Fraction]:
+        """The sums of the rows of ``sizes``."""
+        n = self.robot.n
+        return [sum(self.sizes[n * i : n * i + n], Fraction(0)) for i in range(n)]
+
+    @cached_property
+    def symbols(self) -> list[Expr]:
+        """The entries of C(q, unit k), row by row, for each k."""
+        n = self.robot.n
+        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
+        return [entry for unit in units for row in coriolis_matrix(self.robot, unit) for entry in row]
+
+    @cached_property
+    def symbol_sizes(self) -> list[Fraction]:
+        """Bounds of the Christoffel symbols."""
+        return entry_sizes(self.symbols)
+
+    @cached_property
+    def squares(self) -> Fraction:
+        """Σ c_ijk²."""
+        return sum((size**2 for size in self.symbol_sizes), Fraction(0))
+
+    @cached_property
+    def beta(self) -> Fraction:
+        """β_M, kg·m²."""
+        return above(max(self.rows))
+
+    @cached_property
+    def kc(self) -> Fraction:
+        """k_c, kg·m²."""
+        return above(sqrt(self.squares))
 
 
 def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fraction | None:
