@@ -22,6 +22,8 @@ Progress = Callable[[float, str], None]
 
 SEED = 20190301
 PROOF = "published.py"
+INSTEAD = ("scalar.py", "tracking.py")
+"""Proofs of what the paper concludes, that do not rest on what is refuted."""
 WORKERS = 2
 PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
 EQUATIONS = ("V12", "V13", "rate", "Q", "X", "Y", "S")
@@ -67,7 +69,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     from lyapcheck.robots import load
 
     model = load(subject.robot)
-    claims, parts = _compute(subject, on_progress or (lambda fraction, note: None))
+    claims, instead, parts = _compute(subject, on_progress or (lambda fraction, note: None))
     epsilon = tuple(part.epsilon for part in parts)
     runs = tuple(part.run.facts for part in parts)
     gate = tuple(_gate(subject))
@@ -80,6 +82,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         gate=gate,
         epsilon=epsilon,
         claims=claims,
+        instead=instead,
         runs=runs,
         findings=findings(claims, gate, epsilon, runs),
         figures=draw(subject.ms, claims, epsilon, [part.run for part in parts]),
@@ -88,8 +91,8 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     )
 
 
-def _compute(subject: Subject, tell: Progress) -> tuple[tuple[Data, ...], list[GainData]]:
-    """The long computations, a process for each core: claims by m, then each gain set."""
+def _compute(subject: Subject, tell: Progress) -> tuple[tuple[Data, ...], tuple[Data, ...], list[GainData]]:
+    """The long computations, a process for each core: each gain set, then the claims of each proof by m."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     with ProcessPoolExecutor(WORKERS, mp_context=get_context("spawn")) as pool:
         sets: list[tuple[str, Future[Any]]] = [
@@ -98,13 +101,23 @@ def _compute(subject: Subject, tell: Progress) -> tuple[tuple[Data, ...], list[G
         ]
         gains_of = subject.gain_files[0].path
         proofs: list[tuple[str, Future[Any]]] = [
-            (f"claims for m = {m}", pool.submit(claims_job, PROOF, m, subject.robot, gains_of))
+            (f"{proof} for m = {m}", pool.submit(claims_job, proof, m, subject.robot, gains_of))
+            for proof in (PROOF, *INSTEAD)
             for m in subject.ms
         ]
         _watch({job: label for label, job in sets} | {job: label for label, job in proofs}, tell)
         parts = [job.result() for _, job in sets]
-        rows = [row for _, job in proofs for row in job.result()]
-    return _merged(rows), parts
+        decided = [job.result() for _, job in proofs]
+    count = len(subject.ms)
+    published = [row for rows in decided[:count] for row in rows]
+    instead = [row for rows in decided[count:] for row in conclusions(rows)]
+    return _merged(published), tuple(instead), parts
+
+
+def conclusions(rows: Sequence[Data]) -> list[Data]:
+    """The claims of a proof that no other claim of it uses."""
+    used = {name for row in rows for name in row["uses"]}
+    return [row for row in rows if row["id"] not in used]
 
 
 def _watch(labels: dict[Future[Any], str], tell: Progress) -> None:

@@ -20,6 +20,7 @@ def render(report: Report) -> dict[str, str]:
         "gate": report.gate,
         "epsilon": report.epsilon,
         "claims": report.claims,
+        "instead": report.instead,
         "runs": report.runs,
         "figures": sorted(report.figures),
         "versions": dict(report.versions),

@@ -39,7 +39,8 @@ class Report:
         equations: LaTeX of the controller, V and dV/dt, by name.
         gate: gate results, one a gain set.
         epsilon: the four ε₀, one entry a gain set.
-        claims: decided claims, one row a claim and m.
+        claims: decided claims of the paper, one row a claim and m.
+        instead: what other proofs conclude, one row a conclusion and m.
         runs: simulated runs, one a gain set, the PD baseline last.
         findings: where the paper is not confirmed.
         figures: SVG text by file name.
@@ -54,6 +55,7 @@ class Report:
     gate: tuple[Data, ...]
     epsilon: tuple[Data, ...]
     claims: tuple[Data, ...]
+    instead: tuple[Data, ...]
     runs: tuple[Data, ...]
     findings: tuple[Finding, ...]
     figures: Mapping[str, str] = field(repr=False)
@@ -82,6 +84,11 @@ class MemberView:
     def claims(self) -> tuple[Data, ...]:
         """Claims decided for this m, and those that do not depend on m."""
         return tuple(row for row in self.report.claims if row["m"] in (self.m, None))
+
+    @property
+    def instead(self) -> tuple[Data, ...]:
+        """Conclusions of other proofs for this m."""
+        return tuple(row for row in self.report.instead if row["m"] in (self.m, None))
 
     @property
     def constants(self) -> Data | None:
