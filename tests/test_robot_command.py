@@ -16,14 +16,14 @@ from urdf_texts import ARMS, TWO, generic
 
 from lyapcheck import robots
 from lyapcheck.cli.main import build_app
+from lyapcheck.constants import arm_constants
+from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.basis import Products, Sums, basis_of
+from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
+from lyapcheck.constants.waves import derivative, waves
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.arm_constants import arm_constants
-from lyapcheck.search.arm_waves import ArmWaves
-from lyapcheck.search.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
-from lyapcheck.search.wave_basis import Products, Sums, basis_of
-from lyapcheck.search.waves import derivative, waves
 
 SEEDS = st.integers(0, 10**6)
 
@@ -124,7 +124,7 @@ def test_no_state_lies_outside_the_constants(tmp_path: Path, name: str) -> None:
     (tmp_path / "generic4.urdf").write_text(generic(4))
     path = {"ur5": ARMS / "ur5.urdf", "generic4": tmp_path / "generic4.urdf"}.get(name, name)
     arm = robots.load(path)
-    found = {constant.name: constant for constant in arm_constants(arm, 2000)}
+    found = {constant.name: constant for constant in arm_constants(arm, 600)}
     model, rng = NumericModel(arm), np.random.default_rng(4)
     q, x = rng.uniform(-np.pi, np.pi, (2000, arm.n)), rng.normal(size=(2000, arm.n))
     values, gravity = np.linalg.eigvalsh(model.mass(q)), np.abs(model.gravity(q))
@@ -155,7 +155,7 @@ def test_masses_and_distances_bound_every_chain(tmp_path: Path, seed: int) -> No
 def test_every_constant_is_shown_by_its_state(name: str) -> None:
     arm = robots.load(ARMS / "ur5.urdf" if name == "ur5" else name)
     model = NumericModel(arm)
-    for constant in arm_constants(arm, 1000):
+    for constant in arm_constants(arm, 100):
         state = np.array(constant.state)
         q, x = state[: arm.n], state[arm.n :]
         inside = float(
@@ -183,7 +183,8 @@ def test_known_extremes_of_the_two_joint_arm() -> None:
 
 def test_a_larger_budget_is_never_worse() -> None:
     arm = robots.load(ARMS / "ur5.urdf")
-    few, many = (arm_constants(arm, boxes) for boxes in (300, 3000))
+    names = ("lambda_min", "lambda_max", "k_c")
+    few, many = (arm_constants(arm, boxes, names=names) for boxes in (60, 600))
     assert all(b.enclosure.width <= a.enclosure.width for a, b in zip(few, many, strict=True))
 
 
@@ -222,6 +223,7 @@ def test_friction_that_a_file_does_not_tell_is_not_refuted(tmp_path: Path) -> No
     assert "no viscous friction is known of elbow; state it in an arm file" in out
 
 
+@pytest.mark.slow
 def test_panda_with_its_hand() -> None:
     code, out = run(str(ARMS / "panda.urdf"), "--tip", "panda_hand", "--max-boxes", "300", "--format", "json")
     result = json.loads(out)
