@@ -12,7 +12,7 @@ import typer
 
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import Advance, progress
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import InputError, Problem
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -70,13 +70,15 @@ def command(
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))
     require_joints([gain_file], model)
-    task = _task(model, target, start, time, delta)
-    torque = _torques("--disturbance", disturbance, model)
-    dry = None if friction is None else _torques("--friction", friction, model)
+    problems: list[Problem] = []
+    task = _task(model, target, start, time, problems)
+    angle = _angle(delta, problems)
+    torque = _torques("--disturbance", disturbance, model, problems)
+    dry = None if friction is None else _torques("--friction", friction, model, problems)
+    if task is None or problems:
+        raise InputError(problems)
     with progress("bounds") as advance:
-        found = _run(
-            gain_file.gains, model, task, (math.radians(delta), torque, dry), max_boxes, jobs, advance
-        )
+        found = _run(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
     from lyapcheck.bounds import renderer
 
     sys.stdout.write(renderer(format.value)(found))
@@ -84,24 +86,27 @@ def command(
     raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
 
 
-def _task(model: RobotModel, target: str | None, start: str | None, time: float, delta: float) -> Task:
-    """The task of the command line, or every problem with it at once."""
+def _task(
+    model: RobotModel, target: str | None, start: str | None, time: float, problems: list[Problem]
+) -> Task | None:
     from lyapcheck.cli.task import task_of
 
-    problems: list[Problem] = []
+    try:
+        return task_of(model, target, start, time)
+    except InputError as error:
+        problems += error.problems
+        return None
+
+
+def _angle(delta: float, problems: list[Problem]) -> float:
+    """The error to come below, in rad."""
     if not 0.0 < delta <= 180.0:
         rule = "must be more than 0 and at most 180 degrees"
         problems.append(Problem("argument", None, "--delta", f"{delta:g}", rule, "write --delta 1"))
-    try:
-        task = task_of(model, target, start, time)
-    except InputError as error:
-        raise InputError([*error.problems, *problems]) from error
-    if problems:
-        raise InputError(problems)
-    return task
+    return math.radians(delta)
 
 
-def _torques(option: str, text: str | None, model: RobotModel) -> tuple[float, ...]:
+def _torques(option: str, text: str | None, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:
     """Torques in N·m, one a joint and none below 0; none at all if there is no text."""
     if text is None:
         return ()
@@ -111,7 +116,8 @@ def _torques(option: str, text: str | None, model: RobotModel) -> tuple[float, .
         values = ()
     if len(values) != model.n or not all(0.0 <= value <= MOST_TORQUE for value in values):
         rule = f"must be {model.n} torques from 0 to {MOST_TORQUE:g} N·m"
-        raise argument_error(option, text, rule, f"write {option} {','.join(['0.1'] * model.n)}")
+        repair = f"write {option} {','.join(['0.1'] * model.n)}"
+        problems.append(Problem("argument", None, option, text, rule, repair))
     return values
 
 
