@@ -7,8 +7,8 @@ import traceback
 from difflib import get_close_matches
 from pathlib import Path
 
-import lyapcheck
 from lyapcheck.claims.claim import Proof
+from lyapcheck.control.paper import proofs_folder
 from lyapcheck.errors import InputError, Problem
 
 
@@ -19,14 +19,14 @@ def find_script(name: str) -> Path:
         InputError: there is no such file.
     """
     given = Path(name)
+    if given.suffix.lower() != ".py" and (given.exists() or given.suffix):
+        rule = "a proof script is a Python file (.py)"
+        raise InputError(Problem(name, None, "PROOF", name, rule, "give the path of a .py file"))
     if given.is_file():
         return given
-    package = Path(lyapcheck.__file__).parent
-    shipped = [folder / given.name for folder in (package / "proofs", package.parent / "proofs")]
-    if given.parent in (Path(), Path("proofs")):
-        for path in shipped:
-            if path.is_file():
-                return path
+    shipped = proofs_folder() / given.name
+    if given.parent in (Path(), Path("proofs")) and shipped.is_file():
+        return shipped
     repair = "give the path of a proof script, or published.py for the paper's own proof"
     raise InputError(Problem(name, None, "PROOF", name, "no such proof script", repair))
 

@@ -35,8 +35,12 @@ def require_folder(option: str, folder: Path) -> None:
     if folder.exists() and not folder.is_dir():
         raise argument_error(option, folder, "is a file", "name a folder")
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise argument_error(option, folder, f"{nearest} cannot be written to", "name a folder elsewhere")
+    try:
+        with tempfile.TemporaryFile(dir=nearest):
+            pass
+    except OSError as error:
+        rule = f"{nearest} cannot be written to ({error.strerror})"
+        raise argument_error(option, folder, rule, "name a folder elsewhere") from error
 
 
 def write(files: Mapping[str, str], folder: Path) -> None:
