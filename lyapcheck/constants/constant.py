@@ -79,7 +79,7 @@ class Task:
 
     def at(self, states: Array) -> Array:
         """What the function is at least at states, given by their coordinates."""
-        return self.value(self.torus.on(states, np.zeros_like(states)).value)
+        return self.value(self.torus.at(states))
 
     def influence(self, middle: Array, half: Array) -> Array:
         """How much each side of a box matters."""

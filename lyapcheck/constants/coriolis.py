@@ -37,7 +37,7 @@ def coriolis_task(arm: ArmWaves) -> Task:
         return _pushed(arm.tensor(entries))[0] * (1 - 1e-12) - 2 * arm.n * torus.lost
 
     def shown(q: Array) -> tuple[float, ...]:
-        tensor = arm.tensor(torus.on(q[None], np.zeros((1, arm.n))).value)
+        tensor = arm.tensor(torus.at(q[None]))
         return (*torus.angles_at(q).tolist(), *_pushed(tensor)[1][0].tolist())
 
     weight = np.ones(len(arm.triples))

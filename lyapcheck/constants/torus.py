@@ -81,6 +81,10 @@ class Torus:
         """What rounding can take from the size of all polynomials together."""
         return float(2 * np.sum(self.slack))
 
+    def at(self, states: Array) -> Array:
+        """Values at states, given by their coordinates (count, n); up to ``slack``."""
+        return np.asarray(self._basis.at(states).values @ self._coefficients)
+
     def on(self, middle: Array, half: Array) -> Reach:
         """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
         at = self._basis.at(middle)
