@@ -29,8 +29,10 @@ class InputError(Exception):
     """
 
     def __init__(self, problems: Problem | list[Problem]) -> None:
-        self.problems = [problems] if isinstance(problems, Problem) else sorted(
-            problems, key=lambda p: (p.file, p.line or 0, p.key, p.rule)
+        self.problems = (
+            [problems]
+            if isinstance(problems, Problem)
+            else sorted(problems, key=lambda p: (p.file, p.line or 0, p.key, p.rule))
         )
         super().__init__("\n".join(map(str, self.problems)))
 

@@ -58,7 +58,11 @@ def candidates(setting: Setting, disturbed: bool) -> list[Margin]:
     allows = _by_samples(setting) if setting.n <= MOST_JOINTS else _by_bounds(inertia)
     found = []
     for friction in FRICTION:
-        eps0 = _largest(lambda x, eta=friction: allows(margin_at(setting, x, eta, slack, inertia).reduced))
+
+        def holds(eps0: Fraction, eta: Fraction = friction) -> bool:
+            return allows(margin_at(setting, eps0, eta, slack, inertia).reduced)
+
+        eps0 = _largest(holds)
         if eps0 > 0:
             found.append(margin_at(setting, eps0, friction, slack, inertia))
     return found
