@@ -24,7 +24,7 @@ from lyapcheck.report.figures.claims import claims_figure, layout, tied
 from lyapcheck.report.figures.motion import errors_figure, torques_figure
 from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Report
-from lyapcheck.report.text import bracket, listed, number, span_words, witness_words
+from lyapcheck.report.text import bracket, listed, number, span_words, together, witness_words
 from lyapcheck.report.write import render, require_folder, write
 
 VOID = {"meta", "link", "img", "br"}
@@ -254,3 +254,17 @@ def test_claims_stand_right_of_what_they_use() -> None:
     assert places["a"][0] < places["b"][0] < places["c"][0]
     assert len(set(places.values())) == 3
     assert claims_figure(rows) == claims_figure(rows)
+
+
+def test_conclusions_for_several_m_are_one_row_as_long_as_they_agree() -> None:
+    about = {"proof": "p", "grade": "exact", "details": [], "statement": "s"}
+    rows = [{**about, "id": "a", "m": m, "verdict": "proved"} for m in (1, 2)]
+    rows += [
+        {**about, "id": "a", "m": 3, "verdict": "undecided"},
+        {**about, "id": "b", "m": None, "verdict": "proved"},
+    ]
+    assert [(row["id"], row["m"], row["verdict"]) for row in together(rows)] == [
+        ("a", "1, 2", "proved"),
+        ("a", "3", "undecided"),
+        ("b", "", "proved"),
+    ]

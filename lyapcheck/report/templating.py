@@ -25,7 +25,9 @@ def environment(escape: bool) -> Any:
     )
     env.globals.update(SYMBOLS=text.SYMBOLS, plural=text.plural, tally=text.tally)
     env.filters.update(number=text.number, fixed=text.fixed, bracket=text.bracket, joined=text.joined)
-    env.filters.update(listed=text.listed, sections=sections, cell=cell, stem=file_stem)
+    env.filters.update(
+        listed=text.listed, together=text.together, sections=sections, cell=cell, stem=file_stem
+    )
     return env
 
 

@@ -57,6 +57,17 @@ def tally(counts: dict[str, int]) -> str:
     return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count) or "none"
 
 
+def together(rows: Sequence[Data]) -> list[dict[str, Any]]:
+    """Rows of the same claim and verdict as one, with all their m under ``m``."""
+    found: dict[tuple[str, ...], dict[str, Any]] = {}
+    for row in rows:
+        key = (row["proof"], row["id"], row["verdict"], row["grade"], *row["details"])
+        first = found.setdefault(key, {**row, "m": []})
+        if row["m"] is not None:
+            first["m"].append(row["m"])
+    return [{**row, "m": ", ".join(map(str, row["m"]))} for row in found.values()]
+
+
 MOST_COORDINATES = 3
 """A witness with more coordinates than this is given in the table of claims only."""
 
