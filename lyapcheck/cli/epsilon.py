@@ -18,6 +18,8 @@ from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from lyapcheck.admissible import EpsilonResult
     from lyapcheck.control import GainFile, GainSet
     from lyapcheck.robots import RobotModel
@@ -58,6 +60,10 @@ def command(
     ranges: Annotated[
         bool, typer.Option("--ranges", help="For all values of what is uncertain about the arm.")
     ] = False,
+    spread: Annotated[
+        float | None,
+        typer.Option(help="Percent: every number of the arm without a range gets ± that; implies --ranges."),
+    ] = None,
     seconds: Annotated[
         float | None,
         typer.Option(help="Time for branch and bound; the answer then depends on the machine.", min=0),
@@ -83,11 +89,11 @@ def command(
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
-    model = load(robot_name(robot, [gain_file]))
+    model = load(robot_name(robot, [gain_file]), spread=_share(spread))
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
-    budget = Budget(max_boxes, jobs, ranges, weights, seconds, starts, seed)
+    budget = Budget(max_boxes, jobs, ranges or spread is not None, weights, seconds, starts, seed)
     with progress("epsilon") as advance:
         results, times = _run(chosen, model, budget, advance)
     if folder is not None:
@@ -97,6 +103,17 @@ def command(
     sys.stdout.write(renderer(format.value)(results, times if timings else None))
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
+
+
+def _share(spread: float | None) -> Fraction:
+    """A percentage as a share, exactly as it was written."""
+    from fractions import Fraction
+
+    if spread is None:
+        return Fraction(0)
+    if not 0 < spread < 100:
+        raise argument_error("--spread", spread, "must be above 0 and below 100 percent", "write --spread 5")
+    return Fraction(repr(spread)) / 100
 
 
 def _write_certificates(folder: Path, results: list[EpsilonResult]) -> None:

@@ -66,6 +66,7 @@ A **URDF file** gives the links, and this file what such files lack, see `lyapch
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.errors import InputError
@@ -77,9 +78,16 @@ from lyapcheck.robots.overlay import read_overlay
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
 
+EXACT = Fraction(0)
 
-def read_arm(path: Path, shown: str | None = None) -> RobotModel:
+
+def read_arm(path: Path, shown: str | None = None, spread: Fraction = EXACT) -> RobotModel:
     """The arm that a file describes; ``shown`` is the name of the file in messages.
+
+    Args:
+        path: of the file.
+        shown: its name in messages.
+        spread: numbers of M, of the potential and of friction get value·(1 ± spread) if they have no range.
 
     Raises:
         InputError: the file cannot be read or describes no arm; carries every problem found.
@@ -90,21 +98,24 @@ def read_arm(path: Path, shown: str | None = None) -> RobotModel:
     top = ArmFields(document.data, (), notes)
     title, _ = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
-    if "urdf" in top.data:
+    if "urdf" in top.data and spread:
+        top.fail("urdf", "has exact numbers only", "leave out the spread, or write the links in the arm file")
+    if "urdf" in top.data and not notes.problems:
         return read_overlay(path, title, remarks, top)
     plan = read_plan(top)
     top.close()
     if notes.problems or plan is None:
         raise InputError(notes.problems)
-    model = _model(path.stem, title, remarks, plan)
+    model = _model(path.stem, title, remarks, plan, spread)
     check_positive_definite(model, plan.place, notes)
     if notes.problems:
         raise InputError(notes.problems)
     return model
 
 
-def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan) -> RobotModel:
-    numbers, joints = plan.numbers(), plan.joints
+def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: Fraction) -> RobotModel:
+    joints = plan.joints
+    numbers = {key: number.widened(spread) for key, number in plan.numbers().items()}
     parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used()}
     ring = trig.trig_ring(len(joints), tuple(parameters))
     polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
@@ -119,7 +130,7 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan) -> Robot
         ring=ring,
         mass=mass,
         potential=potential,
-        viscous=tuple(joint.viscous for joint in joints if joint.viscous is not None),
+        viscous=tuple(joint.viscous.widened(spread) for joint in joints if joint.viscous is not None),
         coulomb=tuple(joint.coulomb for joint in joints),
         torque_limit=tuple(joint.torque_limit for joint in joints),
         encoder=tuple(joint.encoder for joint in joints),

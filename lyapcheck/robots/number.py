@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from lyapcheck.files.decimals import decimal_text
@@ -45,6 +45,17 @@ class Number:
         """Whether the number may differ from its nominal value."""
         low, high = self.bounds
         return low < high
+
+    def widened(self, share: Fraction) -> Number:
+        """The number with the range value·(1 ± share), unless it has a range of its own or is 0.
+
+        Args:
+            share: 0 ≤ share < 1.
+        """
+        if self.ranged or self.value == 0 or share == 0:
+            return self
+        ends = sorted((self.value * (1 - share), self.value * (1 + share)))
+        return replace(self, low=ends[0], high=ends[1])
 
     def sentence(self, name: str) -> str:
         """The assumption as a sentence for a report, e.g. ``base_inertia = 0.5 kg·m² is assumed (…)``."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
+from fractions import Fraction
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
-from lyapcheck.robots.armfile import read_arm
+from lyapcheck.robots.armfile import EXACT, read_arm
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.urdf import read_urdf
 
@@ -18,12 +19,13 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _arms().iterdir() if path.suffix == ".toml"))
 
 
-def load(name_or_path: str | Path, tip: str | None = None) -> RobotModel:
+def load(name_or_path: str | Path, tip: str | None = None, spread: Fraction = EXACT) -> RobotModel:
     """The built-in arm of that name, or the arm in that ``.toml`` or ``.urdf`` file.
 
     Args:
         name_or_path: the arm.
         tip: for a URDF file, the link that ends the chain; by default that of the most joints.
+        spread: numbers of an arm file that have no range of their own get value·(1 ± spread), 0 ≤ spread < 1.
 
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
@@ -31,15 +33,18 @@ def load(name_or_path: str | Path, tip: str | None = None) -> RobotModel:
     if tip is not None and not str(name_or_path).lower().endswith(".urdf"):
         raise argument_error("tip", tip, f"{name_or_path} is no URDF file", "leave it out")
     if str(name_or_path) in names():
-        return _builtin(str(name_or_path))
+        return _builtin(str(name_or_path), spread)
     path = Path(name_or_path)
+    if path.suffix.lower() == ".urdf" and spread:
+        rule = f"{name_or_path} is a URDF file, whose numbers are taken as exact"
+        raise argument_error("spread", float(spread), rule, "leave it out, or write an arm file")
     if path.suffix.lower() == ".urdf":
         return read_urdf(path, tip=tip)
     if not path.suffix and not path.exists():
         raise argument_error(
             "robot", name_or_path, "is neither a built-in arm nor a file", _advice(str(name_or_path))
         )
-    return read_arm(path)
+    return read_arm(path, spread=spread)
 
 
 def _advice(name: str) -> str:
@@ -49,8 +54,8 @@ def _advice(name: str) -> str:
 
 
 @lru_cache(maxsize=64)
-def _builtin(name: str) -> RobotModel:
-    return read_arm(_arms() / f"{name}.toml", f"{name}.toml")
+def _builtin(name: str, spread: Fraction) -> RobotModel:
+    return read_arm(_arms() / f"{name}.toml", f"{name}.toml", spread)
 
 
 def _arms() -> Path:

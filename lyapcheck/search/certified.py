@@ -14,7 +14,7 @@ from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, Progress
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
-SHARES = tuple(Fraction(n, 1000) for n in (500, 800, 900, 950, 980, 990, 995, 998, 999))
+SHARES = tuple(Fraction(n, 10_000) for n in (5000, 8000, 9000, 9500, 9800, 9900, 9950, 9980, 9992))
 """Shares of the falsified ε₀ that are tried one after the other."""
 
 DIGITS = 7

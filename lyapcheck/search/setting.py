@@ -117,6 +117,16 @@ class Setting:
         """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given."""
         model = self.ranged
         mass = tuple(tuple(_terms(entry) for entry in row) for row in model.mass)
+        # what M does not depend on, gravity for one, is no side of the boxes
+        first = 2 * model.n
+        used = {
+            k
+            for row in mass
+            for entry in row
+            for powers, _ in entry
+            for k, p in enumerate(powers[first:])
+            if p
+        }
         return Closure(
             arm=Arm(mass, tuple(number.value for number in model.viscous)),
             family=self.gains.family,
@@ -124,7 +134,10 @@ class Setting:
             kp=tuple(self.gains.kp),
             kv=tuple(self.gains.kv),
             eps0=eps0,
-            parameters=tuple(number.bounds for number in model.parameters.values()),
+            parameters=tuple(
+                number.bounds if place in used else (number.value, number.value)
+                for place, number in enumerate(model.parameters.values())
+            ),
             viscous=tuple(number.bounds for number in model.viscous) if self.ranges else (),
             coupling=coupling,
         )

@@ -50,7 +50,8 @@ def heads(seconds: Sequence[float] | None) -> tuple[str, ...]:
 
 def remarks(result: EpsilonResult) -> list[str]:
     """Findings, reasons for missing numbers, and the witness, a sentence each."""
-    said = [f"{finding}." for finding in result.findings]
+    said = [] if result.certified is None else [_way(result)]
+    said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
     if result.weighted is not None:
         said.append(weighted_text(result.weighted))
@@ -60,6 +61,12 @@ def remarks(result: EpsilonResult) -> list[str]:
         values = ", ".join(f"{name} = {decimal_text(value)}" for name, value in result.corner.items())
         said.append(f"that state is one of the arm with {values}.")
     return said
+
+
+def _way(result: EpsilonResult) -> str:
+    """How the certified number was proved."""
+    count = "" if result.proof is None else f", {result.proof.boxes} boxes judged by the checker"
+    return f"certified by {result.certified_by}{count}."
 
 
 def reasons(result: EpsilonResult) -> list[str]:
