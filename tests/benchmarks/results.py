@@ -43,3 +43,39 @@ class RateResult:
     joints: int
     rates: dict[str, float]
     difference: float
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What the certificate of one ε₀ took.
+
+    Args:
+        share: ε₀ ÷ the falsified one.
+        boxes: how many the search looked at.
+        searched: its seconds.
+        checked: seconds of the trusted checker; ``None`` where the search found no proof in its budget.
+    """
+
+    share: float
+    boxes: int
+    searched: float
+    checked: float | None
+
+
+@dataclass(frozen=True)
+class CertificateResult:
+    """What certificates of growing ε₀ took for one controller on one arm.
+
+    Args:
+        arm: its name.
+        joints: how many.
+        m: the member of the family.
+        falsified: the ε₀ that a state refutes.
+        costs: of growing share.
+    """
+
+    arm: str
+    joints: int
+    m: int
+    falsified: float
+    costs: tuple[Cost, ...]

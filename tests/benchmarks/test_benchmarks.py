@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -11,18 +12,21 @@ import pytest
 from lyapcheck import load_robot
 from lyapcheck.robots.numeric import NumericModel
 
-from . import epsilon, gate, simulate, table, throughput
+from . import certificates, epsilon, gate, simulate, table, throughput
 from .by_hand import arms
 from .machine import description
 from .measure import Disagreement, states_per_second
 from .render import markdown
-from .results import CommandResult, RateResult
+from .results import CertificateResult, CommandResult, Cost, RateResult
 
 MEASURED = [
     CommandResult("lyapcheck table", 0.25, 5, "mpmath", 0.5, "equal"),
     CommandResult("lyapcheck explain 7a", 0.2, 3),
 ]
 RATES = [RateResult("V", "buap3", 3, {"lyapcheck": 2e7, "CasADi": 1e6}, 3e-16)]
+PROOFS = [
+    CertificateResult("buap3", 3, 2, 0.1665327, (Cost(0.9, 4019, 0.25, 0.5), Cost(0.995, 6000, 3.5, None)))
+]
 
 
 def cells(text, first):
@@ -31,15 +35,35 @@ def cells(text, first):
 
 
 def test_a_row_has_the_times_and_their_ratio():
-    text = markdown(["a machine"], MEASURED, RATES)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
     assert "- a machine" in text
     assert cells(text, "`lyapcheck table`")[1:] == ["0.25 s", "5", "0.50 s", "2.00", "mpmath", "equal"]
     assert cells(text, "`lyapcheck explain")[1:] == ["0.20 s", "3", "—", "—", "nothing compares", "—"]
     assert cells(text, "V | buap3 (n = 3) | CasADi")[3:] == ["1.00e+06", "0.0500", "3e-16"]
 
 
+def test_a_certificate_has_its_boxes_and_seconds_or_a_dash():
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
+    assert cells(text, "arm | m | falsified")[3:] == ["90.0%", "99.5%"]
+    assert cells(text, "buap3 (n = 3) | 2")[2:] == ["0.166533", "4019 / 0.25 s / 0.50 s", "— (6000)"]
+
+
+def test_certificates_are_measured_on_the_joints_an_arm_has():
+    shares = (Fraction(9, 10), Fraction(99, 100))
+    (result,) = certificates.benchmark(("pendulum1",), (4,), shares)
+    assert (result.joints, result.m) == (1, 4)
+    assert [cost.share for cost in result.costs] == [0.9, 0.99]
+    assert 0 < result.costs[0].boxes < result.costs[1].boxes
+    assert all(cost.checked is not None for cost in result.costs)
+
+
+def test_a_share_that_is_not_proved_has_no_time_of_the_checker():
+    (result,) = certificates.benchmark(("reyes-kelly2",), (2,), (Fraction(101, 100), Fraction(99, 100)), 300)
+    assert [cost.checked for cost in result.costs] == [None, None]
+
+
 def test_every_table_row_is_as_wide_as_its_head():
-    text = markdown(["a machine"], MEASURED, RATES)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
     for block in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         assert len({line.count("|") for line in block.splitlines()}) == 1
 

@@ -1,0 +1,70 @@
+"""What a certificate costs: boxes and seconds against the share of the falsified ε₀, and against n."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from typing import TypeVar
+
+from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
+from lyapcheck.check.stability import proves
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.falsify import falsify
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
+
+from .results import CertificateResult, Cost
+
+T = TypeVar("T")
+
+ARMS = ("pendulum1", "reyes-kelly2", "buap3")
+MEMBERS = (1, 2, 3, 4, 5)
+SHARES = tuple(Fraction(n, 1000) for n in (900, 950, 980, 990, 995))
+MAX_BOXES = 600_000
+LAST_PRINTED = 3
+"""Table 2 ends with m = 3: beyond it, its gains are taken."""
+
+
+def benchmark(
+    arms: tuple[str, ...] = ARMS,
+    members: tuple[int, ...] = MEMBERS,
+    shares: tuple[Fraction, ...] = SHARES,
+    max_boxes: int = MAX_BOXES,
+) -> Iterator[CertificateResult]:
+    """Each share is proved from nothing: search alone, then the checker on both processors."""
+    for arm in arms:
+        model = load_robot(arm)
+        for m in members:
+            setting = Setting(gains(arm, m), model)
+            witness = falsify(setting)
+            if witness is None:
+                raise RuntimeError(f"no state refutes any ε₀ on {arm}, m = {m}")
+            costs = tuple(_cost(setting, witness.eps0, share, max_boxes) for share in shares)
+            yield CertificateResult(arm, model.n, m, float(witness.eps0), costs)
+
+
+def gains(arm: str, m: int) -> GainSet:
+    """Table 2: all of it, shoulder and elbow, or the shoulder alone."""
+    sets = read_gain_file(paper_gain_file("table2" if arm == "buap3" else SHOULDER)).gains
+    like = next(item for item in sets if item.m == min(m, LAST_PRINTED))
+    n = {"pendulum1": 1}.get(arm, like.n)
+    return replace(like, name=f"m{m}", m=m, kp=like.kp[:n], kv=like.kv[:n])
+
+
+def _cost(setting: Setting, falsified: Fraction, share: Fraction, max_boxes: int) -> Cost:
+    closure = setting.closure((falsified * share).limit_denominator(10**9))
+    outcome, searched = _timed(lambda: certify(Problem(closure, setting.ranged), max_boxes))
+    if not outcome.proved:
+        return Cost(float(share), outcome.boxes, searched, None)
+    accepted, checked = _timed(lambda: proves(closure, outcome.tree, 2))
+    if not accepted:
+        raise RuntimeError(f"the checker refused {outcome.boxes} boxes for ε₀ = {float(closure.eps0):.6g}")
+    return Cost(float(share), outcome.boxes, searched, checked)
+
+
+def _timed(call: Callable[[], T]) -> tuple[T, float]:
+    begin = time.perf_counter()
+    result = call()
+    return result, time.perf_counter() - begin
