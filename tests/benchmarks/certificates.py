@@ -47,7 +47,7 @@ def benchmark(
 
 def gains(arm: str, m: int) -> GainSet:
     """Table 2: all of it, shoulder and elbow, or the shoulder alone."""
-    sets = read_gain_file(paper_gain_file("table2" if arm == "buap3" else SHOULDER)).gains
+    sets = read_gain_file(paper_gain_file("table2" if arm == "buap3" else "table2_shoulder_elbow")).gains
     like = next(item for item in sets if item.m == min(m, LAST_PRINTED))
     n = {"pendulum1": 1}.get(arm, like.n)
     return replace(like, name=f"m{m}", m=m, kp=like.kp[:n], kv=like.kv[:n])
