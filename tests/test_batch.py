@@ -87,7 +87,7 @@ def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
 )
 def test_every_family_moves_as_it_does_alone(m, family):
     model, gain_set = robots.load("reyes-kelly2"), gains(2, m, family, kp=40, kv=12)
-    single = simulate(gain_set, model, [0.5, -1.0], [1.0, 1.0], T=2.0, points=201)
+    single = simulate(gain_set, model, [0.5, -1.0], [1.0, 1.0], T=2.0, points=201, stop=False)
     many = simulate_many(gain_set, model, [0.5, -1.0], [1.0, 1.0], 2.0, points=201, motions=True)
     np.testing.assert_allclose(many.q[0], single.q, rtol=0, atol=1e-8)
     np.testing.assert_allclose(many.w[0], single.w, rtol=0, atol=1e-8)

@@ -33,9 +33,10 @@ def gains(n: int, m: int = 2, kp: int = 10, kv: int = 2, family: str = "hyperbol
     return GainSet("set", member, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
 
 
-def paper_run(gain_set: GainSet, eps0: float | None = None):
+def paper_run(gain_set: GainSet, eps0: float | None = None, stop: bool = True):
     task = PAPER_TASK
-    return simulate(gain_set, robots.load("buap3"), task.q_d, task.q0, task.w0, task.T, eps0=eps0)
+    arm = robots.load("buap3")
+    return simulate(gain_set, arm, task.q_d, task.q0, task.w0, task.T, eps0=eps0, stop=stop)
 
 
 @pytest.mark.parametrize("kv", [1, 5])
@@ -121,7 +122,8 @@ def test_dV_is_the_derivative_of_V_along_the_motion(eps0):
 
 
 def test_a_V_that_is_no_lyapunov_function_is_seen_to_rise():
-    run = paper_run(TABLE2[0], eps0=50.0)
+    run = paper_run(TABLE2[0], eps0=50.0, stop=False)
+    assert run.complete
     assert not run.promises.V_decreases
     assert 0.0 < run.promises.V_rises_at < 5.0
 
@@ -143,7 +145,9 @@ def test_at_the_goal_nothing_moves():
 )
 def test_no_motion_leaves_the_torque_bound_or_gains_energy(start, m):
     model = robots.load("reyes-kelly2")
-    run = simulate(gains(2, m=m), model, [0.0, 0.0], q0=start[:2], w0=start[2:], T=1.0, points=101)
+    run = simulate(
+        gains(2, m=m), model, [0.0, 0.0], q0=start[:2], w0=start[2:], T=1.0, points=101, stop=False
+    )
     assert run.promises.inside_bound
     assert run.promises.torque_norm <= run.promises.torque_bound
     assert run.promises.V_decreases
@@ -161,9 +165,8 @@ def test_a_torque_beyond_its_bounds_is_reported():
 
 def test_large_m_and_gains_are_integrated():
     """h_m is flat near 0 and steep near ln(1 + √2) for large m."""
-    run = simulate(
-        gains(2, m=200, kp=500, kv=100), robots.load("reyes-kelly2"), [1.5, 1.5], T=1.0, points=101
-    )
+    strong, arm = gains(2, m=200, kp=500, kv=100), robots.load("reyes-kelly2")
+    run = simulate(strong, arm, [1.5, 1.5], T=1.0, points=101, stop=False)
     assert run.complete
     assert run.energy_balance < 1e-8
 

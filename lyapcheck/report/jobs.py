@@ -81,8 +81,8 @@ def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
 
     if model.n == len(PAPER_TASK.q_d):
         task = PAPER_TASK
-        return simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0)
-    return simulate(gain_set, model, [REST] * model.n, eps0=eps0)
+        return simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0, stop=False)
+    return simulate(gain_set, model, [REST] * model.n, eps0=eps0, stop=False)
 
 
 def _run_data(run: Run) -> RunData:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.csv import run_csv
     from lyapcheck.simulate.printed import Printed, printed_for
-    from lyapcheck.simulate.run import Indices, Promises, Run, SimulationFailed
+    from lyapcheck.simulate.run import Indices, PromiseBroken, Promises, Run, SimulationFailed
     from lyapcheck.simulate.task import PAPER_TASK, Task
     from lyapcheck.simulate.trial import experiment
 
@@ -21,6 +21,7 @@ _HOME = {
     "Bench": "bench",
     "Indices": "run",
     "Printed": "printed",
+    "PromiseBroken": "run",
     "Promises": "run",
     "Run": "run",
     "Runs": "batch_runs",
@@ -38,6 +39,7 @@ __all__ = [
     "Bench",
     "Indices",
     "Printed",
+    "PromiseBroken",
     "Promises",
     "Run",
     "Runs",

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.simulate.breach import (
+    Breach,
+    Watched,
+    bound_monitor,
+    fall_monitor,
+    first_breach,
+    limit_monitor,
+    rate_monitor,
+)
 from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory, integrate
-from lyapcheck.simulate.results import LEAST_ENERGY, Motion, run_of
-from lyapcheck.simulate.run import Run, SimulationFailed
+from lyapcheck.simulate.results import LEAST_ENERGY, Motion, noise_of, run_of
+from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
 
 if TYPE_CHECKING:
@@ -41,6 +51,7 @@ def simulate(
     points: int = POINTS,
     tolerance: float = TOLERANCE,
     max_steps: int = MAX_STEPS,
+    stop: bool = True,
     on_progress: Progress | None = None,
 ) -> Run:
     """Move an arm under (6), or under PD with gravity compensation, along the closed loop (11).
@@ -59,13 +70,16 @@ def simulate(
         points: samples handed back, evenly spaced, both ends included.
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
+        stop: end the run at the first state that breaks a promise: dV/dt ≤ 0, the bound (9), a motor's limit.
         on_progress: told the fraction done.
 
     Raises:
         InputError: a task the arm cannot be given.
         SimulationFailed: the integrator gave up; carries what was reached.
+        PromiseBroken: a promise was broken; carries the run up to that state.
 
-    Soundness: floating point throughout: evidence, never a proof. ``accuracy`` is an estimate.
+    Soundness: floating point throughout: evidence, never a proof. ``accuracy`` is an estimate. A ``breach``
+        that is ``confirmed`` is proved in balls, as a statement about its state.
 
     References: (6), (11), (12), (20) of ``reyes2019family``.
     """
@@ -75,10 +89,25 @@ def simulate(
         loop, setup, points, tolerance, max_steps=max_steps, on_progress=on_progress or _silent
     )
     failure = fine.failure or rough.failure
-    run = _reference(loop, setup, fine, math.nan if failure else _difference(rough, fine, model.n))
+    accuracy = math.nan if failure else _difference(rough, fine, model.n)
+    run = _reference(loop, setup, fine, accuracy)
+    breach = _broken(setup, run)
+    if breach is not None and stop:
+        end = breach.index + 1
+        short = Trajectory(fine.t[:end], fine.y[:end], "stopped")
+        partial = replace(_reference(loop, setup, short, accuracy), breach=breach)
+        raise PromiseBroken(f"{setup.title}: {breach.sentence}", partial, breach)
     if failure is not None:
-        raise SimulationFailed(f"{setup.title}: {failure}", run)
-    return run
+        raise SimulationFailed(f"{setup.title}: {failure}", replace(run, breach=breach))
+    return replace(run, breach=breach)
+
+
+def _broken(setup: Setup, run: Run) -> Breach | None:
+    """The first promise that the samples break."""
+    signals = (run.t, run.q, run.e, run.w, run.tau, run.V, run.dV)
+    watched = Watched(setup.setting, setup.eps0, *signals, noise=noise_of(run.V))
+    bound = bound_monitor("the bound (9)", run.promises.torque_bound)
+    return first_breach(watched, (rate_monitor, fall_monitor, limit_monitor, bound))
 
 
 def _twice(

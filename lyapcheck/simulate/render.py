@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.indices import SETTLING_BAND
 from lyapcheck.simulate.printed import printed_for
 from lyapcheck.simulate.run import Run
@@ -60,8 +61,14 @@ def _facts(run: Run) -> list[str]:
         f"L2 {run.L2:.4f}°, V(0) = {run.V[0]:.5g} J, V {_fall(run)} (ε₀ = {run.eps0:g})",
         f"largest ‖τ‖ {run.promises.torque_norm:.4g} N·m, {_bound(run)}",
         _checks(run),
+        *broken(run.breach),
         *_beside(run),
     ]
+
+
+def broken(breach: Breach | None) -> list[str]:
+    """A line on the promise that broke, if one did."""
+    return [] if breach is None else [f"PROMISE BROKEN: {breach.sentence}"]
 
 
 def _beside(run: Run) -> list[str]:
@@ -89,7 +96,7 @@ def _bound(run: Run) -> str:
 
 
 def _checks(run: Run) -> str:
-    if not run.complete:
+    if math.isnan(run.accuracy):
         return "accuracy unknown: the run was cut short"
     accuracy = f"accuracy {run.accuracy:.0e} (rad, rad/s) by a second, tighter run"
     balance = "" if math.isnan(run.energy_balance) else f", energy balance {run.energy_balance:.0e}"
@@ -173,6 +180,7 @@ def result_json(run: Run) -> dict[str, Any]:
         "V_rises_at": seen.V_rises_at,
         "accuracy": _plain(run.accuracy),
         "energy_balance": _plain(run.energy_balance),
+        "breach": None if run.breach is None else run.breach.data,
         "printed": _paper(run),
     }
 

@@ -49,7 +49,6 @@ def run_of(
     e = np.array(setup.task.q_d) - motion.q
     certificate = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, setup.eps0)
     V, dV = certificate.V(motion.q, e, motion.w), certificate.rate(motion.q, e, motion.w)
-    noise = V_NOISE * max(float(np.max(np.abs(V))), LEAST_ENERGY)
     return Run(
         gains=gains,
         robot=model.name,
@@ -65,13 +64,18 @@ def run_of(
         V=V,
         dV=dV,
         indices=_indices(motion, e, L2),
-        promises=observe(motion.t, V, motion.tau, gains, model, noise=noise, saturated=saturated),
+        promises=observe(motion.t, V, motion.tau, gains, model, noise=noise_of(V), saturated=saturated),
         accuracy=accuracy,
         energy_balance=energy_balance,
         torque_limit=torque_limits(model),
         complete=complete,
         notes=(*notes, *model.assumptions),
     )
+
+
+def noise_of(V: Array) -> float:
+    """J, how far V may rise between two samples before it counts as a rise."""
+    return V_NOISE * max(float(np.max(np.abs(V))), LEAST_ENERGY)
 
 
 def _indices(motion: Motion, e: Array, L2: float) -> Indices:

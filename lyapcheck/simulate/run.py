@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.task import Task
 
@@ -82,6 +83,8 @@ class Run:
     complete: bool = True
     notes: tuple[str, ...] = ()
     """What the reader must know: assumptions and the settings of the bench."""
+    breach: Breach | None = None
+    """The first promise of theory that this reference run broke."""
 
     @property
     def name(self) -> str:
@@ -121,3 +124,11 @@ class SimulationFailed(Exception):
         self.reason = reason
         self.partial = partial
         super().__init__(reason)
+
+
+class PromiseBroken(SimulationFailed):
+    """A run that was stopped at the state that broke a promise; ``partial`` ends with that state."""
+
+    def __init__(self, reason: str, partial: Run, breach: Breach) -> None:
+        self.breach = breach
+        super().__init__(reason, partial)

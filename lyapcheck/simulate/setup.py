@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import Task, task_for
 
@@ -16,12 +17,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Setup:
-    """One controller on one arm with one task; ``eps0`` is the ε₀ of the V that is watched."""
+    """One controller on one arm with one task; ``eps0`` is the ε₀ of the V that is watched.
+
+    ``setting`` is the same controller and arm as exact data.
+    """
 
     gains: Gains
     model: RobotModel
     task: Task
     eps0: float
+    setting: Setting
 
     @property
     def title(self) -> str:
@@ -46,4 +51,5 @@ def set_up(
         InputError: a task the arm cannot be given, or gains for another number of joints.
     """
     task = task_for(model.n, q_d, q0, w0, T, eps0=eps0, points=points)
-    return Setup(gains_for(gain_set, model.n), model, task, 0.0 if eps0 is None else float(eps0))
+    gains = gains_for(gain_set, model.n)
+    return Setup(gains, model, task, 0.0 if eps0 is None else float(eps0), Setting(gain_set, model))

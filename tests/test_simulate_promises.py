@@ -1,0 +1,141 @@
+"""Promises along a run: kept ones are silent, broken ones stop it with a state that proves them broken."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.check.balls import precision
+from lyapcheck.check.states import State, confirms_positive
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.robots import Number
+from lyapcheck.search.falsify import falsify
+from lyapcheck.search.setting import Setting
+from lyapcheck.simulate import PAPER_TASK, PromiseBroken, SimulationFailed, simulate
+from lyapcheck.simulate.breach import Watched, bound_monitor, fall_monitor, first_breach
+from lyapcheck.simulate.confirm import Sample, torques
+from lyapcheck.simulate.csv import run_csv
+from lyapcheck.simulate.render import as_text, result_json
+
+TABLE2 = read_gain_file(paper_gain_file("table2")).gains
+TWO_JOINTS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
+
+
+def broken(gain_set: GainSet, model, *task, **options) -> PromiseBroken:
+    with pytest.raises(PromiseBroken) as stopped:
+        simulate(gain_set, model, *task, **options)
+    return stopped.value
+
+
+def test_an_eps0_above_the_falsified_one_is_stopped_at_its_witness():
+    """The state that refutes ε₀ is a start; the promise breaks there and nowhere else is looked at."""
+    model, gain_set = robots.load("reyes-kelly2"), TWO_JOINTS[0]
+    witness = falsify(Setting(gain_set, model), starts=6, samples=2000)
+    at = [[float(x) for x in part] for part in (witness.state.q, witness.state.e, witness.state.w)]
+    speed = max(map(abs, at[2]))
+    at[2] = [900 * rate / speed for rate in at[2]]  # fast enough for K_v h(w) to be small beside B w
+    goal = [q + e for q, e in zip(at[0], at[1], strict=True)]
+    eps0 = float(witness.eps0) * 1.02
+    failure = broken(gain_set, model, goal, at[0], at[2], 0.02, eps0=eps0)
+    assert failure.breach.index == 0
+    assert failure.breach.confirmed
+    assert failure.breach.at.q == tuple(at[0])
+    assert failure.breach.at.w == tuple(at[2])
+    kept = simulate(gain_set, model, goal, at[0], at[2], 0.02, eps0=eps0 / 2)
+    assert kept.complete
+    assert kept.breach is None
+
+
+def test_the_state_that_broke_the_promise_proves_it_on_its_own():
+    failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
+    found, setting = failure.breach, Setting(TABLE2[0], robots.load("buap3"))
+    state = State(*(tuple(map(Fraction, part)) for part in (found.at.q, found.at.e, found.at.w)))
+    assert found.confirmed
+    assert confirms_positive(setting.arm, setting.controller, Fraction(50), state)
+    assert found.value > 0.0 == found.limit
+
+
+def test_a_stopped_run_ends_with_the_breach_and_is_marked():
+    failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
+    partial, found = failure.partial, failure.breach
+    assert isinstance(failure, SimulationFailed)
+    assert partial.breach == found
+    assert not partial.complete
+    assert partial.t[-1] == found.t < 5.0
+    assert partial.t.size == found.index + 1
+    assert tuple(partial.q[-1]) == found.at.q
+    assert ",no," in run_csv(partial)
+    assert "BROKEN" in as_text([partial])
+    assert result_json(partial)["breach"]["q"] == list(found.at.q)
+
+
+def test_without_stopping_the_whole_run_names_the_same_breach():
+    stopped = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
+    whole = simulate(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0, stop=False)
+    assert whole.complete
+    assert whole.t[-1] == 5.0
+    assert whole.breach == stopped.breach
+
+
+def test_a_motor_that_is_asked_for_too_much_stops_the_run():
+    """k_p tanh(e) = 28 tanh(π/4) = 18.36 N·m at once, where this motor gives 18."""
+    weak = replace(robots.load("buap3"), torque_limit=(Number(Fraction(18)), None, None))
+    failure = broken(TABLE2[0], weak, PAPER_TASK.q_d)
+    assert failure.breach.t == 0.0
+    assert "base" in failure.breach.promise
+    assert failure.breach.value == pytest.approx(28 * math.tanh(math.pi / 4))
+    assert failure.breach.limit == 18.0
+    enough = replace(weak, torque_limit=(Number(Fraction(19)), None, None))
+    assert simulate(TABLE2[0], enough, PAPER_TASK.q_d).breach is None
+
+
+def test_a_torque_exactly_at_its_limit_is_no_breach():
+    """Balls decide: the limit is the torque of the start, rounded up."""
+    at = Sample((0.0,) * 3, PAPER_TASK.q_d, (0.0,) * 3)
+    with precision(64):
+        start = torques(Setting(TABLE2[0], robots.load("buap3")), at)[0]
+    limit = Fraction(float(start)) + Fraction(1, 10**15)
+    tight = replace(robots.load("buap3"), torque_limit=(Number(limit), None, None))
+    assert simulate(TABLE2[0], tight, PAPER_TASK.q_d).breach is None
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_published_gains_keep_all_promises_at_half_of_what_is_certified(gain_set):
+    """0.0518 is half of the least of the three certified ε₀."""
+    run = simulate(gain_set, robots.load("buap3"), PAPER_TASK.q_d, eps0=0.0518)
+    assert run.complete
+    assert run.breach is None
+
+
+def test_torques_in_balls_are_those_of_the_run():
+    run = simulate(TABLE2[2], robots.load("buap3"), PAPER_TASK.q_d, T=1.0, points=11)
+    setting = Setting(TABLE2[2], robots.load("buap3"))
+    for i in (0, 4, 10):
+        at = Sample(*(tuple(x[i].tolist()) for x in (run.q, run.e, run.w)))
+        with precision(64):
+            np.testing.assert_allclose([float(x) for x in torques(setting, at)], run.tau[i], rtol=1e-12)
+
+
+def watched(V, tau) -> Watched:
+    zeros, t = np.zeros((len(V), 3)), np.arange(len(V), dtype=float)
+    setting = Setting(TABLE2[0], robots.load("buap3"))
+    return Watched(setting, 0.0, t, zeros, zeros, zeros, np.array(tau), np.array(V), -t, noise=1e-9)
+
+
+def test_the_earliest_breach_is_the_one_that_is_told():
+    quiet, loud = [0.0, 0.0, 0.0], [0.0, 3.0, 4.0]
+    monitors = (fall_monitor, bound_monitor("a bound", 4.9))
+    rising = watched([3.0, 2.0, 2.5], [quiet, quiet, quiet])
+    assert first_breach(rising, monitors).index == 2
+    both = first_breach(watched([3.0, 2.0, 2.5], [quiet, loud, quiet]), monitors)
+    assert (both.index, both.value, both.confirmed) == (1, 5.0, False)
+    assert first_breach(watched([3.0, 2.0, 2.0], [quiet, quiet, quiet]), monitors) is None
+
+
+def test_rounding_is_no_rise():
+    assert first_breach(watched([3.0, 3.0 + 1e-10], [[0.0] * 3] * 2), (fall_monitor,)) is None
