@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from lyapcheck.records import Record
 
 
-@dataclass(frozen=True, order=True)
-class Problem:
+class Problem(Record):
     """One thing that is wrong with an input: where, what, which rule, and the repair."""
 
     file: str

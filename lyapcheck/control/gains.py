@@ -8,7 +8,7 @@ from pathlib import Path
 
 from lyapcheck.errors import InputError
 from lyapcheck.files import Document, Fields, Notes, open_document
-from lyapcheck.files.places import KeyPath, Place
+from lyapcheck.files.place import KeyPath, Place
 
 FAMILIES = ("hyperbolic", "tanh", "arctan", "algebraic", "linear")
 LARGEST_M = 100_000

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Self
+
+from lyapcheck.records import Record
+
+TYPE_CHECKING = False  # so that nothing is imported that is not used
+if TYPE_CHECKING:
+    from typing import Any, Self
 
 LARGEST_EXPONENT = 400
 """Decimals beyond 10^±400 are outside every physical range; reading one exactly could fill the memory."""
@@ -38,8 +42,7 @@ class Written(Fraction):
         return (written, (self.text,))
 
 
-@dataclass(frozen=True)
-class NotFinite:
+class NotFinite(Record):
     """A number of a file that has no finite exact value here: ``nan``, ``inf``, or one beyond all sizes."""
 
     text: str
@@ -92,14 +95,20 @@ def decimal_text(value: Fraction | int, places: int | None = None) -> str:
 
     With ``places`` the decimal is padded with zeros to that many places.
     """
-    value = Fraction(value)
-    needed = _terminating_places(value.denominator)
+    numerator, denominator = value.numerator, value.denominator
+    needed = _terminating_places(denominator)
     if needed is None:
-        return f"{value.numerator}/{value.denominator}"
+        return f"{numerator}/{denominator}"
     digits = max(needed, places or 0)
-    scaled = str(abs(value.numerator) * 10**digits // value.denominator).rjust(digits + 1, "0")
-    text = f"{scaled[:-digits]}.{scaled[-digits:]}" if digits else scaled
-    return f"-{text}" if value < 0 else text
+    return scaled_text(numerator * 10**digits // denominator, digits)
+
+
+def scaled_text(scaled: int, places: int) -> str:
+    """``scaled`` times 10^-places, with all its places."""
+    if places == 0:
+        return str(scaled)
+    digits = str(abs(scaled)).rjust(places + 1, "0")
+    return f"{'-' if scaled < 0 else ''}{digits[:-places]}.{digits[-places:]}"
 
 
 def _terminating_places(denominator: int) -> int | None:

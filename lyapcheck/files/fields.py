@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from lyapcheck.errors import Problem
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.place import KeyPath
 from lyapcheck.files.printable import printable
 
 

@@ -10,9 +10,8 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
-KeyPath = tuple[str | int, ...]
+from lyapcheck.files.place import KeyPath, Place
 
 _TOKEN = re.compile(
     r"""(?P<skip>[ \t\r]+|\#[^\n]*)
@@ -21,13 +20,6 @@ _TOKEN = re.compile(
       | (?P<bare>[^\s\[\]{}=,\#"']+)""",
     re.DOTALL | re.VERBOSE,
 )
-
-
-class Place(NamedTuple):
-    """Line and column, both counted from 1."""
-
-    line: int
-    column: int
 
 
 @dataclass(frozen=True)

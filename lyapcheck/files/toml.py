@@ -12,7 +12,8 @@ from typing import Any
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import written
-from lyapcheck.files.places import KeyPath, Place, places
+from lyapcheck.files.place import KeyPath, Place
+from lyapcheck.files.places import places
 
 LARGEST_FILE = 20_000_000
 """Bytes; a file of ten thousand gain sets has about two million."""

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import cast
 
 from lyapcheck.files import Fields, Notes, decimal_text
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.place import KeyPath
 from lyapcheck.robots.number import Number
 
 LARGEST = 10**12

@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.place import KeyPath
 from lyapcheck.robots import trig
 from lyapcheck.robots.fields import ArmFields
 
