@@ -15,7 +15,7 @@ from lyapcheck.check.balls import precision
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import gate, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.family.table import LIMITS
+from lyapcheck.family.table_formats.blocks import LIMITS
 
 
 def run(*arguments):

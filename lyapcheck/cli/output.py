@@ -43,8 +43,8 @@ def open_folder(option: str, path: Path) -> Path:
     return path
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file in one move: readers see the old file or the new one, never half of it.
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Write a file in one move: readers see the old file or the new one, never half of it.
 
     Raises:
         InputError: the file system refuses.
@@ -52,8 +52,8 @@ def write_whole(path: Path, text: str) -> None:
     temporary = None
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
-            stream.write(text)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content.encode("utf-8") if isinstance(content, str) else content)
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
     except OSError as error:

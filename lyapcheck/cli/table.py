@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import sys
 from enum import StrEnum
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import progress
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.family.table import Table
 
 _MOST_DIGITS = 2_000
 _QUIET_ROWS = 500
@@ -33,6 +38,13 @@ def command(
     robot: Annotated[
         str | None, typer.Option(help="Add what this arm's torque limits leave to k_p + k_v of each joint.")
     ] = None,
+    asymptotics: Annotated[
+        bool,
+        typer.Option("--asymptotics", help="Add the leading terms for m → ∞, and what is left beside them."),
+    ] = False,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw them against m into this folder, as SVG and PNG.")
+    ] = None,
     format: Annotated[TableFormat, typer.Option(help="How to write it.")] = TableFormat.TEXT,  # noqa: A002
 ) -> None:
     """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
@@ -43,15 +55,27 @@ def command(
     members = parse_m(m)
     if not 1 <= digits <= _MOST_DIGITS:
         raise argument_error("--digits", digits, f"must be from 1 to {_MOST_DIGITS}", "write --digits 30")
-    from lyapcheck.family.table import RENDERERS, build_table
+    from lyapcheck.family.table import build_table
+    from lyapcheck.family.table_formats import renderer
 
+    folder = None if plot is None else open_folder("--plot", plot)
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
-        table = build_table(members, digits, advance)
+        table = build_table(members, digits, advance, with_asymptotes=asymptotics)
     if robot is not None:
         from dataclasses import replace
 
         from lyapcheck.tune.budget import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
-    sys.stdout.write(RENDERERS[format.value](table))
+    if folder is not None:
+        _draw(table, folder)
+    sys.stdout.write(renderer(format.value)(table))
     raise typer.Exit(int(Exit.PROVED))
+
+
+def _draw(table: Table, folder: Path) -> None:
+    """``constants.svg`` and ``constants.png``."""
+    from lyapcheck.report.figures.constants import constants_png, constants_svg
+
+    write_whole(folder / "constants.svg", constants_svg(table))
+    write_whole(folder / "constants.png", constants_png(table))

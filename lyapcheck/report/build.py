@@ -152,9 +152,10 @@ def _gate(subject: Subject) -> list[Data]:
 def _table(ms: Sequence[int]) -> list[Data]:
     import json
 
-    from lyapcheck.family.table import as_json, build_table
+    from lyapcheck.family.table import build_table
+    from lyapcheck.family.table_formats import renderer
 
-    rows: list[Data] = json.loads(as_json(build_table(ms, 30)))["rows"]
+    rows: list[Data] = json.loads(renderer("json")(build_table(ms)))["rows"]
     return rows
 
 

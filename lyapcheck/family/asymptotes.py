@@ -1,0 +1,72 @@
+"""What γ_m, ρ_m and L_m come close to as m grows, and how far they are from it.
+
+    γ_m = √2 (1 − (1 + ln 4m)/(4m)) + O((ln m/m)²)
+    ρ_m = m − 1/2 + 9/(16m) + O(1/m²)
+    L_m = √2/asinh 1 · (1 − κ (1 + ln(m/κ))/m) + O((ln m/m)²)        κ = (1 + √2/asinh 1)/4
+
+In t = ln sinh^(2m) x the logarithm of h(x)/x is ln(√2/asinh 1) − κ t/m − e^(−t) but for terms of second
+order: largest at t = ln(m/κ). Likewise that of h(x), with 1/4 in place of κ.
+
+References: ``proofs/asymptotics.py`` proves bounds of the three rests.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, log
+
+from flint import arb
+
+from lyapcheck.check.balls import precision, to_arb
+from lyapcheck.check.constants import Constants
+from lyapcheck.check.enclosure import Enclosure
+
+
+@dataclass(frozen=True)
+class Asymptotes:
+    """The leading terms of γ, ρ and L at one m, and what is left of each constant beside them."""
+
+    gamma: Enclosure
+    gamma_rest: Enclosure
+    rho: Enclosure
+    rho_rest: Enclosure
+    L: Enclosure
+    L_rest: Enclosure
+
+
+def asymptotes(row: Constants, digits: int) -> Asymptotes:
+    """The leading terms, to about as many digits as the constants have.
+
+    Soundness: balls throughout.
+    """
+    with precision(ceil(digits * log(10, 2)) + 32 + row.m.bit_length()):
+        gamma, rho, secant = _gamma(row.m), _rho(row.m), _secant(row.m)
+        return Asymptotes(
+            Enclosure.from_arb(gamma),
+            Enclosure.from_arb(row.gamma.to_arb() - gamma),
+            Enclosure.exact(rho),
+            Enclosure(row.rho.lower - rho, row.rho.upper - rho),
+            Enclosure.from_arb(secant),
+            Enclosure.from_arb(row.L.to_arb() - secant),
+        )
+
+
+def limits() -> tuple[arb, arb]:
+    """√2 and √2/asinh 1: what γ_m and L_m tend to."""
+    root = to_arb(2).sqrt()
+    return root, root / to_arb(1).asinh()
+
+
+def _gamma(m: int) -> arb:
+    return limits()[0] * (1 - (1 + to_arb(4 * m).log()) / (4 * m))
+
+
+def _rho(m: int) -> Fraction:
+    return Fraction(2 * m - 1, 2) + Fraction(9, 16 * m)
+
+
+def _secant(m: int) -> arb:
+    limit = limits()[1]
+    fall = (1 + limit) / 4
+    return limit * (1 - fall * (1 + (m / fall).log()) / m)

@@ -1,0 +1,181 @@
+"""What the table shows beside the constants: leading terms, slopes, plots, HTML for notebooks."""
+
+from __future__ import annotations
+
+import csv
+import doctest
+import io
+import json
+import re
+import struct
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from html.parser import HTMLParser
+from xml.etree import ElementTree as ET
+
+import mpmath
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.cli.main import build_app
+from lyapcheck.errors import InputError
+from lyapcheck.family.table import Budget, build_table, slope_at_zero
+from lyapcheck.family.table_formats import FORMATS, renderer
+
+MEMBERS = (1, 2, 3, 40, 1000)
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(("table",)), ["table", *arguments])
+
+
+@pytest.fixture(scope="module")
+def tails():
+    return build_table(MEMBERS, 25, with_asymptotes=True)
+
+
+def leading(m):
+    """As the notes under the table print them."""
+    root, log = mpmath.sqrt(2), mpmath.log
+    limit = root / mpmath.asinh(1)
+    kappa = (1 + limit) / 4
+    return {
+        "gamma": root * (1 - (1 + log(4 * m)) / (4 * m)),
+        "rho": m - mpmath.mpf(1) / 2 + mpmath.mpf(9) / (16 * m),
+        "L": limit * (1 - kappa * (1 + log(m / kappa)) / m),
+    }
+
+
+def test_leading_terms_and_rests_are_enclosed(tails):
+    rows = json.loads(renderer("json")(tails))["rows"]
+    with mpmath.workdps(45):
+        for row in rows:
+            for name, value in leading(row["m"]).items():
+                low, high = (
+                    mpmath.mpf(row["asymptotics"][name]["leading"][end]) for end in ("lower", "upper")
+                )
+                assert low <= value <= high
+                assert high - low < mpmath.mpf(10) ** -21
+                least, most = (
+                    mpmath.mpf(row["asymptotics"][name]["rest"][end]) for end in ("lower", "upper")
+                )
+                assert least <= mpmath.mpf(row[name]["upper"]) - value
+                assert mpmath.mpf(row[name]["lower"]) - value <= most
+
+
+def test_the_rests_shrink_as_fast_as_is_said():
+    """Ten times m: that of ρ a hundredth, those of γ and L a hundredth but for the logarithms."""
+    one, ten = build_table((1000, 10_000), 30, with_asymptotes=True).asymptotes
+    for name, most in (("gamma_rest", 60), ("rho_rest", 99), ("L_rest", 60)):
+        ratio = float(getattr(one, name).mid / getattr(ten, name).mid)
+        assert most < ratio < 101
+
+
+def test_a_leading_term_of_another_rate_would_be_noticed(tails):
+    """Without 9/(16m) the rest of ρ at m = 1000 would be 750 times as large."""
+    rest = tails.asymptotes[-1].rho_rest
+    assert abs(float(rest.mid)) < 1e-6 < 9 / 16_000 - 1e-6
+
+
+def test_the_slope_at_0_is_that_of_the_symbolic_derivative():
+    import sympy as sp
+
+    x = sp.Symbol("x")
+    for m in (1, 2, 3):
+        assert symbolic_slope(sp, m, x) == slope_at_zero(m)
+    rows = json.loads(run("--m", "1:4", "--format", "json").stdout)["rows"]
+    assert [row["slope_at_0"] for row in rows] == ["1", "0", "0", "0"]
+
+
+def symbolic_slope(sp, m, x):
+    s = sp.sinh(x)
+    return sp.diff(s ** (2 * m - 1) * sp.cosh(x) / (1 + s ** (2 * m)), x).subs(x, 0)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_shows_the_leading_terms(name, tails):
+    plain, full = renderer(name)(build_table(MEMBERS, 25)), renderer(name)(tails)
+    assert len(full) > 1.3 * len(plain)
+    assert "39.5140625" in full
+    assert "39.5140625" not in plain
+
+
+def test_csv_has_both_ends_of_every_rest(tails):
+    rows = list(csv.DictReader(io.StringIO(renderer("csv")(tails))))
+    for row in rows:
+        assert Fraction(row["gamma_rest_lower"]) <= Fraction(row["gamma_rest_upper"])
+        assert Fraction(row["rho_rest_upper"]) < 0 < Fraction(row["L_rest_lower"])
+
+
+class Cells(HTMLParser):
+    """The tags and the text of the cells."""
+
+    def __init__(self):
+        super().__init__()
+        self.tags, self.text = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def test_a_notebook_shows_a_table_and_no_markup_of_names(tails):
+    bad = "<script>alert(1)</script>\x1b[31m"
+    table = replace(tails, budget=Budget(bad, (bad,), tuple((None,) for _ in MEMBERS)))
+    seen = Cells()
+    seen.feed(table._repr_html_())
+    assert seen.tags.count("table") == 3
+    assert "script" not in seen.tags
+    assert "<script>alert(1)</script>\\x1b[31m" in seen.text
+    assert any(cell.startswith("1.0535692190337468243") for cell in seen.text)
+    for form in ("text", "markdown", "latex"):
+        assert "\x1b" not in renderer(form)(table)
+    assert r"\$" not in renderer("latex")(table)
+    assert "_name" in str(replace(table, budget=Budget("a", ("a_name",), table.budget.rows)))
+    assert r"a\_name" in renderer("latex")(replace(table, budget=Budget("a", ("a_name",), table.budget.rows)))
+
+
+def test_printing_a_table_prints_what_the_command_prints():
+    assert str(build_table((1, 2), 12)) == run("--m", "1,2", "--digits", "12").stdout
+
+
+def test_the_plot_is_drawn_twice_and_the_same_each_time(tmp_path):
+    for folder in ("one", "two"):
+        assert run("--m", "1:12", "--digits", "8", "--plot", str(tmp_path / folder)).exit_code == 0
+    svg, png = (tmp_path / "one" / f"constants.{kind}" for kind in ("svg", "png"))
+    for path in (svg, png):
+        assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
+    assert png.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = struct.unpack(">II", png.read_bytes()[16:24])
+    assert width > height > 400
+    words = " ".join(ET.parse(svg).getroot().itertext())
+    for label in ("γ = sup h", "ρ = sup |h′|", "L = sup h(x)/x", "certified", "leading terms", "√2/asinh 1"):
+        assert label in words
+
+
+def test_the_plot_shows_every_member(tmp_path):
+    run("--m", "2:9", "--digits", "8", "--plot", str(tmp_path))
+    text = (tmp_path / "constants.svg").read_text(encoding="utf-8")
+    assert (
+        len(re.findall(r'<use xlink:href="#m\w+" x="[\d.]+" y="[\d.]+" style="fill: #0072b2', text)) >= 3 * 8
+    )
+
+
+@pytest.mark.parametrize("members", ["7", "1:200", "99999,100000"])
+def test_any_members_can_be_drawn(members, tmp_path):
+    assert run("--m", members, "--digits", "5", "--plot", str(tmp_path)).exit_code == 0
+
+
+def test_a_folder_that_cannot_be_is_refused(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match="--plot"):
+        raise run("--plot", str(tmp_path / "file")).exception
+
+
+def test_the_examples_of_the_documentation_are_true():
+    failed, tried = doctest.testmod(sys.modules["lyapcheck.family.table"])
+    assert failed == 0
+    assert tried >= 4
