@@ -15,14 +15,18 @@ from lyapcheck.claims import (
     agrees,
     all_of,
     always_positive,
+    any_matrix,
+    any_vector,
     apply,
     below,
     bounded,
+    combined,
     coriolis_matrix,
     damping_below,
     dh,
     diff,
     dot,
+    every_n,
     exp,
     expr,
     for_all,
@@ -44,6 +48,7 @@ from lyapcheck.claims import (
     plus,
     positive,
     potential,
+    rate,
     rate_of,
     reals,
     rho,
@@ -56,6 +61,7 @@ from lyapcheck.claims import (
     transpose,
     var,
     vector,
+    zero_vector,
 )
 
 proof = Proof(
@@ -357,12 +363,24 @@ def _(case):
     )
 
 
+NAMES = ("w", "a", "h", "d", "U", "hw", "kp", "kv", "e")
+
+
 def symbols(n):
     """The letters of (12)–(15) for any robot: h = h(e), d = h'(e), hw = h(w), U the potential, r = ‖e‖."""
-    names = ("w", "a", "h", "d", "U", "hw", "kp", "kv", "e")
-    return {name: vector(name, n) for name in names} | {
+    return {name: vector(name, n) for name in NAMES} | {
         "M": matrix("M", n, symmetric=True),
         "C": matrix("C", n),
+        "r": var("r"),
+        "eps0": var("eps0"),
+    }
+
+
+def letters():
+    """The same for every n, with b the diagonal of B."""
+    return {name: any_vector(name) for name in (*NAMES, "b")} | {
+        "M": any_matrix("M"),
+        "C": any_matrix("C"),
         "r": var("r"),
         "eps0": var("eps0"),
     }
@@ -379,7 +397,7 @@ def lyapunov_12(s):
 def lyapunov_13(s):
     """V as (13) prints it."""
     eps = s["eps0"] / (1 + s["r"])
-    y = [w - eps * h_i for w, h_i in zip(s["w"], s["h"], strict=True)]
+    y = combined(s["w"], -eps, s["h"])
     return form(y, s["M"], y) / 2 + dot(s["kp"], s["U"])
 
 
@@ -396,6 +414,17 @@ def along_11(s, function):
     damping, coriolis, inertia = scaled(s["kv"], s["hw"]), apply(c, w), apply(mass, s["a"])
     friction = [(drive[i] - damping[i] - coriolis[i] - inertia[i]) / w[i] for i in range(n)]
     return total(diff(function, name) * rate for name, rate in rates.items()), friction
+
+
+def along_11_every_n(s, function, equals):
+    """For every n: a function has this derivative along (11), with Ṁ = C + Cᵀ and constant gains."""
+    w, mass, c = s["w"], s["M"], s["C"]
+    rates = [(w, s["a"]), (s["e"], -w), (s["h"], -scaled(s["d"], w)), (s["U"], -scaled(s["h"], w))]
+    rates += [(s["kp"], zero_vector()), (mass, plus(c, transpose(c)))]
+    rates += [(s["r"], -dot(s["e"], w) / s["r"]), (s["eps0"], expr(0))]
+    friction = scaled(s["kv"], s["hw"]) + scaled(s["b"], w) + apply(c, w)
+    motion = (mass, s["a"], scaled(s["kp"], s["h"]) - friction)
+    return every_n(rate(function), equals, symmetric=[mass], rates=rates, given=[motion])
 
 
 def terms_15(s, b):
@@ -445,10 +474,13 @@ def terms_14(s, b):
     ]
 
 
-@proof.claim("12", "V of (12) equals (13)", place="(12), (13)", section=LYAPUNOV)
+@proof.claim("12", "V of (12) equals (13), for every n", place="(12), (13)", section=LYAPUNOV)
 def _(case):
-    s = symbols(case.n)
-    return identity(lyapunov_12(s), lyapunov_13(s))
+    s, any_n = symbols(case.n), letters()
+    return all_of(
+        entries=identity(lyapunov_12(s), lyapunov_13(s)),
+        every_n=every_n(lyapunov_12(any_n), lyapunov_13(any_n), symmetric=[any_n["M"]]),
+    )
 
 
 @proof.claim(
@@ -487,34 +519,45 @@ def _(case):
     )
 
 
-@proof.claim("14", "(14) is dV/dt along (11)", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"])
+@proof.claim(
+    "14", "(14) is dV/dt along (11), for every n", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"]
+)
 def _(case):
-    s = symbols(case.n)
-    rate, friction = along_11(s, lyapunov_12(s))
+    """Entry by entry for this n, and for every n."""
+    s, any_n = symbols(case.n), letters()
+    derivative, friction = along_11(s, lyapunov_12(s))
     return all_of(
         potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
-        derivative=identity(rate, total(terms_14(s, friction))),
+        derivative=identity(derivative, total(terms_14(s, friction))),
+        every_n=along_11_every_n(any_n, lyapunov_12(any_n), total(terms_14(any_n, any_n["b"]))),
+        rate_of_the_norm=along_11_every_n(any_n, any_n["r"] ** 2, rate(dot(any_n["e"], any_n["e"]))),
     )
 
 
 @proof.claim(
     "15",
-    "(14) becomes (15): terms 1 and 6, 4 and 5 cancel, 9 and 13 combine",
+    "(14) becomes (15), for every n: terms 1 and 6, 4 and 5 cancel, 9 and 13 combine",
     place="(15)",
     section=LYAPUNOV,
     uses=["2.4", "2.5", "14"],
 )
 def _(case):
-    s = symbols(case.n)
-    b = vector("b", case.n)
+    """Entry by entry for this n, and for every n."""
+    s, any_n = symbols(case.n), letters()
+    entries = simplifications(s, vector("b", case.n), identity)
+    return all_of(**entries, every_n=all_of(**simplifications(any_n, any_n["b"], every_n)))
+
+
+def simplifications(s, b, equal):
+    """What cancels and combines in (14), and that (15) is left."""
     t = terms_14(s, b)
     eps = s["eps0"] / (1 + s["r"])
-    return all_of(
-        terms_1_and_6=identity(t[0] + t[5], 0),
-        terms_4_and_5=identity(t[3] + t[4], 0),
-        terms_9_and_13=identity(t[8] + t[12], -eps * form(s["h"], transpose(s["C"]), s["w"])),
-        sum=identity(total(t), total(terms_15(s, b))),
-    )
+    return {
+        "terms_1_and_6": equal(t[0] + t[5], expr(0)),
+        "terms_4_and_5": equal(t[3] + t[4], expr(0)),
+        "terms_9_and_13": equal(t[8] + t[12], -eps * form(s["h"], transpose(s["C"]), s["w"])),
+        "sum": equal(total(t), total(terms_15(s, b))),
+    }
 
 
 # Section 3: the bounds of (16) ----------------------------------------------------------------------------

@@ -48,6 +48,7 @@ from lyapcheck.claims import (
     plus,
     positive,
     potential,
+    rate,
     rate_of,
     reals,
     rho,
@@ -206,10 +207,12 @@ RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ"
 )
 def _(case):
     """By the chain rule with ẇ left open, then with Mẇ from (11); Ṁ = C + Cᵀ is Property 2.4."""
-    s = loops.loop(case.n)
+    s, any_n = loops.loop(case.n), loops.letters()
     return all_of(
         chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
         terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
+        every_n=loops.along(any_n, loops.energy(any_n), total(loops.terms(any_n))),
+        rate_of_the_norm=loops.along(any_n, any_n.r**2, rate(dot(any_n.e, any_n.e))),
     )
 
 

@@ -17,6 +17,7 @@ long as ‖q̇_d‖ ≤ v_d. Taken for granted: q_d has two continuous derivativ
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import reduce
 
 from lyapcheck.claims import (
     ArmBounds,
@@ -26,9 +27,12 @@ from lyapcheck.claims import (
     Proof,
     all_of,
     always_positive,
+    any_vector,
     apply,
+    combined,
     dot,
     entry_floors,
+    every_n,
     expr,
     for_all,
     gamma,
@@ -50,6 +54,7 @@ from lyapcheck.claims import (
     total,
     var,
     vector,
+    zero_vector,
 )
 
 proof = Proof(
@@ -82,39 +87,37 @@ def known_of(case):
     uses=["h.odd"],
 )
 def _(case):
-    """(21) minus the left side of (1) at q̇ = q̇_d + w, q̈ = q̈_d + ẇ, with h(ė) = −h(w) as h is odd."""
-    n = case.n
-    s = loops.loop(n)
-    z, speed, acceleration, weight = (vector(name, n) for name in ("z", "vd", "ad", "g"))
-    applied = [
-        total(parts)
-        for parts in zip(
-            scaled(s.kp, s.h),
-            [-damping for damping in scaled(s.kv, s.hw)],
-            apply(s.M, acceleration),
-            apply(s.C, speed),
-            weight,
-            scaled(s.b, speed),
-            strict=True,
-        )
-    ]
-    velocity = [v + w for v, w in zip(speed, s.w, strict=True)]
-    needed = [
-        total(parts)
-        for parts in zip(
-            apply(s.M, [d + a for d, a in zip(acceleration, s.a, strict=True)]),
-            apply(s.C, velocity),
-            weight,
-            scaled(s.b, velocity),
-            strict=True,
-        )
-    ]
+    """Entry by entry for this n, and for every n."""
+    n, any_n = case.n, loops.letters()
+    names = ("z", "vd", "ad", "g")
     zero = [expr(0)] * n
-    origin = replace(s, w=zero, hw=zero, h=zero)
-    return all_of(
-        loop=identity(dot(z, applied) - dot(z, needed), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
-        equilibrium=identity(dot(z, loops.force(origin)), 0),
+    entries = loop_of_21(loops.loop(n), [vector(name, n) for name in names], zero, identity)
+    letters = [any_vector(name) for name in names]
+    return all_of(**entries, every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n)))
+
+
+def loop_of_21(s, others, zero, equal):
+    """(21) minus the left side of (1) at q̇ = q̇_d + w, q̈ = q̈_d + ẇ, with h(ė) = −h(w) as h is odd."""
+    z, speed, acceleration, weight = others
+
+    def together(first, *rest):
+        return reduce(lambda x, y: combined(x, expr(1), y), rest, first)
+
+    applied = together(
+        combined(scaled(s.kp, s.h), expr(-1), scaled(s.kv, s.hw)),
+        apply(s.M, acceleration),
+        apply(s.C, speed),
+        weight,
+        scaled(s.b, speed),
     )
+    velocity = together(speed, s.w)
+    inertia = apply(s.M, together(acceleration, s.a))
+    needed = together(inertia, apply(s.C, velocity), weight, scaled(s.b, velocity))
+    origin = replace(s, w=zero, hw=zero, h=zero)
+    return {
+        "loop": equal(dot(z, applied) - dot(z, needed), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
+        "equilibrium": equal(dot(z, loops.force(origin)), expr(0)),
+    }
 
 
 RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ, with ‖q̇_d‖ ≤ v_d"

@@ -210,6 +210,9 @@ FAULTS = [
     ("14", '        -s["eps0"] * along / (1 + s["r"]) ** 2', '        s["eps0"] * along / (1 + s["r"]) ** 2'),
     ("15", "-eps * form(h_e, transpose(c), w)", "-eps * form(h_e, c, w)"),
     ("15", "        -dot(w, scaled(b, w)),\n        eps * form", "        eps * form"),
+    ("14", "(mass, plus(c, transpose(c)))]", "(mass, plus(c, c))]"),
+    ("14", '(s["e"], -w)', '(s["e"], w)'),
+    ("14", "+ apply(c, w)", "+ apply(transpose(c), w)"),
     (
         "16.3",
         "majorant(sqrt(case.n) * rho(case.m), eps=1, beta=1, w=2)",

@@ -3,22 +3,15 @@
 A proof script needs nothing but the names below.
 """
 
+from lyapcheck.check.certificates.every_n import EveryN
 from lyapcheck.check.certificates.statements import Relation
 from lyapcheck.claims.arms import (
-    apply,
     coriolis_matrix,
     determinant,
-    dot,
-    form,
     gravity_vector,
     leading_minors,
     mass_matrix,
-    matrix,
-    plus,
     rate_of,
-    scaled,
-    transpose,
-    vector,
 )
 from lyapcheck.claims.bounds import (
     ArmBounds,
@@ -54,6 +47,18 @@ from lyapcheck.claims.expressions import (
     tanh,
     total,
     var,
+)
+from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, every_n, rate, zero_vector
+from lyapcheck.claims.products import (
+    apply,
+    combined,
+    dot,
+    form,
+    matrix,
+    plus,
+    scaled,
+    transpose,
+    vector,
 )
 from lyapcheck.claims.result import ClaimResult, ProofResult
 from lyapcheck.claims.run import run_proof
@@ -93,6 +98,8 @@ from lyapcheck.claims.statements import (
 __all__ = [
     "Agrees",
     "AllOf",
+    "AnyMatrix",
+    "AnyVector",
     "ArmBounds",
     "Case",
     "Claim",
@@ -101,6 +108,7 @@ __all__ = [
     "DampingBelow",
     "Decision",
     "Decreasing",
+    "EveryN",
     "Expr",
     "FamilyBounds",
     "ForAll",
@@ -123,10 +131,13 @@ __all__ = [
     "agrees",
     "all_of",
     "always_positive",
+    "any_matrix",
+    "any_vector",
     "apply",
     "atan",
     "below",
     "bounded",
+    "combined",
     "coriolis_matrix",
     "cos",
     "cosh",
@@ -138,6 +149,7 @@ __all__ = [
     "dot",
     "entry_floors",
     "entry_sizes",
+    "every_n",
     "exp",
     "expr",
     "for_all",
@@ -161,6 +173,7 @@ __all__ = [
     "plus",
     "positive",
     "potential",
+    "rate",
     "rate_of",
     "reals",
     "rho",
@@ -176,4 +189,5 @@ __all__ = [
     "transpose",
     "var",
     "vector",
+    "zero_vector",
 ]

@@ -12,11 +12,26 @@ References: ``reyes2019family`` (11), (13), (15), (21).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
-from lyapcheck.claims.arms import (
+from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.claims.bounds import FamilyBounds
+from lyapcheck.claims.expressions import Expr, diff, expr, total, var
+from lyapcheck.claims.letters import (
+    AnyMatrix,
+    AnyVector,
+    Letter,
+    any_matrix,
+    any_vector,
+    every_n,
+    rate,
+    zero_vector,
+)
+from lyapcheck.claims.products import (
     Matrix,
     Vector,
     apply,
+    combined,
     dot,
     form,
     matrix,
@@ -25,34 +40,30 @@ from lyapcheck.claims.arms import (
     transpose,
     vector,
 )
-from lyapcheck.claims.bounds import FamilyBounds
-from lyapcheck.claims.expressions import Expr, diff, total, var
 from lyapcheck.claims.statements import Majorant, majorant
+
+V = TypeVar("V", Vector, AnyVector)
+A = TypeVar("A", Matrix, AnyMatrix)
 
 
 @dataclass(frozen=True)
-class Loop:
+class Loop(Generic[V, A]):
     """The letters: ``h`` stands for h(e), ``dh`` for h'(e), ``hw`` for h(w), ``a`` for ẇ."""
 
-    w: Vector
-    a: Vector
-    e: Vector
-    h: Vector
-    dh: Vector
-    U: Vector
-    hw: Vector
-    kp: Vector
-    kv: Vector
-    b: Vector
-    M: Matrix
-    C: Matrix
+    w: V
+    a: V
+    e: V
+    h: V
+    dh: V
+    U: V
+    hw: V
+    kp: V
+    kv: V
+    b: V
+    M: A
+    C: A
     r: Expr
     eps0: Expr
-
-    @property
-    def n(self) -> int:
-        """Number of joints."""
-        return len(self.w)
 
     @property
     def eps(self) -> Expr:
@@ -60,9 +71,9 @@ class Loop:
         return self.eps0 / (1 + self.r)
 
     @property
-    def y(self) -> Vector:
+    def y(self) -> V:
         """w − εh."""
-        return [w - self.eps * h for w, h in zip(self.w, self.h, strict=True)]
+        return combined(self.w, -self.eps, self.h)
 
     @property
     def along(self) -> Expr:
@@ -70,44 +81,65 @@ class Loop:
         return dot(self.e, self.w) / self.r
 
 
-def loop(n: int) -> Loop:
+Entries = Loop[Vector, Matrix]
+Letters = Loop[AnyVector, AnyMatrix]
+NAMES = ("w", "a", "e", "h", "dh", "U", "hw", "kp", "kv", "b")
+
+
+def loop(n: int) -> Entries:
     """The letters for n joints; M is symmetric, C any matrix."""
-    names = ("w", "a", "e", "h", "dh", "U", "hw", "kp", "kv", "b")
-    letters = {name: vector(name, n) for name in names}
-    return Loop(**letters, M=matrix("M", n, symmetric=True), C=matrix("C", n), r=var("r"), eps0=var("eps0"))
+    own = {name: vector(name, n) for name in NAMES}
+    return Loop(**own, M=matrix("M", n, symmetric=True), C=matrix("C", n), r=var("r"), eps0=var("eps0"))
 
 
-def energy(s: Loop) -> Expr:
+def letters() -> Letters:
+    """The letters for every number of joints."""
+    own = {name: any_vector(name) for name in NAMES}
+    return Loop(**own, M=any_matrix("M"), C=any_matrix("C"), r=var("r"), eps0=var("eps0"))
+
+
+def energy(s: Loop[V, A]) -> Expr:
     """V of (13)."""
     return form(s.y, s.M, s.y) / 2 + dot(s.kp, s.U)
 
 
-def chain_rule(s: Loop, function: Expr) -> Expr:
+def chain_rule(s: Entries, function: Expr) -> Expr:
     """The derivative of a function of the letters along the loop, ẇ = a left as it is.
 
     ṙ = −êᵀw has no value at e = 0; where h = 0 as well, it enters V's derivative only in products with h.
     """
-    rates = {f"w{i + 1}": s.a[i] for i in range(s.n)}
-    rates |= {f"h{i + 1}": -s.dh[i] * s.w[i] for i in range(s.n)}
-    rates |= {f"U{i + 1}": -s.h[i] * s.w[i] for i in range(s.n)}
-    rates |= {f"M{i + 1}{j + 1}": s.C[i][j] + s.C[j][i] for i in range(s.n) for j in range(i, s.n)}
+    joints = range(len(s.w))
+    rates = {f"w{i + 1}": s.a[i] for i in joints}
+    rates |= {f"h{i + 1}": -s.dh[i] * s.w[i] for i in joints}
+    rates |= {f"U{i + 1}": -s.h[i] * s.w[i] for i in joints}
+    rates |= {f"M{i + 1}{j + 1}": s.C[i][j] + s.C[j][i] for i in joints for j in range(i, len(s.w))}
     rates["r"] = -s.along
     return total(diff(function, name) * rate for name, rate in rates.items())
 
 
-def inertia(s: Loop) -> Vector:
+def along(s: Letters, function: Expr, equals: Expr) -> EveryN:
+    """For every n: a function has this derivative along the loop; the rates are those of ``chain_rule``."""
+    still = [(x, zero_vector()) for x in (s.kp, s.kv, s.b)]
+    moving = [(s.w, s.a), (s.e, -s.w), (s.h, -scaled(s.dh, s.w)), (s.U, -scaled(s.h, s.w))]
+    scalars = [(s.r, -s.along), (s.eps0, expr(0))]
+    rates: list[tuple[Letter, Letter]] = [*scalars, *moving, *still, (s.M, s.C + s.C.T)]
+    return every_n(rate(function), equals, (s.M,), rates, [(s.M, s.a, force(s))])
+
+
+def inertia(s: Loop[V, A]) -> V:
     """M ẇ."""
     return apply(s.M, s.a)
 
 
-def force(s: Loop) -> Vector:
+def force(s: Loop[V, A]) -> V:
     """What Mẇ equals in the loop: K_p h − K_v h(w) − Bw − Cw."""
-    pull, damping = scaled(s.kp, s.h), scaled(s.kv, s.hw)
-    friction, turning = scaled(s.b, s.w), apply(s.C, s.w)
-    return [p - d - f - c for p, d, f, c in zip(pull, damping, friction, turning, strict=True)]
+    pull, minus = scaled(s.kp, s.h), expr(-1)
+    for resisting in (scaled(s.kv, s.hw), scaled(s.b, s.w), apply(s.C, s.w)):
+        pull = combined(pull, minus, resisting)
+    return pull
 
 
-def terms(s: Loop) -> list[Expr]:
+def terms(s: Loop[V, A]) -> list[Expr]:
     """The eleven terms of (15), in printed order."""
     w, h, dw, eps = s.w, s.h, scaled(s.dh, s.w), s.eps
     return [
@@ -125,12 +157,10 @@ def terms(s: Loop) -> list[Expr]:
     ]
 
 
-def rate_with(s: Loop, moved: Vector) -> Expr:
+def rate_with(s: Loop[V, A], moved: V) -> Expr:
     """dV/dt with Mẇ replaced by a vector: yᵀ(Mẇ − M d(εh)/dt) + ½yᵀ(C + Cᵀ)y − Σ k_pi h(e_i) w_i."""
-    shift = [
-        s.eps / (1 + s.r) * s.along * h - s.eps * dh * w for h, dh, w in zip(s.h, s.dh, s.w, strict=True)
-    ]
-    pull = [a - b for a, b in zip(moved, apply(s.M, shift), strict=True)]
+    turned = combined(moved, -s.eps / (1 + s.r) * s.along, apply(s.M, s.h))
+    pull = combined(turned, s.eps, apply(s.M, scaled(s.dh, s.w)))
     turning = form(s.y, plus(s.C, transpose(s.C)), s.y) / 2
     return dot(s.y, pull) + turning - dot(s.w, scaled(s.kp, s.h))
 

@@ -38,6 +38,7 @@ from lyapcheck.claims import (
     norm_chain,
     pi,
     positive,
+    rate,
     reals,
     theorem,
     total,
@@ -155,10 +156,12 @@ def _(case):
 
 @proof.claim("rate", "dV/dt is the sum of eleven terms", section=LYAPUNOV, uses=["potential", "smooth"])
 def _(case):
-    s = loops.loop(case.n)
+    s, any_n = loops.loop(case.n), loops.letters()
     return all_of(
         chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
         terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
+        every_n=loops.along(any_n, loops.energy(any_n), total(loops.terms(any_n))),
+        rate_of_the_norm=loops.along(any_n, any_n.r**2, rate(dot(any_n.e, any_n.e))),
     )
 
 

@@ -15,6 +15,7 @@ import mpmath
 import numpy as np
 from mpmath import mp, mpf
 
+from lyapcheck.check.certificates.every_n import EveryN
 from lyapcheck.claims.statements import (
     Agrees,
     Constant,
@@ -30,6 +31,7 @@ from lyapcheck.claims.statements import (
     TrigonometricPositive,
     Variable,
 )
+from tests.refutations.every_n_oracle import every_n_is_false
 
 Tree = tuple[Any, ...]
 Point = dict[str, Any]
@@ -426,4 +428,5 @@ ORACLES: dict[type[Statement], Any] = {
     NormChain: _norm_chain,
     TrigonometricBound: _trigonometric_bound,
     TrigonometricPositive: _trigonometric_positive,
+    EveryN: every_n_is_false,
 }

@@ -9,8 +9,10 @@ from itertools import chain
 from typing import Any
 
 from lyapcheck.check.certificates import statements as kinds
+from lyapcheck.check.certificates.every_n import EveryN
 from lyapcheck.check.certificates.refusal import Refused, require
 from lyapcheck.check.certificates.trees import require_expressions
+from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 
 MAX_JOINTS = 100
 MAX_INPUTS = 16
@@ -118,6 +120,31 @@ def _theorem(statement: kinds.Theorem) -> None:
     _distinct("hypotheses", [name for name, _ in statement.hypotheses])
 
 
+def _every_n(statement: EveryN) -> None:
+    """One name for one letter; what is given is solved for vectors that it does not contain itself."""
+    require_sort(statement.left, "number", rate=True)
+    require_sort(statement.right, "number", rate=True)
+    used = letters(statement.left) | letters(statement.right)
+    sorts = {letter: sort for sort, letter in LETTERS.items()}
+    for letter, value in statement.rates:
+        require(len(letter) == 2 and letter[0] in sorts, "rates", letter, "has no derivative of its own")
+        for tree in (letter, value):
+            require_sort(tree, sorts[letter[0]])
+            used |= letters(tree)
+    for known in statement.given:
+        require_sort(("mat", known.matrix), "matrix")
+        require_sort(known.equals, "vector")
+        used |= letters(known.equals) | {("mat", known.matrix), ("vec", known.vector)}
+        solved = {("vec", other.vector) for other in statement.given}
+        require(not solved & letters(known.equals), "given", known.vector, "occurs on a right side")
+    _distinct("letters", sorted(name for _, name in used))
+    _distinct("rates", [letter[1] for letter, _ in statement.rates])
+    _distinct("given", [f"{known.matrix} {known.vector}" for known in statement.given])
+    _distinct("symmetric", list(statement.symmetric))
+    for name in statement.symmetric:
+        require(("mat", name) in used, "symmetric", name, "is not a matrix of the statement")
+
+
 def _all_of(statement: kinds.AllOf) -> None:
     require(len(statement.parts) > 0, "parts", "none", "a conjunction needs at least one part")
 
@@ -137,6 +164,7 @@ FORMS: dict[type, Callable[[Any], None]] = {
     kinds.DampingBelow: _damping,
     kinds.Theorem: _theorem,
     kinds.AllOf: _all_of,
+    EveryN: _every_n,
 }
 """The kinds of statement, each with what makes one well formed."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.every_n import EveryN
 from lyapcheck.check.certificates.proofs import Application
 from lyapcheck.check.certificates.rules.theorem import THEOREMS
 from lyapcheck.claims import state_statements as state_kinds
@@ -14,6 +15,7 @@ from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
 from lyapcheck.claims.procedures.chain import find_chain
 from lyapcheck.claims.procedures.constants import find_constant
+from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
 from lyapcheck.claims.procedures.norms import find_norm_bound
@@ -77,6 +79,7 @@ def _missing(statement: kinds.Missing) -> Finding:
 
 PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Identity: find_identity,
+    EveryN: find_every_n,
     kinds.ForAll: find_for_all,
     kinds.Constant: find_constant,
     kinds.NormBound: find_norm_bound,

@@ -1,0 +1,144 @@
+"""Numbers, vectors and matrices at one n, entry by entry: ordinary expressions in w[1], M[1,2], …"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from functools import cached_property
+
+from flint import fmpq
+
+from lyapcheck.check.functions import Algebra, Tree, Unsupported, derivative, evaluate, variables
+from lyapcheck.check.polynomials import rational
+
+ZERO: Tree = ("num", "0")
+Vector = list[Tree]
+Matrix = list[Vector]
+
+
+class Entries:
+    """Expressions at one n; a symmetric matrix has the variables of its upper half.
+
+    Args:
+        n: at least 1.
+        symmetric: the names of the matrices with Aᵀ = A.
+        rates: the derivatives of the letters.
+    """
+
+    def __init__(self, n: int, symmetric: Iterable[str], rates: Mapping[Tree, Tree]) -> None:
+        self.joints, self.symmetric, self.rates = range(n), frozenset(symmetric), rates
+
+    def number(self, tree: Tree) -> Tree:
+        """A number as an ordinary expression."""
+        kind, *rest = tree
+        if kind == "dot":
+            x, y = self.vector(rest[0]), self.vector(rest[1])
+            return _sum([("mul", a, b) for a, b in zip(x, y, strict=True)])
+        if kind == "rate":
+            return self._rate(self.number(rest[0]))
+        return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
+
+    def vector(self, tree: Tree) -> Vector:
+        """The entries of a vector."""
+        kind, *rest = tree
+        if kind == "vec":
+            return [("var", f"{rest[0]}[{i + 1}]") for i in self.joints]
+        if kind == "sum":
+            parts = [self.vector(part) for part in rest]
+            return [_sum([part[i] for part in parts]) for i in self.joints]
+        if kind == "scale":
+            factor = self.number(rest[0])
+            return [("mul", factor, entry) for entry in self.vector(rest[1])]
+        rows, x = self.matrix(rest[0]), self.vector(rest[1])
+        return [_sum([("mul", a, b) for a, b in zip(row, x, strict=True)]) for row in rows]
+
+    def matrix(self, tree: Tree) -> Matrix:
+        """The rows of a matrix."""
+        kind, *rest = tree
+        if kind == "mat":
+            return [[("var", self._name(rest[0], i, j)) for j in self.joints] for i in self.joints]
+        if kind == "diag":
+            x = self.vector(("vec", rest[0]))
+            return [[x[i] if i == j else ZERO for j in self.joints] for i in self.joints]
+        if kind == "transpose":
+            return [list(column) for column in zip(*self.matrix(rest[0]), strict=True)]
+        if kind == "sum":
+            parts = [self.matrix(part) for part in rest]
+            return [[_sum([part[i][j] for part in parts]) for j in self.joints] for i in self.joints]
+        factor = self.number(rest[0])
+        return [[("mul", factor, entry) for entry in row] for row in self.matrix(rest[1])]
+
+    def _name(self, name: str, i: int, j: int) -> str:
+        if name in self.symmetric:
+            i, j = min(i, j), max(i, j)
+        return f"{name}[{i + 1},{j + 1}]"
+
+    @cached_property
+    def moving(self) -> dict[str, Tree]:
+        """The derivative of each variable that has one."""
+        found: dict[str, Tree] = {}
+        for (kind, name), value in self.rates.items():
+            if kind == "var":
+                found[name] = self.number(value)
+            elif kind == "vec":
+                found |= {f"{name}[{i + 1}]": entry for i, entry in enumerate(self.vector(value))}
+            else:
+                rows = self.matrix(value)
+                found |= {self._name(name, i, j): rows[i][j] for i in self.joints for j in self.joints}
+        return found
+
+    def _rate(self, tree: Tree) -> Tree:
+        """The chain rule over the variables of an expression."""
+        names = sorted(variables(tree))
+        for name in names:
+            if name not in self.moving:
+                raise Unsupported(f"no derivative is given for {name}")
+        return _sum([("mul", derivative(tree, name), self.moving[name]) for name in names])
+
+
+class Rationals(Algebra):
+    """Exact rational arithmetic; functions and constants that leave ℚ have no place in it."""
+
+    def number(self, value: Fraction) -> fmpq:
+        """The number itself."""
+        return rational(value)
+
+    def constant(self, name: str, m: int) -> fmpq:
+        """γ_1 = ρ_1 = L_1 = 1.
+
+        Raises:
+            Unsupported: for m > 1.
+        """
+        if m > 1:
+            raise Unsupported(f"{name}_{m} is not rational")
+        return fmpq(1)
+
+    def pi(self) -> fmpq:
+        """π has no place.
+
+        Raises:
+            Unsupported: always.
+        """
+        raise Unsupported("π is not rational")
+
+    def function(self, name: str, value: fmpq) -> fmpq:
+        """Functions have no place.
+
+        Raises:
+            Unsupported: always.
+        """
+        raise Unsupported(f"{name} leaves the rational numbers")
+
+
+def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
+    """The value of an ordinary expression at a rational point.
+
+    Raises:
+        Unsupported: the value is not found by rational arithmetic.
+        ZeroDivisionError: it has no value there.
+    """
+    return evaluate(tree, {name: rational(value) for name, value in point.items()}, Rationals())
+
+
+def _sum(parts: list[Tree]) -> Tree:
+    return ("add", *parts) if parts else ZERO

@@ -1,0 +1,81 @@
+"""Which expressions in numbers, vectors and matrices are well formed.
+
+A name is of ASCII letters, digits and underscores; so the name of a word or of an entry, which has other
+signs in it, cannot be mistaken for one.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from lyapcheck.check.certificates.refusal import require
+from lyapcheck.check.certificates.trees import MAX_DEPTH, MAX_NAME, SHAPES
+from lyapcheck.check.functions import Tree
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+LETTERS = {"number": "var", "vector": "vec", "matrix": "mat"}
+"""The operation that makes a letter of each sort."""
+
+PARTS: dict[tuple[str, str], tuple[str, ...]] = {
+    ("number", "dot"): ("vector", "vector"),
+    ("number", "rate"): ("number",),
+    ("vector", "scale"): ("number", "vector"),
+    ("vector", "apply"): ("matrix", "vector"),
+    ("matrix", "scale"): ("number", "matrix"),
+    ("matrix", "transpose"): ("matrix",),
+}
+"""The sorts of the parts of an operation that makes a vector, a matrix or a number of them."""
+
+
+def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPTH) -> None:
+    """Refuse an expression that is not a number, a vector or a matrix, as ``sort`` says.
+
+    Args:
+        tree: untrusted data.
+        sort: ``number``, ``vector`` or ``matrix``.
+        rate: whether derivatives may occur; never one inside another.
+        depth: how many levels are allowed.
+
+    Raises:
+        Refused: at the first node that is wrong.
+    """
+    plain = isinstance(tree, tuple) and len(tree) > 0 and isinstance(tree[0], str)
+    require(plain, "expression", tree, "is not an operation with its parts")
+    require(depth > 0, "expression", tree[0], f"is nested deeper than {MAX_DEPTH} levels")
+    operation, *parts = tree
+    if operation == LETTERS[sort] or (sort, operation) == ("matrix", "diag"):
+        known = len(parts) == 1 and isinstance(parts[0], str) and len(parts[0]) <= MAX_NAME
+        require(known and NAME.fullmatch(parts[0]) is not None, "letter", parts, "is not a name")
+        return
+    require(operation != "rate" or rate, "rate", tree, "may not occur here")
+    for part, wanted in zip(parts, _sorts(operation, parts, sort), strict=True):
+        if isinstance(part, tuple):
+            require_sort(part, wanted, rate and operation != "rate", depth - 1)
+
+
+def _sorts(operation: str, parts: list[Any], sort: str) -> tuple[str, ...]:
+    """The sorts that the parts of an operation must have.
+
+    Raises:
+        Refused: the operation does not make something of this sort, or not from so many parts.
+    """
+    found = PARTS.get((sort, operation))
+    if operation == "sum" and sort != "number":
+        found = (sort,) * len(parts)
+    if found is not None:
+        fits = len(found) == len(parts) and all(isinstance(part, tuple) for part in parts)
+        require(fits, operation, parts, f"needs {len(found)} expressions")
+        return found
+    shape = SHAPES.get(operation) if sort == "number" else None
+    require(shape is not None and shape(parts), "expression", operation, f"does not make a {sort} of these")
+    return (sort,) * len(parts)
+
+
+def letters(tree: Tree) -> set[Tree]:
+    """The letters of an expression as expressions; a diagonal matrix has the letter of its vector."""
+    if tree[0] in ("var", "vec", "mat"):
+        return {tree}
+    if tree[0] == "diag":
+        return {("vec", tree[1])}
+    return set().union(*(letters(part) for part in tree[1:] if isinstance(part, tuple)))

@@ -1,0 +1,98 @@
+"""Identities for every n, proved by normal forms of words xᵀ A B … y and refuted by entries for some n.
+
+References: ``geddes1992algorithms``, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from flint import fmpq_mat
+
+from lyapcheck.check.certificates.every_n import EntriesWitness, EveryN
+from lyapcheck.check.certificates.proofs import NormalForm
+from lyapcheck.check.certificates.refusal import Refused
+from lyapcheck.check.certificates.rules.every_n import at_size, in_words, names_at, rates_fit
+from lyapcheck.check.certificates.well_formed import require_well_formed
+from lyapcheck.check.functions import Unsupported
+from lyapcheck.check.letters.entries import Entries, exact
+from lyapcheck.check.normal_form import is_zero
+from lyapcheck.check.polynomials import rational
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import Point, point_of
+
+METHOD = "identity for every n"
+SIZES = (1, 2, 3)
+TRIES = 3
+
+
+def find_every_n(statement: EveryN) -> Finding:
+    """Try the normal forms in words, then entries for n = 1, 2, 3."""
+    try:
+        require_well_formed(statement)
+        if not rates_fit(statement):
+            return still_open("a symmetric matrix has a derivative that is not; correct it", METHOD)
+        if is_zero(in_words(statement)):
+            return shown(NormalForm(), f"{METHOD}: equal normal forms in words of vectors and matrices")
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the statement", METHOD)
+    except Unsupported as problem:
+        return still_open(f"{problem}; write both sides in sums, products and quotients", METHOD)
+    for n, point in _attempts(statement):
+        try:
+            found = _difference(statement, n, point)
+        except (Unsupported, ZeroDivisionError):
+            continue
+        if found is not None:
+            return found
+    return still_open(
+        "the normal forms differ, but no entries for n = 1, 2, 3 tell the sides apart; compare by hand",
+        METHOD,
+    )
+
+
+def _attempts(statement: EveryN) -> Iterator[tuple[int, Point]]:
+    """Entries that meet what is given: small rational numbers, then one linear system for each vector."""
+    for n in SIZES:
+        for k in range(TRIES):
+            names = sorted(names_at(*at_size(statement, n)))
+            point = {name: _spread(k, i) for i, name in enumerate(names)}
+            try:
+                yield n, _solved(statement, n, point)
+            except (Unsupported, ZeroDivisionError):
+                continue
+
+
+def _spread(k: int, i: int) -> Fraction:
+    """A fixed rational in (-3, 3), never 0, of both signs."""
+    value = Fraction((37 * (i + 1) + 101 * k) % 97 + 1, 33)
+    return -value if (i * (k + 1)) % 3 == 1 else value
+
+
+def _solved(statement: EveryN, n: int, point: Point) -> Point:
+    """The point with each vector that is given by A x = b replaced by the solution."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    for known in statement.given:
+        rows = entries.matrix(("mat", known.matrix))
+        a = fmpq_mat([[rational(point[name]) for _, name in row] for row in rows])
+        b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(known.equals)])
+        for (_, name), value in zip(entries.vector(("vec", known.vector)), a.solve(b).entries(), strict=True):
+            point = point | {name: Fraction(int(value.p), int(value.q))}
+    return point
+
+
+def _difference(statement: EveryN, n: int, point: Point) -> Finding | None:
+    """The finding that both sides differ at a point, if they do."""
+    sides, _ = at_size(statement, n)
+    left, right = (exact(side, point) for side in sides)
+    if left == right:
+        return None
+    shown_at = {"n": str(n), **{name: str(value) for name, value in sorted(point.items())}}
+    data = {
+        "point": shown_at,
+        "left": [str(left)] * 2,
+        "operator": "=",
+        "right": [str(right)] * 2,
+    }
+    return broken(EntriesWitness(n, point_of(point)), f"{METHOD}: entries at which the sides differ", data)

@@ -1,0 +1,289 @@
+"""Identities for every n: against NumPy, against the same entry by entry, and with faults of every kind."""
+
+import json
+import runpy
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.codec import from_json, to_json
+from lyapcheck.check.certificates.every_n import EntriesWitness, EveryN
+from lyapcheck.check.certificates.proofs import NormalForm
+from lyapcheck.check.certificates.statements import Statement
+from lyapcheck.claims import (
+    any_matrix,
+    any_vector,
+    dot,
+    every_n,
+    expr,
+    form,
+    loops,
+    plus,
+    rate,
+    scaled,
+    sinh,
+    total,
+    transpose,
+    var,
+    zero_vector,
+)
+from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.script import find_script
+
+A, B, S = (any_matrix(name) for name in "ABS")
+x, y, z, d = (any_vector(name) for name in "xyzd")
+s, t = var("s"), var("t")
+PUBLISHED = runpy.run_path(str(find_script("published.py")))
+L = PUBLISHED["letters"]()
+
+
+def verdict(statement):
+    found = decide(statement)
+    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
+    if found.certificate is not None:
+        assert verify(again, found.certificate).verdict == found.verdict.value
+    return found.verdict.value
+
+
+TRUE = {
+    "transposition": every_n(form(x, A, y), form(y, transpose(A), x)),
+    "a product": every_n(dot(x, A @ (B @ y)), dot(B.T @ (A.T @ x), y)),
+    "symmetry": every_n(form(x, S, y), form(y, S, x), [S]),
+    "entry by entry": every_n(dot(x, scaled(d, y)), dot(d, scaled(y, x))),
+    "diagonals commute inside": every_n(
+        form(x, A, scaled(d, scaled(y, A @ z))), form(x, A, scaled(y, scaled(d, A @ z)))
+    ),
+    "an end and a diagonal": every_n(form(scaled(d, x), A, y), form(scaled(x, d), A, y)),
+    "half of a symmetric part": every_n(form(x, A + A.T, x) / 2, form(x, A, x)),
+    "quotients": every_n(1 / (1 + s) - 1 / (1 + t), (t - s) / ((1 + s) * (1 + t)) * dot(x, y) / dot(y, x)),
+    "what is given": every_n(form(y, A, x), 2 * dot(y, z), given=[(A, x, z.times(2))]),
+    "what is given, transposed": every_n(dot(A.T @ y, x), 2 * dot(z, y), given=[(A, x, z.times(2))]),
+    "a derivative": every_n(rate(s * dot(x, x)), 2 * s * dot(x, y) + t * dot(x, x), rates=[(x, y), (s, t)]),
+    "of a quotient": every_n(
+        rate(dot(x, d) / s), dot(y, d) / s - dot(x, d) * t / s**2, rates=[(x, y), (s, t), (d, zero_vector())]
+    ),
+    "nothing": every_n(dot(x, zero_vector()), expr(0)),
+}
+FALSE = {
+    "no symmetry": every_n(form(x, A, y), form(y, A, x)),
+    "matrices do not commute": every_n(dot(x, A @ (B @ y)), dot(x, B @ (A @ y))),
+    "symmetric ones neither": every_n(dot(x, A @ (S @ y)), dot(x, S @ (A @ y)), [A, S]),
+    "a diagonal is no matrix of any kind": every_n(form(x, A, scaled(d, y)), form(scaled(d, x), A, y)),
+    "an end beyond a matrix": every_n(form(scaled(d, x), A, y), form(scaled(d, y), A, x), [A]),
+    "true for n = 1 alone": every_n(dot(x, y) * dot(z, d), dot(x, z) * dot(y, d)),
+    "a derivative forgotten": every_n(rate(s * dot(x, x)), 2 * s * dot(x, y), rates=[(x, y), (s, t)]),
+    "what is given for another vector": every_n(form(y, A, d), 2 * dot(y, z), given=[(A, x, z.times(2))]),
+    "what is given, not transposed": every_n(form(x, A, y), 2 * dot(y, z), given=[(A, x, z.times(2))]),
+}
+
+
+@pytest.mark.parametrize("name", TRUE)
+def test_what_holds_for_every_n_is_proved(name):
+    assert verdict(TRUE[name]) == "proved"
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_what_fails_for_some_n_is_refuted_by_entries(name):
+    assert verdict(FALSE[name]) == "refuted"
+
+
+def test_an_n_at_which_it_fails_is_found():
+    """It holds for n = 1, where there is nothing to exchange."""
+    found = decide(FALSE["true for n = 1 alone"])
+    assert found.certificate.n == 2
+
+
+@pytest.mark.parametrize("name", [name for name in FALSE if "derivative" not in name])
+def test_the_sides_differ_at_the_witness_in_floating_point_too(name):
+    """Worked out again with NumPy."""
+    statement = FALSE[name]
+    witness = decide(statement).certificate
+    left, right = (numeric(side, witness, statement) for side in (statement.left, statement.right))
+    assert abs(left - right) > 1e-9 * (abs(left) + abs(right))
+
+
+def numeric(tree, witness, statement):
+    """The value of an expression at a witness, by NumPy."""
+    if not isinstance(tree, tuple):
+        return tree
+    if tree[0] in ("vec", "mat", "diag", "num", "var"):
+        return letter(*tree, witness, statement)
+    parts = [numeric(part, witness, statement) for part in tree[1:]]
+    return BY_NUMPY[tree[0]](*parts)
+
+
+def letter(kind, name, witness, statement):
+    at, joints = dict(witness.point), range(1, witness.n + 1)
+    if kind in ("num", "var"):
+        return float(Fraction(name) if kind == "num" else at[name])
+    if kind in ("vec", "diag"):
+        x = np.array([float(at[f"{name}[{i}]"]) for i in joints])
+        return x if kind == "vec" else np.diag(x)
+    turned = [
+        [(min(i, j), max(i, j)) if name in statement.symmetric else (i, j) for j in joints] for i in joints
+    ]
+    return np.array([[float(at.get(f"{name}[{i},{j}]", 0)) for i, j in row] for row in turned])
+
+
+BY_NUMPY = {
+    "dot": lambda a, b: a @ b,
+    "apply": lambda a, b: a @ b,
+    "scale": lambda a, b: a * b,
+    "mul": lambda *parts: np.prod(parts),
+    "add": lambda *parts: sum(parts),
+    "sum": lambda *parts: sum(parts),
+    "neg": lambda a: -a,
+    "div": lambda a, b: a / b,
+    "pow": lambda a, k: a**k,
+    "transpose": lambda a: a.T,
+}
+
+
+# (14) and (15) ----------------------------------------------------------------------------------------------
+
+
+def fourteen(terms, **changes):
+    statement = PUBLISHED["along_11_every_n"](L, PUBLISHED["lyapunov_12"](L), total(terms))
+    return replace(statement, **changes)
+
+
+def fifteen(terms):
+    return every_n(total(PUBLISHED["terms_14"](L, L["b"])), total(terms))
+
+
+EQUATIONS = {"14": (fourteen, PUBLISHED["terms_14"]), "15": (fifteen, PUBLISHED["terms_15"])}
+CHANGES = {
+    "sign": lambda terms, k: [-term if i == k else term for i, term in enumerate(terms)],
+    "left out": lambda terms, k: [term for i, term in enumerate(terms) if i != k],
+    "doubled": lambda terms, k: [2 * term if i == k else term for i, term in enumerate(terms)],
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.parametrize(("equation", "count"), [("14", 16), ("15", 11)])
+def test_every_fault_in_a_term_is_refuted(equation, count, change):
+    statement_of, terms_of = EQUATIONS[equation]
+    terms = terms_of(L, L["b"])
+    assert len(terms) == count
+    assert verdict(statement_of(terms)) == "proved"
+    for k in range(count):
+        assert verdict(statement_of(CHANGES[change](terms, k))) == "refuted", k
+
+
+def rates_with(letter, value):
+    terms = PUBLISHED["terms_14"](L, L["b"])
+    rates = [(a, value.tree if a == letter.tree else b) for a, b in fourteen(terms).rates]
+    return fourteen(terms, rates=tuple(rates))
+
+
+def test_any_other_rate_of_m_than_c_plus_its_transpose_proves_nothing():
+    """A symmetric rate that is another one refutes (14); one that is not symmetric makes no sense."""
+    assert verdict(rates_with(L["M"], plus(L["C"], transpose(L["C"])))) == "proved"
+    assert verdict(rates_with(L["M"], plus(any_matrix("Z"), any_matrix("Z").T))) == "refuted"
+    other = rates_with(L["M"], plus(L["C"], L["C"]))
+    assert verdict(other) == "undecided"
+    with pytest.raises(Refused, match="symmetric derivative"):
+        verify(other, NormalForm())
+
+
+def test_the_motion_and_the_symmetry_of_m_are_needed():
+    terms = PUBLISHED["terms_14"](L, L["b"])
+    assert verdict(fourteen(terms, given=())) == "refuted"
+    assert verdict(fourteen(terms, symmetric=())) == "refuted"
+    assert verdict(rates_with(L["h"], L["w"])) == "refuted"
+
+
+def test_the_rate_of_the_norm_is_that_of_the_root_of_its_square():
+    norm = PUBLISHED["along_11_every_n"](L, L["r"] ** 2, rate(dot(L["e"], L["e"])))
+    assert verdict(norm) == "proved"
+    turned = [(a, L["w"].tree if a == L["e"].tree else b) for a, b in norm.rates]
+    assert verdict(replace(norm, rates=tuple(turned))) == "refuted"
+
+
+@pytest.mark.parametrize("n", [1, 2, 4])
+def test_the_derivative_is_that_of_v_along_a_path_in_floating_point(n):
+    """V by its formula at t ± δ on a path with the given velocities, against the eleven terms of (15)."""
+    rng = np.random.default_rng(n)
+    draw = {name: rng.normal(size=n) for name in ("w", "e", "h", "dh", "U", "hw", "kp", "kv", "b")}
+    root, c = rng.normal(size=(2, n, n))
+    m, eps0 = root @ root.T + np.eye(n), 0.7
+    w, e, h = draw["w"], draw["e"], draw["h"]
+    push = draw["kp"] * h - draw["kv"] * draw["hw"] - draw["b"] * w - c @ w
+    a = np.linalg.solve(m, push)
+
+    def energy(time):
+        r = np.linalg.norm(e - time * w)
+        h_t, m_t = h - time * draw["dh"] * w, m + time * (c + c.T)
+        shifted = w + time * a - eps0 / (1 + r) * h_t
+        return shifted @ m_t @ shifted / 2 + draw["kp"] @ (draw["U"] - time * h * w)
+
+    letters = loops.letters()
+    point = [(f"{name}[{i + 1}]", value) for name, vector in draw.items() for i, value in enumerate(vector)]
+    point += [
+        (f"{k}[{i + 1},{j + 1}]", v[i, j])
+        for k, v in (("M", m), ("C", c))
+        for i in range(n)
+        for j in range(n)
+    ]
+    point += [("r", np.linalg.norm(e)), ("eps0", eps0)]
+    witness = EntriesWitness(n, tuple(point))
+    plain = EveryN(("num", "0"), ("num", "0"))
+    expected = sum(numeric(term.tree, witness, plain) for term in loops.terms(letters))
+    slope = (energy(1e-6) - energy(-1e-6)) / 2e-6
+    assert slope == pytest.approx(expected, rel=1e-6, abs=1e-6)
+
+
+# What the checker refuses -----------------------------------------------------------------------------------
+
+GOOD = TRUE["a derivative"]
+BAD = {
+    "a vector for a number": replace(GOOD, left=("vec", "x")),
+    "a matrix in a dot product": replace(GOOD, left=("dot", ("mat", "A"), ("vec", "x"))),
+    "one name for two letters": replace(GOOD, left=("dot", ("vec", "s"), ("vec", "x"))),
+    "a name that could be a word": replace(GOOD, left=("var", "vec(x) vec(x)")),
+    "a rate inside a rate": replace(GOOD, left=("rate", ("rate", ("var", "s")))),
+    "a rate among the rates": replace(GOOD, rates=((("vec", "x"), ("scale", ("rate", s.tree), x.tree)),)),
+    "a rate of a product": replace(GOOD, rates=(((dot(x, y).tree), ("num", "0")),)),
+    "two rates of one letter": replace(GOOD, rates=GOOD.rates + GOOD.rates),
+    "a circle in what is given": every_n(s, s, given=[(A, x, y), (B, y, x)]),
+    "the same twice": every_n(s, s, given=[(A, x, y), (A, x, z)]),
+    "a symmetric matrix that does not occur": replace(GOOD, symmetric=("Q",)),
+    "a derivative of something without one": every_n(rate(dot(x, y)), dot(x, y), rates=[(x, y)]),
+    "a derivative of a function": every_n(rate(sinh(s)), sinh(s), rates=[(s, s)]),
+    "a diagonal that moves": every_n(rate(dot(z, scaled(x, z))), s, rates=[(x, y), (z, zero_vector())]),
+    "a long name": replace(GOOD, left=("var", "x" * 201)),
+    "an unknown operation": replace(GOOD, left=("trace", ("mat", "A"))),
+    "parts missing": replace(GOOD, left=("dot", ("vec", "x"))),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_statements_that_make_no_sense_are_refused_and_never_proved(name):
+    with pytest.raises(Refused):
+        verify(BAD[name], NormalForm())
+    assert decide(BAD[name]).verdict.value == "undecided"
+
+
+def test_witnesses_are_replayed_exactly():
+    statement = FALSE["what is given for another vector"]
+    witness = decide(statement).certificate
+    point = dict(witness.point)
+    for forged in (
+        replace(witness, n=2),
+        replace(witness, n=0),
+        replace(witness, point=tuple(sorted((point | {"x[1]": point["x[1]"] + 1}).items()))),
+        replace(witness, point=witness.point[1:]),
+        replace(witness, point=tuple((name, Fraction(0)) for name, _ in witness.point)),
+    ):
+        with pytest.raises(Refused):
+            verify(statement, forged)
+    assert verify(statement, witness).grade == "exact"
+
+
+def test_a_proof_by_words_of_something_false_is_refused():
+    for statement in FALSE.values():
+        with pytest.raises(Refused, match="not zero"):
+            verify(statement, NormalForm())
