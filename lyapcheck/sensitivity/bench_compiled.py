@@ -1,0 +1,103 @@
+"""Runs on the bench by compiled code."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.compiled.forms import PlainForms, has_plain_forms
+from lyapcheck.compiled.library import library
+from lyapcheck.compiled.straight_line import Code, TooLong
+from lyapcheck.family import Family
+from lyapcheck.robots import RobotModel
+from lyapcheck.sensitivity.bench_step import BenchStep, parameter_count
+
+Array = NDArray[np.float64]
+
+LANES = 8
+"""Runs that advance together."""
+
+
+class CompiledBench:
+    """The bench for one arm, one family and one period; `compiled_bench` makes one."""
+
+    def __init__(self, call: Any) -> None:
+        self._call = call
+
+    def __call__(self, starts: Array, parameters: Array, periods: int) -> Array:
+        """(R, periods + 1, 3n) q, w, τ from starts (R, 2n) and parameters (R, p), both without gaps."""
+        runs, size = starts.shape
+        out = np.empty((runs, periods + 1, size // 2 * 3))
+        self._call(runs, periods, starts.ctypes.data, parameters.ctypes.data, out.ctypes.data)
+        return out
+
+
+@lru_cache(maxsize=32)
+def compiled_bench(
+    model: RobotModel, family: Family, period: float, substeps: int, sweeps: int
+) -> CompiledBench | None:
+    """Compile the bench; none where there is no compiler or the arm's formulas are too long."""
+    if not has_plain_forms(family):
+        return None
+    try:
+        found = library(_source(model, family, period, substeps, sweeps))
+    except TooLong:
+        return None
+    if found is None:
+        return None
+    whole, place = ctypes.c_int64, ctypes.c_void_p
+    found.bench_runs.restype = None
+    found.bench_runs.argtypes = [whole, whole, place, place, place]
+    return CompiledBench(found.bench_runs)
+
+
+def _source(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:
+    sizes = {"N": model.n, "P": parameter_count(model), "LANES": LANES, "SUBSTEPS": substeps}
+    defines = [f"#define {name} {value}" for name, value in (sizes | {"PERIOD": period.hex()}).items()]
+    parts = [_controller(model, family, period), _arm(model, family, period, substeps, sweeps)]
+    template = files("lyapcheck.sensitivity").joinpath("bench.c").read_text(encoding="utf-8")
+    return "\n".join([*defines, *parts, template])
+
+
+def _controller(model: RobotModel, family: Family, period: float) -> str:
+    code, n = Code(), model.n
+    q, last = _names(code, "y", n), _names(code, "last", n)
+    torque, readings = _step(model, family, code, period, 0).controller(q, last)
+    places = [f"{x}[{i}][l]" for x in ("torque", "last") for i in range(n)]
+    body = code.store(places, [*torque, *readings])
+    return _function("controller", "double last[N][LANES], double torque[N][LANES]", body)
+
+
+def _arm(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:
+    code, n = Code(), model.n
+    y, torque = _names(code, "y", 2 * n), _names(code, "torque", n)
+    step = _step(model, family, code, period, sweeps)
+    q, w = step.move(y[:n], y[n:], torque, period / substeps)
+    body = code.store([f"y[{i}][l]" for i in range(2 * n)], [*q, *w])
+    return _function("arm", "const double torque[N][LANES]", body)
+
+
+def _step(model: RobotModel, family: Family, code: Code, period: float, sweeps: int) -> BenchStep:
+    parameters = _names(code, "p", parameter_count(model))
+    return BenchStep(model, code, PlainForms(code, family), parameters, period, sweeps)
+
+
+def _names(code: Code, array: str, count: int) -> list[Any]:
+    return [code.name(f"{array}[{i}][l]") for i in range(count)]
+
+
+def _function(name: str, arguments: str, body: str) -> str:
+    return f"""
+static void {name}(double y[2 * N][LANES], const double p[P][LANES], {arguments})
+{{
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) {{
+{body}
+    }}
+}}
+"""

@@ -1,0 +1,143 @@
+"""The bench written once for arrays of runs and for recorded code: controller, and the arm with dry friction.
+
+References: (1), (6) and Section 4 of ``reyes2019family``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from lyapcheck.lyapunov import quadratic
+from lyapcheck.lyapunov.along import Forms
+from lyapcheck.robots import RobotModel
+
+Vector = Sequence[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class BenchStep:
+    """One run's controller and arm, or many of them as columns.
+
+    Dry friction is the set-valued law of Coulomb: f_c sign(w) while a joint moves, and whatever holds it, up
+    to f_c, while it does not. A joint that should stick sticks, and no step has to be small because of it.
+
+    Args:
+        model: the arm.
+        code: records or computes ``call`` and ``where``.
+        forms: the arithmetic and the family.
+        parameters: q_d, K_p, K_v, B, f_c (n each), and the uncertain parameters; see `parameter_count`.
+        period: s between two readings.
+        sweeps: how often `_with_friction` goes over the joints.
+    """
+
+    model: RobotModel
+    code: Any
+    forms: Forms
+    parameters: Vector
+    period: float
+    sweeps: int
+
+    @property
+    def n(self) -> int:
+        """Joints."""
+        return self.model.n
+
+    def controller(self, q: Vector, last: Vector) -> tuple[list[Any], list[Any]]:
+        """(torque held, readings): τ = K_p h(e) − K_v h(Δq/T) + g of what is read, cut at the limits."""
+        readings = [self._read(q[i], self.model.encoder[i]) for i in range(self.n)]
+        gravity = _Place(self, readings).gravity
+        torques = []
+        for i, reading in enumerate(readings):
+            spring = self._part(1)[i] * self.forms.h(self._part(0)[i] - reading)
+            damper = self._part(2)[i] * self.forms.h((reading - last[i]) * (1.0 / self.period))
+            torques.append(self._cut(spring - damper + gravity[i], i))
+        return torques, readings
+
+    def move(self, q: Vector, w: Vector, torque: Vector, h: float) -> tuple[list[Any], list[Any]]:
+        """(q, w) a time h later: the midpoint rule with implicit friction, so that a joint at rest can stay.
+
+        Soundness: of second order in h while no joint starts or stops, of first order where one does.
+        """
+        middle = self._rates(q, w, w, torque, h / 2)
+        half = [x + (h / 4) * (a + b) for x, a, b in zip(q, w, middle, strict=True)]
+        end = self._rates(half, w, middle, torque, h)
+        return [x + (h / 2) * (a + b) for x, a, b in zip(q, w, end, strict=True)], end
+
+    def _rates(self, q: Vector, before: Vector, during: Vector, torque: Vector, h: float) -> list[Any]:
+        """w with M w + h f_c sign(w) ∋ M w_before + h (τ − C w − g − B w), forces at (q, w_during)."""
+        at = _Place(self, q)
+        swing = [quadratic.dot(row, during) for row in at.coriolis(during)]
+        rows = zip(torque, swing, at.gravity, self._part(3), during, strict=True)
+        force = [t - c - g - b * x for t, c, g, b, x in rows]
+        momentum = [quadratic.dot(row, before) + h * f for row, f in zip(at.mass, force, strict=True)]
+        return self._with_friction(at.mass, momentum, during, h)
+
+    def _with_friction(self, mass: list[list[Any]], momentum: Vector, guess: Vector, h: float) -> list[Any]:
+        """The w that minimises ½wᵀMw − momentumᵀw + h Σ f_ci |w_i|, one joint after the other."""
+        w = list(guess)
+        most = [h * f for f in self._part(4)]
+        inverse = [1.0 / mass[i][i] for i in range(self.n)]
+        for _ in range(self.sweeps):
+            for i in range(self.n):
+                rest = momentum[i]
+                for j in range(self.n):
+                    rest = rest if i == j else rest - mass[i][j] * w[j]
+                w[i] = self._shrunk(rest, most[i]) * inverse[i]
+        return w
+
+    def _shrunk(self, x: Any, by: Any) -> Any:
+        """x moved towards 0 by at most ``by``."""
+        return self.code.call("copysign", self.code.call("larger", self.code.call("fabs", x) - by, 0.0), x)
+
+    def _read(self, angle: Any, counts: int | None) -> Any:
+        """The nearest encoder line; the angle itself where the encoder is unknown."""
+        if not counts:
+            return angle
+        line = 2.0 * math.pi / counts
+        return line * self.code.call("rint", angle * (1.0 / line))
+
+    def _cut(self, torque: Any, joint: int) -> Any:
+        limit = self.model.torque_limit[joint]
+        if limit is None:
+            return torque
+        most = float(limit.value)
+        return self.code.call("smaller", self.code.call("larger", torque, -most), most)
+
+    @cached_property
+    def uncertain(self) -> dict[str, Any]:
+        """The uncertain parameters by name."""
+        return dict(zip(self.model.parameters, self.parameters[5 * self.n :], strict=True))
+
+    def _part(self, i: int) -> Vector:
+        return self.parameters[i * self.n : (i + 1) * self.n]
+
+
+def parameter_count(model: RobotModel) -> int:
+    """How many numbers a run has besides its state: q_d, K_p, K_v, B, f_c (n each), uncertain ones."""
+    return 5 * model.n + len(model.parameters)
+
+
+class _Place:
+    """M, C and g at one place."""
+
+    def __init__(self, step: BenchStep, q: Vector) -> None:
+        self._model, self._uncertain = step.model, step.uncertain
+        self._turns = [step.forms.sin(x) for x in q], [step.forms.cos(x) for x in q]
+
+    @cached_property
+    def mass(self) -> list[list[Any]]:
+        """M(q)."""
+        return self._model.mass_at(*self._turns, float, self._uncertain)
+
+    def coriolis(self, x: Vector) -> list[list[Any]]:
+        """C(q, x)."""
+        return self._model.coriolis_at(*self._turns, x, float, self._uncertain)
+
+    @property
+    def gravity(self) -> list[Any]:
+        """g(q)."""
+        return self._model.gravity_at(*self._turns, float, self._uncertain)

@@ -1,0 +1,104 @@
+"""The sensitivity study: how far each printed number is from what any assumed arm can do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lyapcheck.sensitivity.assumptions import assumptions
+from lyapcheck.sensitivity.bench_runs import BenchRuns
+from lyapcheck.sensitivity.design import design, values
+from lyapcheck.sensitivity.numbers import number_study
+from lyapcheck.sensitivity.printed_numbers import figure_gains, printed_entry, printed_numbers
+from lyapcheck.sensitivity.results import FigureGains, SetStudy, Study
+from lyapcheck.sensitivity.together import all_sets, one_set
+from lyapcheck.sensitivity.trials import Trials, first_trials
+from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.task import PAPER_TASK
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.sensitivity.design import Design
+    from lyapcheck.simulate.printed import Printed
+
+Progress = Callable[[float, str], None]
+
+SPREAD, CORNERS = 512, 256
+"""Arms spread over all ranges, and arms with every number at an end of its range."""
+
+
+def study(
+    gain_sets: Sequence[GainSet],
+    model: RobotModel,
+    *,
+    spread: int = SPREAD,
+    corners: int = CORNERS,
+    seed: int = 0,
+    on_progress: Progress | None = None,
+) -> Study | None:
+    """Run the paper's experiment on arms from all over the ranges of what is assumed about the arm.
+
+    Each gain set runs on the same arms: the nominal one, one number changed at a time, a Latin hypercube,
+    corners; then on arms that a search picks, for each printed number and for several at once. Nothing is
+    fitted: the ranges are those of the arm, and stay as they are.
+
+    Args:
+        gain_sets: controllers; those whose experiment the paper does not print are left out.
+        model: the arm.
+        spread: points of the Latin hypercube.
+        corners: points at ends of all ranges.
+        seed: of all random choices.
+        on_progress: told the fraction done.
+
+    Returns:
+        None if the paper prints nothing of these gains on this arm.
+
+    Soundness: floating point, and a sample: an outcome that was not seen is not proved to be impossible.
+    """
+    chosen = [(one, entry) for one in gain_sets if (entry := printed_entry(one, model))]
+    if not chosen:
+        return None
+    assumed = assumptions(model)
+    plan = design(assumed, spread, corners, seed)
+    trials, sets = [], []
+    for gain_set, entry in chosen:
+        runs = BenchRuns(gain_set, model, PAPER_TASK, assumed)
+        found = first_trials(runs, printed_numbers(entry), plan.points).searched(seed)
+        sets.append(_set_study(gain_set, entry, found, plan, seed))
+        trials.append(found)
+        (on_progress or _silent)(len(sets) / (len(chosen) + 1), gain_set.name)
+    return Study(
+        robot=model.name,
+        joints=model.joints,
+        assumed=assumed,
+        spread=spread,
+        corners=corners,
+        runs=sum(len(found.points) for found in trials),
+        seed=seed,
+        sets=tuple(sets),
+        together=all_sets(trials, len(plan.points), seed),
+    )
+
+
+def _set_study(gain_set: GainSet, entry: Printed, found: Trials, plan: Design, seed: int) -> SetStudy:
+    numbers = tuple(number_study(number, found, plan) for number in found.printed)
+    shown = _figure_gains(gain_set, entry, found, plan)
+    return SetStudy(gain_set.name, gain_set.m, numbers, one_set(found, seed), shown)
+
+
+def _figure_gains(gain_set: GainSet, entry: Printed, found: Trials, plan: Design) -> FigureGains:
+    """The nominal arm under the gains with which the paper's figure starts."""
+    runs = found.runs
+    gains = gains_for(gain_set, runs.model.n)
+    kp = figure_gains(entry, gains, runs.task.step)
+    outcome = replace(runs, kp=kp)(values(runs.assumed, plan.nominal[None]))
+    scale = np.array(gains.written[0]) / np.array(gains.kp)
+    return FigureGains(tuple(float(x) for x in np.array(kp) * scale), float(outcome.L2[0]))
+
+
+def _silent(fraction: float, note: str) -> None:
+    pass

@@ -1,0 +1,101 @@
+"""Several printed numbers at one and the same arm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.sensitivity.approach import approach
+from lyapcheck.sensitivity.design import values
+from lyapcheck.sensitivity.printed_numbers import PrintedNumber
+from lyapcheck.sensitivity.results import AtOnce, Together
+from lyapcheck.sensitivity.trials import Trials
+
+Array = NDArray[np.float64]
+
+CHILDREN = 12
+"""Of each parent in each round of these searches: there is one goal only, and it is narrow."""
+
+
+def all_sets(trials: Sequence[Trials], common: int, seed: int) -> Together | None:
+    """The L2 indices of all gain sets at one arm: the bench did not change between the paper's experiments.
+
+    Args:
+        trials: one a gain set; the first ``common`` points are the same for all.
+        common: how many.
+        seed: of the search.
+
+    Returns:
+        None for fewer than two gain sets.
+    """
+    if len(trials) < 2:
+        return None
+    goals = [found.printed[0] for found in trials]
+
+    def indices(points: Array) -> Array:
+        return np.column_stack([found.at(points).L2 for found in trials])
+
+    seen = np.column_stack([found.outcomes.L2[:common] for found in trials])
+    best, seen = _search(trials[0], trials[0].points[:common], seen, goals, indices, seed)
+    return Together(best, _ordered(seen, np.array([goal.value for goal in goals])))
+
+
+def one_set(found: Trials, seed: int) -> AtOnce:
+    """The L2 index and the settling times of one gain set at one arm."""
+    goals = [number for number in found.printed if number.quantity in ("L2", "settling")]
+
+    def columns(points: Array) -> Array:
+        outcomes = found.at(points)
+        return np.column_stack([goal.column(outcomes) for goal in goals])
+
+    seen = np.column_stack([goal.column(found.outcomes) for goal in goals])
+    return _search(found, found.points, seen, goals, columns, seed)[0]
+
+
+def _search(
+    found: Trials,
+    points: Array,
+    seen: Array,
+    goals: Sequence[PrintedNumber],
+    evaluate: Callable[[Array], Array],
+    seed: int,
+) -> tuple[AtOnce, Array]:
+    """(the arm whose largest relative difference from the goals is least, all values seen)."""
+    collected = [seen]
+
+    def differences(values: Array) -> Array:
+        T = found.runs.task.T
+        apart = np.column_stack([_apart(goal, values[:, i], T) for i, goal in enumerate(goals)])
+        return np.asarray(apart.max(axis=1, keepdims=True))
+
+    def collect(new: Array) -> Array:
+        collected.append(evaluate(new))
+        return differences(collected[-1])
+
+    more = approach(points, differences(seen), collect, _never, seed, children=CHILDREN)
+    everywhere, everything = np.vstack([points, more]), np.vstack(collected)
+    worst = differences(everything)[:, 0]
+    best = int(np.argmin(worst))
+    at = values(found.runs.assumed, everywhere[best : best + 1])[0]
+    finite = tuple(float(x) if np.isfinite(x) else None for x in everything[best])
+    return AtOnce(finite, float(worst[best]), tuple(float(x) for x in at), len(everywhere)), everything
+
+
+def _apart(goal: PrintedNumber, seen: Array, T: float) -> Array:
+    """The relative difference from a printed number, 0 where a bound is met; never settled counts as at T."""
+    apart = np.where(np.isposinf(seen), T, seen) / goal.value - 1.0
+    size = np.maximum(apart, 0.0) if goal.at_most else np.abs(apart)
+    return np.where(np.isnan(size), np.inf, size)
+
+
+def _never(seen: Array) -> NDArray[np.bool_]:
+    """A narrow goal is never near enough."""
+    return np.zeros(seen.shape[1], bool)
+
+
+def _ordered(seen: Array, printed: Array) -> float:
+    """The share of arms that put the gain sets in the printed order."""
+    order = np.argsort(printed)
+    return float(np.mean(np.all(np.diff(seen[:, order], axis=1) > 0.0, axis=1)))

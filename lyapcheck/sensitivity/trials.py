@@ -1,0 +1,107 @@
+"""The bench runs made so far for one gain set, and the numbers the paper prints of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck.sensitivity.approach import approach, between
+from lyapcheck.sensitivity.bench_runs import BenchRuns, Outcomes
+from lyapcheck.sensitivity.design import values
+from lyapcheck.sensitivity.printed_numbers import PrintedNumber
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SAME = 1e-9
+"""A number that no arm changes by more than this, relatively, does not depend on the arm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """Points of the unit cube with what came of them.
+
+    Args:
+        runs: the bench with the gain set.
+        printed: what the paper prints of it.
+        points: (R, d), those of the design first.
+        outcomes: of each point.
+    """
+
+    runs: BenchRuns
+    printed: tuple[PrintedNumber, ...]
+    points: Array
+    outcomes: Outcomes
+
+    def at(self, points: Array) -> Outcomes:
+        """What comes of other points."""
+        return self.runs(values(self.runs.assumed, points))
+
+    def searched(self, seed: int) -> Trials:
+        """These trials and those of a search for arms that do what is printed, number by number.
+
+        First for an arm on either side of each printed number, then by halving the way between the two.
+        """
+        goals = [number for number in self.printed if self.moved(number)]
+        if not goals:
+            return self
+        found = self._widened(goals, seed)
+        sides = [number for number in goals if not number.at_most and found._both_sides(number)]
+        return found._halved(sides) if sides else found
+
+    def moved(self, number: PrintedNumber) -> bool:
+        """Whether the arm has any influence on a number."""
+        seen = number.column(self.outcomes)
+        finite = seen[np.isfinite(seen)]
+        return finite.size != seen.size or bool(np.ptp(finite) > SAME * np.abs(finite).max())
+
+    def _widened(self, goals: Sequence[PrintedNumber], seed: int) -> Trials:
+        bound = np.array([number.at_most for number in goals])
+
+        def reached(seen: Array) -> Mask:
+            below, above = np.any(seen <= 0.0, axis=0), np.any(seen >= 0.0, axis=0)
+            return np.asarray(below & (above | bound))
+
+        def evaluate(points: Array) -> Array:
+            return differences(goals, self.at(points))
+
+        found = approach(self.points, differences(goals, self.outcomes), evaluate, reached, seed)
+        return self._with(found)
+
+    def _both_sides(self, number: PrintedNumber) -> bool:
+        seen = differences([number], self.outcomes)
+        return bool(np.any(seen <= 0.0) and np.any(seen >= 0.0))
+
+    def _halved(self, goals: Sequence[PrintedNumber]) -> Trials:
+        seen = differences(goals, self.outcomes)
+
+        def evaluate(points: Array) -> Array:
+            return np.diagonal(differences(goals, self.at(points)))
+
+        return self._with(between(self.points, seen, evaluate))
+
+    def _with(self, points: Array) -> Trials:
+        """These trials and new ones."""
+        if not len(points):
+            return self
+        fresh = self.at(points)
+        pairs = {one.name: (getattr(self.outcomes, one.name), getattr(fresh, one.name)) for one in _COLUMNS}
+        both = Outcomes(**{name: np.concatenate(pair) for name, pair in pairs.items()})
+        return replace(self, points=np.vstack([self.points, points]), outcomes=both)
+
+
+_COLUMNS = fields(Outcomes)
+
+
+def differences(goals: Sequence[PrintedNumber], outcomes: Outcomes) -> Array:
+    """(R, goals) what is seen less what is printed; ∞ for a joint that does not settle, or no outcome."""
+    columns = np.column_stack([number.column(outcomes) - number.value for number in goals])
+    return np.where(np.isnan(columns), np.inf, columns)
+
+
+def first_trials(runs: BenchRuns, printed: tuple[PrintedNumber, ...], points: Array) -> Trials:
+    """The trials at the points of a design."""
+    return Trials(runs, printed, points, runs(values(runs.assumed, points)))
