@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.family.base import Family
     from lyapcheck.family.registry import named as named_family
+    from lyapcheck.family.table import Table, build_table
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
@@ -38,6 +39,9 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.trial import experiment as run_experiment
+    from lyapcheck.tune.results import Tuning
+    from lyapcheck.tune.targets import Targets
+    from lyapcheck.tune.tuning import tune as tune_gains
     from lyapcheck.verdicts import Exit, Grade, Verdict
 
     __version__: str
@@ -68,9 +72,13 @@ __all__ = [
     "RobotConstants",
     "RobotModel",
     "Run",
+    "Table",
+    "Targets",
+    "Tuning",
     "Verdict",
     "__version__",
     "build_report",
+    "build_table",
     "epsilon",
     "explain",
     "gamma_less_than",
@@ -88,6 +96,7 @@ __all__ = [
     "run_experiment",
     "run_proof",
     "run_simulation",
+    "tune_gains",
 ]
 
 _HOMES = {
@@ -116,8 +125,12 @@ _HOMES = {
     "RobotConstants": "constants.bounds",
     "RobotModel": "robots.model",
     "Run": "simulate.run",
+    "Table": "family.table",
+    "Targets": "tune.targets",
+    "Tuning": "tune.results",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
+    "build_table": "family.table",
     "epsilon": "admissible",
     "explain": "claims.explain",
     "gamma_less_than": "check.constants",
@@ -135,6 +148,7 @@ _HOMES = {
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "claims.run",
     "run_simulation": "simulate.closed_loop:simulate",
+    "tune_gains": "tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import InputError, Problem, argument_error
 
 _DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
 
@@ -14,16 +14,19 @@ def parse_decimals(option: str, text: str | None) -> tuple[Fraction, ...] | None
     """The exact values, ``None`` where the option is not given.
 
     Raises:
-        InputError: a word that is not a finite decimal.
+        InputError: a problem for each word that is not a finite decimal.
     """
     if text is None:
         return None
     words = [word.strip() for word in text.split(",")]
-    for word in words:
-        if not _DECIMAL.fullmatch(word):
-            raise argument_error(
-                option, word or repr(text), "is not a decimal number", f"write {option} 0.8, or 0.8,0.9,1"
-            )
+    rule, repair = "is not a decimal number", f"write {option} 0.8, or 0.8,0.9,1"
+    problems = [
+        Problem("argument", None, option, word or repr(text), rule, repair)
+        for word in words
+        if not _DECIMAL.fullmatch(word)
+    ]
+    if problems:
+        raise InputError(problems)
     return tuple(map(Fraction, words))
 
 

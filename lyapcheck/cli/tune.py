@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 from enum import StrEnum
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import require_writable, write_whole
@@ -17,6 +19,9 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import Bounds, GainFile
+    from lyapcheck.tune import Targets
+
+ONE = (Fraction(1),)
 
 PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 
@@ -60,21 +65,19 @@ def command(
     the last digit: no gain can be one unit larger. Exit code 0: every m has gains, 2: unusable input or no
     gains exist, 3: the arm's limits are not known.
     """
-    from lyapcheck.tune import Targets, tune
+    from lyapcheck.tune import tune
     from lyapcheck.tune.formats import renderer
     from lyapcheck.tune.gain_file import gain_file_text
 
+    wrong = Complaints()
     if out is not None:
-        require_writable("--out", out)
-    targets = Targets(
-        digits,
-        parse_decimals("--peak-share", peak_share) or (),
-        parse_decimals("--kv-share", kv_share),
-        parse_decimals("--kv-min", kv_min),
-        parse_decimals("--damping", damping),
-    )
-    bounds = _bounds(robot, torque, gravity, viscous_min)
-    tuning = tune(robot, parse_m(m), targets, bounds, _against(robot, compare))
+        wrong.reading(require_writable, "--out", out)
+    members = wrong.reading(parse_m, m)
+    targets = _targets(wrong, digits, peak_share, kv_share, kv_min, damping)
+    bounds = _bounds(wrong, robot, targets, torque, gravity, viscous_min)
+    against = wrong.reading(_against, robot, compare)
+    wrong.tell()
+    tuning = tune(robot, members or (), targets, bounds, against)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
     sys.stdout.write(renderer(format.value)(tuning))
@@ -85,29 +88,68 @@ def command(
     raise typer.Exit(int(tuning.exit))
 
 
-def _bounds(robot: str, torque: str | None, gravity: str | None, viscous_min: str | None) -> Bounds:
-    """The limits given on the command line.
+def _targets(
+    wrong: Complaints,
+    digits: int,
+    peak_share: str,
+    kv_share: str | None,
+    kv_min: str | None,
+    damping: str | None,
+) -> Targets:
+    """The targets given on the command line; those that cannot be read are left at their defaults."""
+    from lyapcheck.tune import Targets
 
-    Raises:
-        InputError: a negative one, or another number of them than joints.
-    """
+    shares = wrong.reading(parse_decimals, "--peak-share", peak_share)
+    others = (("--kv-share", kv_share), ("--kv-min", kv_min), ("--damping", damping))
+    return Targets(digits, shares or ONE, *(wrong.reading(parse_decimals, *each) for each in others))
+
+
+def _bounds(
+    wrong: Complaints,
+    robot: str,
+    targets: Targets,
+    torque: str | None,
+    gravity: str | None,
+    viscous_min: str | None,
+) -> Bounds:
+    """The limits given on the command line; these and the targets are held against the joints of the arm."""
     from lyapcheck.control.gains import Bounds
     from lyapcheck.robots import load
+    from lyapcheck.tune.targets import require_usable
 
-    n = load(robot).n
-    torques, gravities = parse_decimals("--torque", torque), parse_decimals("--gravity", gravity)
-    friction = parse_decimal("--viscous-min", viscous_min)
-    for option, values in (("--torque", torques), ("--gravity", gravities)):
-        if values is not None and len(values) != n:
-            rule = f"has {len(values)} values for {n} joints"
-            raise argument_error(option, len(values), rule, f"give {n}, separated by commas")
-    positive = (("--torque", torques), ("--viscous-min", None if friction is None else (friction,)))
-    for option, values in positive:
-        if values is not None and min(values) <= 0:
-            raise argument_error(option, float(min(values)), "must be positive", "correct the value")
-    if gravities is not None and min(gravities) < 0:
-        raise argument_error("--gravity", float(min(gravities)), "must not be negative", "correct the value")
+    torques = wrong.reading(parse_decimals, "--torque", torque)
+    gravities = wrong.reading(parse_decimals, "--gravity", gravity)
+    friction = wrong.reading(parse_decimal, "--viscous-min", viscous_min)
+    model = wrong.reading(load, robot)
+    if model is not None:
+        wrong.reading(require_usable, targets, model.n)
+    n = None if model is None else model.n
+    wrong.reading(_require_limits, "--torque", torques, n, True)
+    wrong.reading(_require_limits, "--gravity", gravities, n, False)
+    wrong.reading(_require_limits, "--viscous-min", None if friction is None else (friction,), None, True)
     return Bounds(friction, torques, gravities)
+
+
+def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | None, positive: bool) -> None:
+    """Refuse a negative limit, or another number of them than joints where that is known.
+
+    Raises:
+        InputError: the first that is wrong.
+    """
+    if values is None:
+        return
+    if n is not None and len(values) != n:
+        rule = f"has {len(values)} values for {n} joints"
+        raise argument_error(option, _written(values), rule, f"give {n}, separated by commas")
+    if min(values) < 0 or (positive and min(values) == 0):
+        rule = "must be positive" if positive else "must not be negative"
+        raise argument_error(option, _written((min(values),)), rule, "correct the value")
+
+
+def _written(values: tuple[Fraction, ...]) -> str:
+    from lyapcheck.files import decimal_text
+
+    return ",".join(map(decimal_text, values))
 
 
 def _against(robot: str, compare: Path | None) -> GainFile | None:

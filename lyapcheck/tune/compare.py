@@ -29,6 +29,12 @@ def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJo
     for i, joint in enumerate(tuned.joints):
         kp, kv = other.kp[i], other.kv[i]
         broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
-        used = Fraction(floor((kp + kv) / joint.sum_limit.upper * 10**6), 10**6)
-        found.append(ComparedJoint(joint.name, kp, kv, joint.kp - kp, used, broken))
+        left = joint.kp - kp
+        shares = _millionths(left / joint.kp), _millionths((kp + kv) / joint.sum_limit.upper)
+        found.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
     return tuple(found)
+
+
+def _millionths(share: Fraction) -> Fraction:
+    """A share to six decimal places, from below."""
+    return Fraction(floor(share * 10**6), 10**6)

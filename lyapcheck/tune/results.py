@@ -48,6 +48,7 @@ class ComparedJoint:
         kp: theirs, N·m.
         kv: theirs, N·m.
         kp_left: tuned k_p less theirs: what they left on the table, N·m.
+        kp_left_share: the same as a share of the tuned k_p, from below.
         used: the share of (10p)'s limit that they use, from below.
         broken: the conditions that they break.
     """
@@ -56,6 +57,7 @@ class ComparedJoint:
     kp: Fraction
     kv: Fraction
     kp_left: Fraction
+    kp_left_share: Fraction
     used: Fraction
     broken: tuple[str, ...]
 
@@ -118,8 +120,14 @@ class Tuning:
             return Exit.USAGE
         return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
 
-    def _repr_markdown_(self) -> str:
+    def __str__(self) -> str:
+        """As ``lyapcheck tune`` prints it."""
+        from lyapcheck.tune.formats import renderer
+
+        return renderer("text")(self)
+
+    def _repr_html_(self) -> str:
         """The tables, for a notebook."""
         from lyapcheck.tune.formats import renderer
 
-        return renderer("markdown")(self)
+        return renderer("html")(self)

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files import decimal_text
 
 MOST_DIGITS = 12
+Number = int | str | Fraction | Decimal
+Numbers = Number | Sequence[Number]
+"""One exact number for all joints, or one a joint."""
 ONE = (Fraction(1),)
 
 
 @dataclass(frozen=True)
 class Targets:
     """The trade between stiffness, damping and torque; a tuple of one number counts for every joint.
+
+    ``Targets.of`` makes them from numbers as one writes them.
 
     Args:
         digits: decimal places of the gains, 0 to 12.
@@ -31,6 +38,31 @@ class Targets:
     kv_min: tuple[Fraction, ...] | None = None
     damping: tuple[Fraction, ...] | None = None
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        digits: int = 3,
+        peak_share: Numbers = 1,
+        kv_share: Numbers | None = None,
+        kv_min: Numbers | None = None,
+        damping: Numbers | None = None,
+    ) -> Targets:
+        """The targets from one number for all joints, or one a joint.
+
+        Numbers are exact: an ``int``, a ``Fraction``, a ``Decimal`` or decimal text such as ``"0.8"``.
+
+        Raises:
+            TypeError: a ``float``, which is not the decimal it looks like.
+            ValueError: text that is no number.
+
+        Example:
+            >>> Targets.of(peak_share="0.8", damping=["0.05", "0.1"]).peak_share
+            (Fraction(4, 5),)
+        """
+        optional = (None if each is None else _exact(each) for each in (kv_share, kv_min, damping))
+        return cls(digits, _exact(peak_share), *optional)
+
     @property
     def unit(self) -> Fraction:
         """One unit in the last decimal place of a gain."""
@@ -41,6 +73,18 @@ class Targets:
         if self.kv_share is None:
             return Fraction(1 if self.kv_min is None else 0)
         return self.kv_share[joint]
+
+
+def _exact(numbers: Numbers) -> tuple[Fraction, ...]:
+    if isinstance(numbers, Sequence) and not isinstance(numbers, str):
+        return tuple(_exact_one(number) for number in numbers)
+    return (_exact_one(numbers),)
+
+
+def _exact_one(number: object) -> Fraction:
+    if not isinstance(number, Number):
+        raise TypeError(f"{number!r} is not exact; write it as text, such as '0.8'")
+    return Fraction(number)
 
 
 def joint_values(values: Sequence[Fraction], n: int) -> tuple[Fraction, ...]:
@@ -72,7 +116,7 @@ def _digits(digits: int) -> Problem:
 
 
 def _complaints(option: str, values: Sequence[Fraction], top: Fraction | None, n: int) -> list[Problem]:
-    shown = ",".join(str(float(value)) for value in values)
+    shown = ",".join(map(decimal_text, values))
     if len(values) not in (1, n):
         rule = f"has {len(values)} values for {n} joints"
         return [Problem("argument", None, option, shown, rule, f"give one value, or {n}, one a joint")]

@@ -50,9 +50,15 @@ def tune(
     References: (10), (19) and Section 4 of reyes2019family.
 
     Example:
-        >>> tuning = tune("buap3", (1,))
+        >>> tuning = tune("buap3", [1])
         >>> [float(joint.kp) for joint in tuning.sets[0].joints]
         [28.633, 63.112, 7.381]
+        >>> stiff = tune("reyes-kelly2", [2], Targets.of(peak_share="0.8", kv_share="0.5"))
+        >>> stiff.sets[0].gains.kp
+        (Fraction(10443, 200), Fraction(2773, 500))
+        >>> print(stiff)  # doctest: +ELLIPSIS
+        reyes-kelly2: the largest gains within (10p) and (19)
+        ...
     """
     model = load(robot)
     wanted = targets or Targets()

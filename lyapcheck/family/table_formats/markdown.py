@@ -2,29 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from lyapcheck.family.table import Table
-from lyapcheck.family.table_formats.blocks import Block, constants, notes, others
-from lyapcheck.files.printable import printable
+from lyapcheck.family.table_formats.blocks import constants, notes, others
+from lyapcheck.markdown import markdown_table, markdown_text
 
 
 def render(table: Table) -> str:
     """One table of constants, one for each thing asked for beside them; all digits correct."""
-    lines = _table(constants(table))
+    block = constants(table)
+    lines = markdown_table(block.heads, block.rows)
     for block in others(table):
-        lines += ["", printable(block.title), "", *_table(block)]
+        lines += ["", markdown_text(block.title), "", *markdown_table(block.heads, block.rows)]
     return "\n".join([*lines, "", *notes(table)]) + "\n"
-
-
-def _table(block: Block) -> list[str]:
-    rule = ["---:"] * len(block.heads)
-    return [_piped(map(_cell, block.heads)), _piped(rule), *map(_piped, block.rows)]
-
-
-def _cell(name: str) -> str:
-    return printable(name).replace("|", "\\|").replace("<", "&lt;")
-
-
-def _piped(cells: Iterable[str]) -> str:
-    return f"| {' | '.join(cells)} |"

@@ -7,7 +7,7 @@ from importlib import import_module
 
 from lyapcheck.tune.results import Tuning
 
-FORMATS = ("text", "json", "markdown", "toml")
+FORMATS = ("text", "json", "markdown", "toml", "html")
 
 
 def renderer(name: str) -> Callable[[Tuning], str]:

@@ -78,6 +78,7 @@ def _compared(joint: ComparedJoint) -> dict[str, Any]:
         "kp": decimal_text(joint.kp),
         "kv": decimal_text(joint.kv),
         "kp_left": decimal_text(joint.kp_left),
+        "kp_left_share": decimal_text(joint.kp_left_share),
         "used": decimal_text(joint.used),
         "broken": list(joint.broken),
     }

@@ -7,7 +7,7 @@ from lyapcheck.tune.results import Comparison, TunedSet, Tuning
 
 HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
 DAMPING_HEAD = "ζ"
-COMPARED_HEADS = ("joint", "k_p", "k_v", "k_p left", "share of (10p)", "breaks")
+COMPARED_HEADS = ("joint", "k_p", "k_v", "k_p left", "of the largest", "share of (10p)", "breaks")
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
 
 
@@ -34,9 +34,9 @@ def compared_rows(comparison: Comparison) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = [COMPARED_HEADS]
     for joint in comparison.joints:
         broken = ", ".join(BOUNDS[name] for name in joint.broken) or "nothing"
-        left = decimal_text(joint.kp_left)
-        cells = (decimal_text(joint.kp), decimal_text(joint.kv), left, f"{float(joint.used):.1%}", broken)
-        rows.append((joint.name, *cells))
+        gains = (decimal_text(joint.kp), decimal_text(joint.kv), decimal_text(joint.kp_left))
+        shares = (f"{float(joint.kp_left_share):.1%}", f"{float(joint.used):.1%}")
+        rows.append((joint.name, *gains, *shares, broken))
     return rows
 
 
