@@ -8,7 +8,7 @@ from .measure import Disagreement, by_hand, lyapcheck
 from .results import CommandResult
 
 
-def benchmark(first: int = 1, last: int = 100, digits: int = 30, runs: int = 5) -> CommandResult:
+def benchmark(first: int = 1, last: int = 1000, digits: int = 50, runs: int = 3) -> CommandResult:
     """The table of γ, ρ and L; both ways must agree in every digit that mpmath prints but the last."""
     line = ("table", "--m", f"{first}:{last}", "--digits", str(digits))
     ours = lyapcheck(*line, runs=runs)
