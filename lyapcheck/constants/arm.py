@@ -3,7 +3,8 @@
     λmin(M), λmax(M) = β_M,     k_g = sup ‖g(q)‖,     k_gi = sup |g_i(q)|,     k_c = sup ‖C(q,x)y‖ / (‖x‖‖y‖).
 
 Over a box each of these is bounded at the corners of a linear part, because eigenvalues and norms are convex
-functions of the entries (λmin is concave); near an extremum that leaves an error of second order.
+functions of the entries (λmin is concave); near an extremum that leaves an error of second order. For more
+than three joints bounds along the chain of links come first, and mostly leave nothing for the boxes to do.
 
 References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 """
@@ -11,28 +12,26 @@ References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from fractions import Fraction
-from math import sqrt
 
-from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.constant import Constant, Task
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
+from lyapcheck.constants.outside import FEW, outside
 from lyapcheck.robots import RobotModel
 
 Progress = Callable[[float, str], None]
 
 GAP = 1e-3
+GAP_OF_MANY = 1e-2
 MAX_BOXES = 60_000
 
 
 def arm_constants(
     model: RobotModel,
     max_boxes: int = MAX_BOXES,
-    gap: float = GAP,
+    gap: float | None = None,
     on_progress: Progress | None = None,
     names: Sequence[str] | None = None,
 ) -> tuple[Constant, ...]:
@@ -42,7 +41,8 @@ def arm_constants(
         model: the arm, of any number of joints.
         max_boxes: how many boxes each constant may take; k_c of n joints, whose boxes cost more, an nth of
             that.
-        gap: relative width of an enclosure that is good enough.
+        gap: relative width of an enclosure that is good enough; by default a thousandth, and a hundredth
+            for more than three joints.
         on_progress: told the share of the work done.
         names: of the constants wanted; by default all.
 
@@ -50,10 +50,11 @@ def arm_constants(
         The constants; where the budget did not suffice their enclosures are wider than ``gap``.
 
     Soundness: floating point with residuals and bounds of its error beforehand, see
-        `lyapcheck.constants.torus` and `lyapcheck.constants.spectrum`; the inside ends are bounds at the
-        state given.
+        `lyapcheck.constants.torus` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
+        and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
     """
     arm, makers = ArmWaves(model), _makers(model.n)
+    enough = (GAP if model.n <= FEW else GAP_OF_MANY) if gap is None else gap
     wanted = [name for name in makers if names is None or name in names]
     found = []
     for step, name in enumerate(wanted):
@@ -63,7 +64,7 @@ def arm_constants(
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
         tell(0.0, "sampling")
-        found.append(_with_chain(model, makers[name](arm).solve(max_boxes, gap, tell)))
+        found.append(makers[name](arm).solve(max_boxes, enough, tell, outside(model, name)))
     return tuple(found)
 
 
@@ -80,24 +81,3 @@ def _makers(n: int) -> dict[str, Callable[[ArmWaves], Task]]:
         "k_g": lambda arm: gravity_task(arm, "k_g", range(arm.n)),
     }
     return makers | {f"k_g{i + 1}": component(i) for i in range(n)}
-
-
-def _with_chain(model: RobotModel, constant: Constant) -> Constant:
-    """The enclosure met with what the links alone say, which wins where the budget is far too small."""
-    chain, old = model.chain_bounds, constant.enclosure
-    if chain is None:
-        return constant
-    if constant.name == "lambda_min":
-        return replace(constant, enclosure=Enclosure(max(old.lower, chain.lambda_min), old.upper))
-    tops = {"lambda_max": chain.lambda_max, "k_g": _length(chain.gravity)}
-    tops |= {f"k_g{i + 1}": top for i, top in enumerate(chain.gravity)}
-    if chain.k_c is not None:
-        tops["k_c"] = chain.k_c
-    top = min(old.upper, tops.get(constant.name, old.upper))
-    return replace(constant, enclosure=Enclosure(old.lower, top))
-
-
-def _length(vector: Sequence[Fraction]) -> Fraction:
-    """The length of a vector, rounded up."""
-    square = sum((x * x for x in vector), Fraction(0))
-    return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))

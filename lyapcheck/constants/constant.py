@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.constants.maximise import Progress, maximise
+from lyapcheck.constants.outside import ceiling
 from lyapcheck.constants.torus import PI_ABOVE, Reach, Torus
 
 Array = NDArray[np.float64]
@@ -85,20 +86,32 @@ class Task:
         """How much each side of a box matters."""
         return self.torus.influence(half, self.weight)
 
-    def solve(self, max_boxes: int, gap: float, on_progress: Progress | None = None) -> Constant:
+    def solve(
+        self,
+        max_boxes: int,
+        gap: float,
+        on_progress: Progress | None = None,
+        known: Fraction | None = None,
+    ) -> Constant:
         """The constant between the value at a state and a bound over all of them.
 
         Args:
             max_boxes: budget in boxes of cost 1.
             gap: relative width that is good enough.
             on_progress: told the share of the budget used.
+            known: a bound of the constant from outside.
         """
         half = np.zeros(self.torus.n)
         half[list(self.torus.angles)] = PI_ABOVE
         start = climb(self.at, half)
         witness = start, float(self.at(start[None])[0])
-        found = maximise(half, self.bounds, self.influence, witness, max_boxes // self.cost, gap, on_progress)
-        ends = sorted(Fraction(self.sign * x) for x in (found.inside, found.outside))
+        most = ceiling(known, self.sign)
+        budget = max_boxes // self.cost
+        found = maximise(half, self.bounds, self.influence, witness, budget, gap, most, on_progress)
+        outside = Fraction(self.sign * found.outside)
+        if known is not None:
+            outside = self.sign * min(self.sign * known, self.sign * outside)
+        ends = sorted((Fraction(self.sign * found.inside), outside))
         # a norm is never negative, however much its bound from below is rounded
         low, high = (max(x, Fraction(0)) for x in ends) if self.sign > 0 else ends
         coordinates = np.array(found.state)

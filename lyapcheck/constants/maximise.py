@@ -35,6 +35,7 @@ def maximise(
     witness: tuple[Array, float],
     max_boxes: int,
     gap: float,
+    most: float = np.inf,
     on_progress: Progress | None = None,
 ) -> Largest:
     """Enclose the supremum over the box [−half, half], splitting where the bound is largest.
@@ -46,6 +47,7 @@ def maximise(
         witness: a state to begin with, (n,), and what the function is at least there.
         max_boxes: how many boxes may be looked at.
         gap: relative distance of the two bounds that is good enough.
+        most: an upper bound of the supremum that is known beforehand.
         on_progress: told the share of the budget used.
 
     Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
@@ -53,7 +55,7 @@ def maximise(
     """
     state, inside = witness
     middle, width = np.zeros((1, len(half))), half[None]
-    top = np.fmin(bounds(middle, width)[1], np.inf)
+    top = np.fmin(bounds(middle, width)[1], most)
     seen = 1
     while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
         chosen = np.argsort(-top, kind="stable")[: min(BATCH, (max_boxes - seen) // 2)]

@@ -138,5 +138,6 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: 
         numbers=numbers,
         parameters=parameters,
         remarks=remarks,
+        chain=plan.exact(ring, polys),
         chain_bounds=plan.bounds(ring, polys),
     )

@@ -13,6 +13,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.robots import trig
+from lyapcheck.robots.chain import Chain
 from lyapcheck.robots.chain_bounds import ChainBounds
 from lyapcheck.robots.number import Number
 
@@ -42,6 +43,7 @@ class RobotModel:
         numbers: every number of the arm with its provenance.
         parameters: the numbers with a range that enter M or the potential, in generator order.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
+        chain: the links where they are known and exact.
         chain_bounds: for a chain of exact links what masses and distances say for all angles.
 
     Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
@@ -64,6 +66,7 @@ class RobotModel:
     numbers: dict[str, Number]
     parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
+    chain: Chain | None = None
     chain_bounds: ChainBounds | None = None
 
     @property

@@ -11,6 +11,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import Body, components, read_bodies
+from lyapcheck.robots.chain import Chain, exact_chain
 from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
@@ -45,6 +46,9 @@ class Plan(Protocol):
     def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
         """What masses and distances say of M and gravity, where they are known."""
 
+    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
+        """The links in plain numbers, where they are known and exact."""
+
 
 @dataclass(frozen=True)
 class ChainPlan:
@@ -73,6 +77,10 @@ class ChainPlan:
     def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
         """The bounds of the links."""
         return chain_bounds(self._links(ring, numbers), self._gravity(ring, numbers))
+
+    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
+        """The links."""
+        return exact_chain(self._links(ring, numbers), self._gravity(ring, numbers))
 
     def _gravity(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[fmpq_mpoly]:
         zero = trig.constant(ring, 0)
@@ -106,6 +114,10 @@ class PrintedPlan:
 
     def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
         """None: what is printed need not come from bodies."""
+        return None
+
+    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
+        """None."""
         return None
 
 

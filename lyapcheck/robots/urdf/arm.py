@@ -10,6 +10,7 @@ from flint import fmpq_mpoly_ctx
 
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
+from lyapcheck.robots.chain import exact_chain
 from lyapcheck.robots.chain_bounds import chain_bounds
 from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.model import RobotModel
@@ -108,6 +109,7 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
         gravity_bound=nothing,
         numbers=numbers,
         remarks=read.remarks,
+        chain=exact_chain(links, free_fall),
         chain_bounds=chain_bounds(links, free_fall),
     )
 
