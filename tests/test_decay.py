@@ -233,7 +233,7 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
     assert data is not None
     margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
     own = reduced_radial(margin)
-    by = RadialBounds(own.weights, own.inertia, own.angles, own.tree, own.cuts)
+    by = RadialBounds(own.weights, own.inertia, own.lowest, own.angles, own.tree, own.cuts)
     assert shown(margin, by)
     assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), by)
 

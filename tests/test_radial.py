@@ -8,6 +8,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lyapcheck.admissible.certificates import statement
 from lyapcheck.check.balls import precision
@@ -15,6 +17,7 @@ from lyapcheck.check.certificates import Refused, verify
 from lyapcheck.check.certificates.proofs import RadialBounds
 from lyapcheck.check.stability import BrokenTree, Closure
 from lyapcheck.check.stability.closure import root_above
+from lyapcheck.check.stability.pull import pull_up
 from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, proves_radially
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
@@ -52,7 +55,7 @@ def proof(robot: str, gains: str, index: int) -> Proof:
 def data_of(found: Proof) -> Radial:
     assert isinstance(found.by, RadialBounds)
     by = found.by
-    return Radial(by.weights, by.inertia, by.angles, by.tree, by.cuts)
+    return Radial(by.weights, by.inertia, by.lowest, by.angles, by.tree, by.cuts)
 
 
 @pytest.mark.parametrize(("robot", "gains", "index"), CASES)
@@ -102,9 +105,33 @@ def test_the_inequality_is_below_the_smallest_eigenvalue_of_P(robot: str, gains:
         assert np.linalg.eigvalsh(P / np.outer(d, d))[0] > 0
 
 
+@given(st.integers(0, 10**6), st.integers(1, 5), st.sampled_from([0.0, 0.1, 0.5, 1.0]))
+def test_the_pull_is_bounded_for_every_matrix_between_its_ends(seed: int, n: int, nu: float) -> None:
+    """½(‖p‖‖v‖ − vᵀp) is the largest eigenvalue of −sym(p vᵀ), here by NumPy, with secants from 0 to s."""
+    random = np.random.default_rng(seed)
+    d, e = 10 ** random.uniform(-1, 1, n), random.normal(size=n)
+    turn = np.linalg.qr(random.normal(size=(n, n)))[0]
+    M = turn @ np.diag(random.choice([-nu, 1.0, random.uniform(-nu, 1)], n)) @ turn.T
+    s, unit = 10 ** random.uniform(-2, 1), e / np.linalg.norm(e)
+    h = random.choice([0.0, s, s * random.uniform()], n) * unit
+    pull = np.outer(M @ (d * h), unit / d)
+    bound = float(pull_up(F(1), F(nu), [F(x) for x in d])) * s
+    assert np.linalg.eigvalsh(-(pull + pull.T) / 2)[-1] <= bound * (1 + 1e-12)
+
+
+def test_the_pull_of_a_positive_matrix_is_a_quarter_of_its_norm_at_most() -> None:
+    """With D = I and ν = 0; M = diag(1, 0), h = s ê at 60° reaches ⅛, a half of the bound at least."""
+    assert F(1, 8) <= pull_up(F(1), F(0), [F(1)] * 3) <= F(26, 100)
+    unit = np.array([np.cos(np.pi / 3), np.sin(np.pi / 3)])
+    pull = np.outer(np.diag([1.0, 0.0]) @ unit, unit)
+    assert np.linalg.eigvalsh(-(pull + pull.T) / 2)[-1] == pytest.approx(1 / 8)
+
+
 WORSE = {
     "μ too small": lambda data: replace(data, inertia=data.inertia / 2),
     "μ negative": lambda data: replace(data, inertia=-data.inertia),
+    "ν negative": lambda data: replace(data, lowest=-data.lowest),
+    "ν above μ": lambda data: replace(data, lowest=2 * data.inertia),
     "weights too large": lambda data: replace(data, weights=tuple(2 * d for d in data.weights)),
     "a weight of 0": lambda data: replace(data, weights=(F(0), *data.weights[1:])),
     "too few weights": lambda data: replace(data, weights=data.weights[1:]),
@@ -121,6 +148,19 @@ WORSE = {
 def test_data_changed_for_the_worse_prove_nothing(name: str) -> None:
     found = proof(*CASES[3])
     assert not proves_radially(found.closure, WORSE[name](data_of(found)))
+
+
+def test_a_matrix_that_is_not_positive_needs_a_large_nu() -> None:
+    """−M has the norm of M, so that μ stands, but a small ν does not."""
+    found = proof(*CASES[3])
+    arm = found.closure.arm
+    negative = tuple(tuple(tuple((p, -c) for p, c in entry) for entry in row) for row in arm.mass)
+    closure, data = replace(found.closure, arm=replace(arm, mass=negative)), data_of(found)
+    assert data.lowest < data.inertia / 2
+    with precision(BITS):
+        assert not Parts(closure, data).inertia_shown()
+        assert Parts(closure, replace(data, lowest=data.inertia)).inertia_shown()
+    assert not proves_radially(closure, data)
 
 
 def test_a_broken_tree_is_refused() -> None:

@@ -19,7 +19,7 @@ Progress = Callable[[float, str], None]
 Prover = Callable[[Boxes], NDArray[np.bool_]]
 Chooser = Callable[[Boxes], Indices]
 
-CHUNK = 8192
+CHUNK = 32768
 PROBES = 64
 SMALLEST = 1e-5
 """Half width below which a box that is not proved ends the search."""
@@ -84,9 +84,10 @@ def cover(
             return Outcome(False, seen, EXHAUSTED if seen > max_boxes else LATE)
         proved = prove(boxes)
         done += float(np.sum(_volumes(boxes[proved])))
-        if on_progress is not None:
-            on_progress(min(done / volume, 1.0) if volume else 0.0, f"{seen} boxes")
         rest = boxes[~proved]
+        if on_progress is not None:
+            still_open = sum(len(waiting) for waiting, _ in stack) + 2 * len(rest)
+            on_progress(min(done / volume, 1.0) if volume else 0.0, f"{seen} boxes, {still_open} open")
         if len(rest):
             point = _resisting(rest, prove)
             if point is not None:

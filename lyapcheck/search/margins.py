@@ -101,7 +101,7 @@ def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialB
         outcome = certify(Problem(closure, setting.ranged), max_boxes)
         return BoxTree(outcome.tree) if outcome.proved else None
     data = reduced_radial(margin)
-    return RadialBounds(data.weights, data.inertia, data.angles, data.tree, data.cuts)
+    return RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
 
 
 def reduced_radial(margin: Margin) -> Radial:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,21 +13,23 @@ from lyapcheck.check.balls import precision
 from lyapcheck.check.certificates.proofs import RadialBounds
 from lyapcheck.check.stability import Closure
 from lyapcheck.check.stability.closure import PI_ABOVE
-from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, proves_radially
-from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, Table, proves_radially
 from lyapcheck.search.certified import Proof
 from lyapcheck.search.cover import cover
 from lyapcheck.search.setting import Setting
 
 Array = NDArray[np.float64]
 
-SAMPLES = 20_000
+SAMPLES = 5_000
 SEED = 20190301
-MAX_BOXES = 3_000
+MAX_BOXES = 12_000
 MOST_ANGLES = 4
 """Angles whose boxes are looked at; the harmonics of the others are bounded by their sizes."""
-MARGINS = tuple(Fraction(k, 100) for k in (102, 105, 110, 120, 140, 180))
-"""μ beside the largest eigenvalue that was sampled."""
+NEARER = (1.0, 0.3, 0.1, 0.03, 0.01, 0.0)
+MARGINS = tuple(Fraction(k, 100) for k in (101, 103, 106, 110, 120, 140, 180))
+"""μ beside the largest eigenvalue that was found, for the part of M in the chosen angles."""
+LOWEST = (Fraction(1, 8), Fraction(1, 3), Fraction(1))
+"""ν likewise: small where M can be shown to be nearly positive, else as large as it may be."""
 CUTS = (Fraction(0), *(Fraction(k, 50) for k in range(1, 151)), *(Fraction(k) for k in (4, 5, 7, 10, 20, 50)))
 SMALLEST = Fraction(1, 10**9)
 DIGITS = 7
@@ -58,7 +61,9 @@ def radial_epsilon(setting: Setting) -> Proof | None:
     closure = setting.closure(_short(low))
     if not proves_radially(closure, data):
         return None
-    return Proof(closure, RadialBounds(data.weights, data.inertia, data.angles, data.tree, data.cuts))
+    return Proof(
+        closure, RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
+    )
 
 
 def _holds(setting: Setting, parts: Parts, eps0: Fraction) -> bool:
@@ -74,30 +79,33 @@ def holds_radially(closure: Closure, data: Radial) -> bool:
 
 
 def radial_data(setting: Setting) -> Radial | None:
-    """Weights, μ and the tree behind it: the tightest μ that the checker accepts within the budget."""
+    """Weights, μ, ν and the tree behind them: the tightest that the checker accepts within the budget."""
     closure = setting.closure(Fraction(1))
     weights = tuple(_root_below(low) for low, _ in closure.friction)
-    angles = _leading_angles(closure)
-    largest = _sampled(setting, weights)
-    for margin in MARGINS:
-        mu = _short(largest * margin)
-        tree = _tree(closure, Radial(weights, mu, angles, ".", CUTS))
-        if tree is not None:
-            return Radial(weights, mu, angles, tree, CUTS)
-    return None
+    # μ and ν do not matter yet
+    blank = Radial(weights, Fraction(1), Fraction(1), _leading_angles(closure), ".", CUTS)
+    parts = Parts(closure, blank)
+    largest = Fraction(_largest(parts))
+
+    def tried(share: Fraction, margin: Fraction) -> Radial | None:
+        mu = _short(largest * margin + parts.far)
+        data = replace(blank, inertia=mu, lowest=min(_short(largest * share + parts.far), mu))
+        tree = _tree(closure, data)
+        return None if tree is None else replace(data, tree=tree)
+
+    # what resists a small ν resists it beside any μ, so the loosest μ shows which ν can be had
+    share = next((share for share in LOWEST if tried(share, MARGINS[-1])), LOWEST[-1])
+    return next(filter(None, (tried(share, margin) for margin in MARGINS)), None)
 
 
 def _tree(closure: Closure, data: Radial) -> str | None:
     """A tree of boxes of the chosen angles that shows μ, or ``None`` within the budget."""
     with precision(BITS):
         parts = Parts(closure, data)
-        near, limit = parts.near, parts.limit
-        if not limit > 0:
-            return None
 
         def prove(boxes: Array) -> NDArray[np.bool_]:
             sides = [tuple(zip(box[0].tolist(), box[1].tolist(), strict=True)) for box in boxes]
-            return np.array([parts.below(near, limit, side) for side in sides])
+            return np.array([parts.shown_over(side) for side in sides])
 
         count = len(data.angles)
         start = np.stack([np.full(count, -PI_ABOVE), np.full(count, PI_ABOVE)])[None]
@@ -128,14 +136,27 @@ def _rest(closure: Closure, chosen: tuple[int, ...]) -> float:
     )
 
 
-def _sampled(setting: Setting, weights: tuple[Fraction, ...]) -> Fraction:
-    """The largest eigenvalue of D⁻¹MD⁻¹ among random angles."""
+def _largest(parts: Parts) -> float:
+    """The largest eigenvalue of M̃ in the chosen angles alone: at random, then ever nearer to the best."""
     random = np.random.default_rng(SEED)
-    q = random.uniform(-np.pi, np.pi, (SAMPLES, setting.n))
-    q[: 4**2] = 0.0
-    d = np.array([float(x) for x in weights])
-    M = NumericModel(setting.model).mass(q) / d[:, None] / d
-    return Fraction(float(np.linalg.eigvalsh(M)[:, -1].max()))
+    best = random.uniform(-np.pi, np.pi, (SAMPLES, parts.closure.n))
+    best[0] = 0.0
+    found = 0.0
+    for spread in NEARER:
+        largest = np.linalg.eigvalsh(_values(parts.near, best))[:, -1]
+        found = max(found, float(largest.max()))
+        best = best[np.argmax(largest)] + spread * random.normal(size=(SAMPLES // 10, parts.closure.n))
+    return found
+
+
+def _values(table: Table, q: Array) -> Array:
+    """A matrix of trigonometric polynomials at many angles."""
+    values = np.zeros((len(q), len(table), len(table)))
+    for k in {k for row in table for entry in row for k in entry}:
+        terms = np.array([[entry.get(k, (0, 0)) for entry in row] for row in table], dtype=float)
+        turn = q @ np.array(k, dtype=float)
+        values += np.cos(turn)[:, None, None] * terms[..., 0] + np.sin(turn)[:, None, None] * terms[..., 1]
+    return values
 
 
 def _root_below(value: Fraction) -> Fraction:

@@ -202,11 +202,12 @@ class BoxTree(Proof):
 
 @dataclass(frozen=True)
 class RadialBounds(Proof):
-    """Bounds of the parts of dV/dt in ‖e‖ alone: weights, μ, the boxes of some angles behind it, and cuts."""
+    """Bounds of the parts of dV/dt in ‖e‖ alone: weights, μ, ν, boxes of some angles behind them, cuts."""
 
     rule = "bounds in ‖e‖"
     weights: tuple[Fraction, ...]
     inertia: Fraction
+    lowest: Fraction
     angles: tuple[int, ...]
     tree: str
     cuts: tuple[Fraction, ...]

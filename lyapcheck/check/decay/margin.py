@@ -86,7 +86,7 @@ def shown(margin: Margin, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
             return False
     if isinstance(by, BoxTree):
         return proves(margin.reduced, by.tree, jobs)
-    data = Radial(by.weights, by.inertia, by.angles, by.tree, by.cuts)
+    data = Radial(by.weights, by.inertia, by.lowest, by.angles, by.tree, by.cuts)
     return proves_radially(margin.reduced, data)
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 from math import isqrt, prod
 
@@ -22,7 +22,7 @@ from lyapcheck.check.harmonics import (
 from lyapcheck.check.members import Member, member
 from lyapcheck.check.scalar import ScalarForm, certifies
 from lyapcheck.check.stability.boxes import Box
-from lyapcheck.check.states import Arm
+from lyapcheck.check.states import Arm, Term
 
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
@@ -74,7 +74,7 @@ class Closure:
     @cached_property
     def mass(self) -> list[list[Uncertain]]:
         """M as harmonics, by powers of the parameters."""
-        return [[by_parameters(entry, self.n) for entry in row] for row in self.arm.mass]
+        return [[_harmonics(entry, self.n) for entry in row] for row in self.arm.mass]
 
     @cached_property
     def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
@@ -197,6 +197,12 @@ class Closure:
         errors = [(0.0 if i in self.one_sided else -self.radius, self.radius) for i in range(self.n)]
         uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
+
+
+@lru_cache(maxsize=256)
+def _harmonics(entry: tuple[Term, ...], n: int) -> Uncertain:
+    """An entry of M as harmonics, once for all the ε₀ that are tried on an arm; to be read only."""
+    return by_parameters(entry, n)
 
 
 def root_above(value: Fraction) -> Fraction:

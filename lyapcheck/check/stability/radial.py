@@ -5,11 +5,12 @@ the variables it lives in:
 
     ‖M̃ H'‖ ≤ μ ρ(r),                         μ ≥ λmax(M̃(q)) for all q, ρ(r) = sup |h'| up to r
     ‖M̃ D h‖ ‖D⁻¹ ê‖/(1+r) ≤ μ g(r),          g(r) = min(κ_D S(r) r, c √n γ)/(1+r)
+    its pull upwards ≤ f(r) ≤ μ g(r),         see ``pull``
     |λ|(sym C̃(q,h)) = ½ ‖Σ h_j ∂_j M̃‖ ≤ κ a(r),  ‖C̃(q,h)‖ ≤ κ' a(r),   a(r) = min(S(r) r, √n γ) ≥ ‖h‖
 
 where S(r) = sup h(x)/x up to r, c = max d/min d, and κ_D = ½ (c + 1/c) by Kantorovich's inequality. So
 
-    wᵀPw ≥ ‖v‖² [1 − ε σ − ¼ ε τ² (β + ε s)²],   σ = μ (ρ + g) + κ a,   s = μ (ρ + g) + κ' a,
+    wᵀPw ≥ ‖v‖² [1 − ε σ − ¼ ε τ² (β + ε s)²],   σ = μ ρ + f + κ a,   s = μ (ρ + g) + κ' a,
     τ² = max d_i²/k̃_i,   β = max b_i/d_i²,   ε = ε₀/(1+r),
 
 and one inequality in r is left. The cost hardly grows with the number of joints.
@@ -33,6 +34,7 @@ from lyapcheck.check.matrices import balls_positive_definite
 from lyapcheck.check.members import Member
 from lyapcheck.check.stability.boxes import Box, leaves
 from lyapcheck.check.stability.closure import PI_ABOVE, Closure, root_above
+from lyapcheck.check.stability.pull import pull_up
 from lyapcheck.check.stability.waves import cosine_range
 
 BITS = 64
@@ -46,7 +48,8 @@ class Radial:
     Args:
         weights: d_i > 0 with d_i² ≤ b_i, (N·m·s/rad)^½.
         inertia: μ, dimensionless beside the friction: rad/s.
-        angles: the joints over whose angles the tree shows λmax(M̃) ≤ μ; the other angles are bounded by the
+        lowest: ν with −ν ≤ M̃, from 0 to μ, rad/s; M is positive, but the tree need not show all of that.
+        angles: the joints over whose angles the tree shows −ν ≤ M̃ ≤ μ; the other angles are bounded by the
             sizes of their harmonics.
         tree: the boxes of those angles.
         cuts: values of r, rad, rising from 0; beyond the last one the bounds at infinity are used.
@@ -54,6 +57,7 @@ class Radial:
 
     weights: tuple[Fraction, ...]
     inertia: Fraction
+    lowest: Fraction
     angles: tuple[int, ...]
     tree: str
     cuts: tuple[Fraction, ...]
@@ -87,7 +91,7 @@ def fits(closure: Closure, radial: Radial) -> bool:
     )
     joints = len(set(radial.angles)) == len(radial.angles) and set(radial.angles) <= set(range(closure.n))
     rising = len(radial.cuts) > 0 and radial.cuts[0] == 0 and all(a < b for a, b in pairwise(radial.cuts))
-    return weights and joints and rising and radial.inertia > 0
+    return weights and joints and rising and 0 <= radial.lowest <= radial.inertia and radial.inertia > 0
 
 
 class Parts:
@@ -133,28 +137,25 @@ class Parts:
         return [[_only(entry, self.radial.angles, True) for entry in row] for row in self.mass]
 
     @cached_property
-    def limit(self) -> arb:
-        """What is left of μ for that part, once the other harmonics have had their sizes."""
+    def far(self) -> Fraction:
+        """The sizes of the other harmonics."""
         far: Table = [[_only(entry, self.radial.angles, False) for entry in row] for row in self.mass]
-        return self.mu - to_arb(sum(sizes_of(far).values(), Fraction(0)))
+        return sum(sizes_of(far).values(), Fraction(0))
 
     def inertia_shown(self) -> bool:
-        """Whether ‖M̃‖ < μ, by the tree, for all angles."""
+        """Whether −ν < M̃ < μ, by the tree, for all angles."""
         start: Box = ((-PI_ABOVE, PI_ABOVE),) * len(self.radial.angles)
-        return all(self.below(self.near, self.limit, box) for box in leaves(start, self.radial.tree))
+        return all(self.shown_over(box) for box in leaves(start, self.radial.tree))
 
-    def below(self, near: Table, limit: arb, box: Box) -> bool:
-        """Whether the part of M̃ in the chosen angles has all eigenvalues between ∓ a limit."""
+    def shown_over(self, box: Box) -> bool:
+        """Whether −ν < M̃ < μ over a box of the chosen angles, whatever the others are."""
         q = [arb(0)] * self.closure.n
         for joint, (low, high) in zip(self.radial.angles, box, strict=True):
             q[joint] = arb(low).union(arb(high))
         waves: dict[Harmonic, tuple[arb, arb]] = {}
-        M = [[_over(near[i][j], q, waves) for j in range(i + 1)] for i in range(self.closure.n)]
-        rows = (
-            [[(limit if i == j else arb(0)) - sign * M[i][j] for j in range(i + 1)] for i in range(len(M))]
-            for sign in (1, -1)
-        )
-        return all(balls_positive_definite(side) for side in rows)
+        M = [[_over(self.near[i][j], q, waves) for j in range(i + 1)] for i in range(self.closure.n)]
+        above, below = (to_arb(x - self.far) for x in (self.radial.inertia, self.radial.lowest))
+        return balls_positive_definite(_plus(above, -1, M)) and balls_positive_definite(_plus(below, 1, M))
 
 
 class Inequality:
@@ -169,6 +170,7 @@ class Inequality:
         self.kantorovich = to_arb((spread + 1 / spread) / 2)
         self.softness = to_arb(max(x * x / k for x, k in zip(d, closure.stiffness, strict=True)))
         self.friction = to_arb(max(high / (x * x) for x, (_, high) in zip(d, closure.friction, strict=True)))
+        self.pull_up = to_arb(pull_up(parts.radial.inertia, parts.radial.lowest, d))
         self.reach = arb(closure.n).sqrt() * to_arb(closure.member.gamma)
         self.eps0 = to_arb(closure.eps0)
 
@@ -191,9 +193,12 @@ class Inequality:
             steepest, rise = _up_to(self.closure.member, far)
             steep, a = min_of(steep, steepest), min_of(a, rise)
             pull = min_of(pull, self.kantorovich * rise / (1 + high))
-        moved = self.parts.mu * (steep + pull)
-        fast = moved + self.parts.turning * a
-        slow = self.friction + eps * (moved + self.parts.coriolis * a)
+            up = min_of(self.parts.mu * pull, self.pull_up * rise / (1 + high))
+        else:
+            up = self.parts.mu * pull
+        steep *= self.parts.mu
+        fast = steep + up + self.parts.turning * a
+        slow = self.friction + eps * (steep + self.parts.mu * pull + self.parts.coriolis * a)
         return bool(1 - eps * fast - eps * self.softness * slow * slow / 4 > 0)
 
 
@@ -238,6 +243,13 @@ def _scaled(terms: Harmonics, by: Fraction) -> Harmonics:
 def _only(terms: Harmonics, joints: Sequence[int], inside: bool) -> Harmonics:
     """The harmonics that turn with the given joints only, or all the others."""
     return {k: ab for k, ab in terms.items() if all(x == 0 or i in joints for i, x in enumerate(k)) == inside}
+
+
+def _plus(diagonal: arb, sign: int, M: list[list[arb]]) -> list[list[arb]]:
+    """A multiple of I plus ±M, entries on and below the diagonal."""
+    return [
+        [diagonal + sign * x if i == j else sign * x for j, x in enumerate(row)] for i, row in enumerate(M)
+    ]
 
 
 def _over(terms: Harmonics, q: Sequence[arb], waves: dict[Harmonic, tuple[arb, arb]]) -> arb:

@@ -31,7 +31,7 @@ def by_tree(statement: Decreasing, proof: BoxTree) -> Accepted:
 @rule(Decreasing, RadialBounds)
 def by_radial_bounds(statement: Decreasing, proof: RadialBounds) -> Accepted:
     """Soundness: ``lyapcheck.check.stability.radial``."""
-    data = Radial(proof.weights, proof.inertia, proof.angles, proof.tree, proof.cuts)
+    data = Radial(proof.weights, proof.inertia, proof.lowest, proof.angles, proof.tree, proof.cuts)
     if not proves_radially(closure_of(statement), data):
         raise Refused("bounds", "", "do not show dV/dt < 0 at every ‖e‖")
     return Accepted("proved", "enclosure")
