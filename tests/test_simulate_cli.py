@@ -15,6 +15,7 @@ from lyapcheck.control import paper_gain_file
 
 TABLE2 = str(paper_gain_file("table2"))
 PD = str(paper_gain_file("table2_pd"))
+FORMS = ("svg", "png")
 
 
 class Done(NamedTuple):
@@ -88,9 +89,14 @@ def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
     for _ in range(2):
         assert lyapcheck(PD, "--plot", str(tmp_path)).returncode == 0
         figures = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-        assert sorted(figures) == ["tau_pd-errors.svg", "tau_pd-torques.svg"]
-        for text in figures.values():
-            ET.fromstring(text)
+        drawn = [f"tau_pd-{name}.{form}" for name in ("errors", "lyapunov", "torques") for form in FORMS]
+        assert sorted(figures) == sorted([*drawn, "tau_pd.csv"])
+        for name, content in figures.items():
+            if name.endswith(".svg"):
+                ET.fromstring(content)
+            if name.endswith(".png"):
+                assert content.startswith(b"\x89PNG\r\n\x1a\n")
+    assert figures["tau_pd.csv"].decode() == lyapcheck(PD, "--csv", "-").stdout
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == figures
 
 

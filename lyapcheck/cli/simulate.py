@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
-import re
-import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from lyapcheck.cli.arm import robot_name
-from lyapcheck.cli.output import require_writable, write_whole
-from lyapcheck.cli.progress import Advance, progress
-from lyapcheck.cli.task import task_of
-from lyapcheck.errors import argument_error
-from lyapcheck.verdicts import Exit
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from lyapcheck.control import GainSet
-    from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate import Run, Task
+from lyapcheck.cli.complaints import Complaints
+from lyapcheck.cli.motions import Output, follow, regulate, spread_out
+from lyapcheck.cli.progress import progress
+from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
 
 
 class SimulateFormat(StrEnum):
@@ -43,7 +33,13 @@ def command(
         bool,
         typer.Option("--experiment", help="As on the bench: hold, encoders, dry friction, torque limits."),
     ] = False,
-    time: Annotated[float, typer.Option(help="Duration in s.")] = 5.0,
+    reference: Annotated[
+        Path | None,
+        typer.Option(help="Follow the trajectory of this reference file under (21), instead of a target."),
+    ] = None,
+    time: Annotated[
+        float | None, typer.Option(help="Duration in s; 5, or the length of the reference.")
+    ] = None,
     target: Annotated[
         str | None,
         typer.Option(help="Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."),
@@ -51,83 +47,88 @@ def command(
     start: Annotated[
         str | None, typer.Option(help="Initial joint angles in degrees; all 0 if missing.")
     ] = None,
-    eps0: Annotated[float, typer.Option(help="The ε₀ of V; with 0, V is the energy.")] = 0.0,
+    velocity: Annotated[
+        str | None, typer.Option(help="Initial joint rates in degrees a second; at rest if missing.")
+    ] = None,
+    eps0: Annotated[
+        float | None,
+        typer.Option(help="The ε₀ of V; 0 if missing (V is the energy), what (21) admits with --reference."),
+    ] = None,
+    band: Annotated[
+        float | None,
+        typer.Option(help="Degrees: with --reference, the time from which on all errors stay inside; 1."),
+    ] = None,
+    runs: Annotated[
+        int | None, typer.Option(help="So many runs from random starts; tells how the indices spread.")
+    ] = None,
+    spread: Annotated[
+        float | None, typer.Option(help="Degrees: with --runs, starts lie so far about --start; 45.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(help="Of the random starts; 0.")] = None,
+    keep_going: Annotated[
+        bool, typer.Option("--keep-going", help="Go on after a broken promise instead of stopping there.")
+    ] = False,
     csv: Annotated[
         str | None, typer.Option(help="Write all samples to this file; - for standard output.")
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(help="Draw errors and torques as SVG files into this directory.")
+        Path | None, typer.Option(help="Draw figures into this directory: SVG, PNG, their data as CSV.")
     ] = None,
     format: Annotated[SimulateFormat, typer.Option(help="How to write it.")] = SimulateFormat.TEXT,  # noqa: A002
 ) -> None:
     """Simulate the closed loop of every gain set in FILE and report its performance.
 
-    L2 index, settling, overshoot, peak torque against the limit, and whether V fell all along: observations
-    in floating point, never proofs. Exit code 3 if a run could not be finished; what it reached is written
-    and marked.
+    L2 index, settling, overshoot, peak torque against the limit: observations in floating point, never
+    proofs. A run by the equations is stopped at the first state that breaks a promise: V falls, ‖τ‖ stays
+    below (9), every motor within its limit. Exit code 1 if such a state is confirmed in balls, 3 if a run
+    could not be finished; what was reached is written and marked.
     """
     from lyapcheck.control import read_gain_file
     from lyapcheck.robots import load
+    from lyapcheck.tracking import read_reference
 
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))
-    task = task_of(model, target, start, time, eps0)
-    _check_places(csv, plot)
+    asked = Asked(target, start, velocity, time, eps0)
+    given = {
+        "--experiment": experiment or None,
+        "--reference": reference,
+        "--target": target,
+        "--band": band,
+        "--runs": runs,
+        "--spread": spread,
+        "--seed": seed,
+        "--keep-going": keep_going or None,
+        "--plot": plot,
+    }
+    wrong = Complaints()
+    wrong.reading(check_options, [name for name, value in given.items() if value is not None])
+    wrong.reading(check_places, csv, plot)
+    starts = path = task = request = None
+    if runs is not None:
+        starts = wrong.reading(starts_of, runs, spread, seed)
+    if reference is None:
+        task = wrong.reading(asked.task, model)
+    else:
+        path = wrong.reading(read_reference, reference, model.n)
+        request = wrong.reading(asked.request, model, path, band)
+    wrong.tell()
+    output, gains = Output(csv, plot, format.value), gain_file.gains
     with progress("simulate") as advance:
-        runs, failures = _run_all(gain_file.gains, model, task, eps0=eps0, bench=experiment, advance=advance)
-    _write(runs, csv, plot, format)
-    for reason in failures:
-        print(f"not finished: {reason}", file=sys.stderr)
-    raise typer.Exit(int(Exit.UNDECIDED if failures else Exit.PROVED))
-
-
-def _check_places(csv: str | None, plot: Path | None) -> None:
-    if csv is not None and csv != "-":
-        require_writable("--csv", Path(csv))
-    if plot is not None and not plot.is_dir():
-        raise argument_error("--plot", plot, "is not a directory", "create it or name another one")
-
-
-def _run_all(
-    gains: Sequence[GainSet], model: RobotModel, task: Task, *, eps0: float, bench: bool, advance: Advance
-) -> tuple[list[Run], list[str]]:
-    """The run of every gain set, and the reasons of those that were cut short."""
-    from lyapcheck.simulate import SimulationFailed, experiment, simulate
-
-    runs: list[Run] = []
-    failures: list[str] = []
-    mover = experiment if bench else simulate
-    for done, gain_set in enumerate(gains):
-        advance(done / len(gains), gain_set.name)
-        try:
-            runs.append(mover(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0))
-        except SimulationFailed as failure:
-            failures.append(failure.reason)
-            runs += [failure.partial] if failure.partial is not None else []
-    return runs, failures
-
-
-def _write(runs: Sequence[Run], csv: str | None, plot: Path | None, form: SimulateFormat) -> None:
-    from lyapcheck.simulate.csv import runs_csv
-    from lyapcheck.simulate.render import RENDERERS
-
-    if plot is not None:
-        _draw(runs, plot)
-    if csv is not None and csv != "-":
-        write_whole(Path(csv), runs_csv(runs))
-    sys.stdout.write(runs_csv(runs) if csv == "-" else RENDERERS[form.value](runs))
-
-
-def _draw(runs: Sequence[Run], place: Path) -> None:
-    """Two figures a run, as in Figs. 3 to 10 of the paper."""
-    from lyapcheck.report.figures.motion import errors_figure, torques_figure
-
-    for number, run in enumerate(runs):
-        title = f"{run.name} on {run.robot}, {run.kind}"
-        stem = re.sub(r"[^\w.-]+", "_", run.name)
-        if stem != run.name:  # two names must not become one file
-            stem = f"{stem}-{number + 1}"
-        write_whole(place / f"{stem}-errors.svg", errors_figure(title, run.t, run.e, run.joints))
-        write_whole(
-            place / f"{stem}-torques.svg", torques_figure(title, run.t, run.tau, run.joints, run.torque_limit)
-        )
+        stop = not keep_going
+        if path is not None and request is not None:
+            ending = follow(gains, model, path, request, stop=stop, output=output, advance=advance)
+        elif task is not None and starts is not None:
+            ending = spread_out(gains, model, task, starts, eps0=eps0 or 0.0, output=output, advance=advance)
+        elif task is not None:
+            ending = regulate(
+                gains,
+                model,
+                task,
+                bench=experiment,
+                eps0=eps0 or 0.0,
+                stop=stop,
+                output=output,
+                advance=advance,
+            )
+    raise typer.Exit(int(ending.tell()))

@@ -26,10 +26,13 @@ def as_text(runs: Sequence[Run]) -> str:
 
 
 def _block(run: Run) -> str:
-    rows = [HEADS, *_rows(run)]
+    return "\n  ".join([_headline(run), *_facts(run), *in_columns([HEADS, *_rows(run)])])
+
+
+def in_columns(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Rows of words, numbers and a word as lines with straight columns."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = [*_facts(run), *("  ".join(_padded(row, widths)).rstrip() for row in rows)]
-    return "\n  ".join([_headline(run), *lines])
+    return ["  ".join(_padded(row, widths)).rstrip() for row in rows]
 
 
 def _padded(row: Sequence[str], widths: Sequence[int]) -> list[str]:
@@ -74,7 +77,7 @@ def broken(breach: Breach | None) -> list[str]:
 def _beside(run: Run) -> list[str]:
     """What the paper measured on its bench, where it ran the same."""
     paper = printed_for(run)
-    if paper is None:
+    if paper is None or not run.complete:
         return []
     error = ", ".join(f"{x:g}" for x in paper.final_error)
     when = "below 1.4" if paper.settling is None else ", ".join(f"{x:g}" for x in paper.settling)
@@ -108,11 +111,11 @@ def _rows(run: Run) -> list[tuple[str, ...]]:
     return [
         (
             joint,
-            _number(found.settling[i], "z.3f"),
-            _number(found.overshoot[i], "z.2f"),
-            _number(found.final_error[i], "z.4f"),
-            _number(found.peak_torque[i], "z.2f"),
-            _number(run.torque_limit[i], "g"),
+            cell(found.settling[i], "z.3f"),
+            cell(found.overshoot[i], "z.2f"),
+            cell(found.final_error[i], "z.4f"),
+            cell(found.peak_torque[i], "z.2f"),
+            cell(run.torque_limit[i], "g"),
             _WORDS[run.promises.inside_limits[i]],
         )
         for i, joint in enumerate(run.joints)
@@ -122,7 +125,8 @@ def _rows(run: Run) -> list[tuple[str, ...]]:
 _WORDS = {True: "inside", False: "LIMIT REACHED", None: ""}
 
 
-def _number(value: float | None, form: str) -> str:
+def cell(value: float | None, form: str) -> str:
+    """A number in a form, a dash where there is none."""
     return "—" if value is None or math.isnan(value) else format(value, form)
 
 

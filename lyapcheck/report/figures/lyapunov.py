@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,13 +17,23 @@ def lyapunov_figure(title: str, t: Array, V: Array, dV: Array) -> str:
 
     References: (12) and (15) of reyes2019family.
     """
+    return svg(draw_lyapunov(title, t, V, dV))
+
+
+def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None = None) -> Any:
+    """The figure itself; ``bound`` (N,) in W is what dV/dt must stay below."""
     with styled():
         figure, axes = panels(1, 2, height=2.6)
         axes[0, 0].semilogy(t, _positive(V), color=COLOURS[0])
         axes[0, 0].set(xlabel="t [s]", ylabel="V [J]", title=title, xlim=(t[0], t[-1]))
         axes[0, 1].semilogy(t, _positive(-dV), color=COLOURS[1])
         axes[0, 1].set(xlabel="t [s]", ylabel="−dV/dt [W]", title="rate of decrease", xlim=(t[0], t[-1]))
-        return svg(figure)
+        if bound is not None:
+            axes[0, 1].semilogy(
+                t, _positive(-bound), color=COLOURS[2], linestyle="--", label="promised at least"
+            )
+            axes[0, 1].legend()
+        return figure
 
 
 def _positive(values: Array) -> Array:

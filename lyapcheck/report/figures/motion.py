@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,11 @@ def errors_figure(title: str, t: Array, e: Array, joints: Sequence[str]) -> str:
 
     References: Figs. 3, 5, 7 and 9 of reyes2019family.
     """
+    return svg(draw_errors(title, t, e, joints))
+
+
+def draw_errors(title: str, t: Array, e: Array, joints: Sequence[str]) -> Any:
+    """The figure of `errors_figure` itself."""
     with styled():
         figure, axes = panels(1, 1, height=2.8)
         axis = axes[0, 0]
@@ -27,7 +33,7 @@ def errors_figure(title: str, t: Array, e: Array, joints: Sequence[str]) -> str:
         axis.axhline(0.0, color="black", linewidth=0.6)
         axis.set(xlabel="t [s]", ylabel="position error [°]", title=title, xlim=(t[0], t[-1]))
         axis.legend(ncols=len(joints))
-        return svg(figure)
+        return figure
 
 
 def torques_figure(
@@ -37,6 +43,13 @@ def torques_figure(
 
     References: Figs. 4, 6, 8 and 10 of reyes2019family.
     """
+    return svg(draw_torques(title, t, tau, joints, limits))
+
+
+def draw_torques(
+    title: str, t: Array, tau: Array, joints: Sequence[str], limits: Sequence[float | None]
+) -> Any:
+    """The figure of `torques_figure` itself."""
     with styled():
         figure, axes = panels(1, len(joints), height=2.6)
         for i, joint in enumerate(joints):
@@ -46,7 +59,22 @@ def torques_figure(
             axis.set(xlabel="t [s]", title=joint, xlim=(t[0], t[-1]))
         axes[0, 0].set_ylabel("torque [N·m]")
         figure.suptitle(title, x=0.01, ha="left", fontsize=10)
-        return svg(figure)
+        return figure
+
+
+def draw_tracking(title: str, t: Array, q: Array, goal: Array, joints: Sequence[str]) -> Any:
+    """Joint angles in degrees beside what they should follow; ``q`` and ``goal`` (N, n) in rad."""
+    with styled():
+        figure, axes = panels(1, len(joints), height=2.6)
+        for i, joint in enumerate(joints):
+            axis = axes[0, i]
+            axis.plot(t, np.degrees(goal[:, i]), color="black", linestyle="--", label="reference")
+            axis.plot(t, np.degrees(q[:, i]), color=COLOURS[i], label="joint")
+            axis.set(xlabel="t [s]", title=joint, xlim=(t[0], t[-1]))
+        axes[0, 0].set_ylabel("angle [°]")
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        return figure
 
 
 def _mark_limit(axis: object, tau: Array, limit: float | None) -> None:

@@ -1,0 +1,104 @@
+"""How much torque (21) can ask of each motor, for all times and all motions from one start.
+
+    |τ_i| ≤ γ (k_pi + k_vi) + Σ_j sup|M_ij| sup|q̈_dj| + κ_i (v_d + b̄) v_d + sup|g_i| + b_i sup|q̇_di|
+
+where κ_i is k_c, or √(Σ_jk sup c_ijk²) if that is smaller, and b̄ bounds ‖w‖ = ‖q̇ − q̇_d‖: with ε₀ = 0 V is
+½ wᵀMw + Σ k_pi U(e_i), which never grows under (21), so ‖w‖ ≤ b̄ = √(2 V(0)/λmin(M)). With q_d at rest this is
+the bound (9), joint by joint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.balls import precision, to_arb
+from lyapcheck.check.states import State, value
+from lyapcheck.claims.arms import gravity_vector
+from lyapcheck.claims.bounds import ArmBounds, entry_sizes
+from lyapcheck.constants import robot_constants
+from lyapcheck.tracking.reference.base import BITS, above
+
+if TYPE_CHECKING:
+    from lyapcheck.search.setting import Setting
+    from lyapcheck.tracking.reference import Suprema
+
+Row = tuple[Fraction, ...]
+
+QUICK = 3
+"""Joints up to which the sizes of all Christoffel symbols are found in no time."""
+
+
+@dataclass(frozen=True)
+class TorqueBounds:
+    """Bounds of |τ_i|, N·m, and their parts, each (n,) and exact."""
+
+    feedback: Row
+    """γ (k_pi + k_vi)."""
+    inertia: Row
+    """M q̈_d."""
+    coriolis: Row
+    """C(q, q̇) q̇_d."""
+    gravity: Row
+    friction: Row
+    """B q̇_d."""
+    error_rate: Fraction
+    """b̄ ≥ ‖q̇ − q̇_d‖ at all times, rad/s."""
+
+    @property
+    def total(self) -> Row:
+        """The bound of each |τ_i|."""
+        parts = (self.feedback, self.inertia, self.coriolis, self.gravity, self.friction)
+        return tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True))
+
+
+def torque_bounds(
+    setting: Setting, reach: Suprema, q: Sequence[float], e: Sequence[float], w: Sequence[float]
+) -> TorqueBounds | None:
+    """The bounds for motions from one state; none where h is unbounded or λmin(M) > 0 is not known.
+
+    Args:
+        setting: controller and arm, at nominal numbers.
+        reach: of the reference.
+        q: (n,) start in rad.
+        e: (n,) q_d(0) − q.
+        w: (n,) q̇ − q̇_d(0), rad/s.
+    """
+    gamma, constants = setting.family.constants().gamma, robot_constants(setting.model)
+    least = constants.lambda_min.lower
+    if gamma is None or least <= 0:
+        return None
+    start = State(*(tuple(map(Fraction, part)) for part in (q, e, w)))
+    with precision(BITS):
+        stored = value(setting.arm, setting.controller, Fraction(0), start, BITS)
+        spin = above((2 * stored / to_arb(least)).sqrt())
+    n, top = setting.n, gamma.upper
+    sizes = ArmBounds(setting.fixed).sizes
+    rows = [sizes[n * i : n * i + n] for i in range(n)]
+    turning = (reach.speed + spin) * reach.speed
+    return TorqueBounds(
+        feedback=tuple(top * (p + v) for p, v in zip(setting.gains.kp, setting.gains.kv, strict=True)),
+        inertia=tuple(
+            sum((m * a for m, a in zip(row, reach.acceleration, strict=True)), Fraction(0)) for row in rows
+        ),
+        coriolis=tuple(k * turning for k in _coriolis_rows(setting, constants.k_c.upper)),
+        gravity=tuple(entry_sizes(gravity_vector(setting.fixed))),
+        friction=tuple(b * v for b, v in zip(setting.arm.viscous, reach.rate, strict=True)),
+        error_rate=spin,
+    )
+
+
+def _coriolis_rows(setting: Setting, k_c: Fraction) -> Row:
+    """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
+    n = setting.n
+    if n > QUICK:
+        return (k_c,) * n
+    sizes = ArmBounds(setting.fixed).symbol_sizes
+    with precision(BITS):
+        squares = [
+            sum((sizes[n * n * k + n * i + j] ** 2 for j in range(n) for k in range(n)), Fraction(0))
+            for i in range(n)
+        ]
+        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in squares)
