@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.balls import precision, to_arb
 from lyapcheck.check.states import State, value
-from lyapcheck.claims.arms import gravity_vector
-from lyapcheck.claims.bounds import ArmBounds, entry_sizes
 from lyapcheck.constants import robot_constants
+from lyapcheck.tracking.entries import coriolis_squares, gravity_sizes, mass_sizes
 from lyapcheck.tracking.reference.base import BITS, above
 
 if TYPE_CHECKING:
@@ -74,17 +73,16 @@ def torque_bounds(
     with precision(BITS):
         stored = value(setting.arm, setting.controller, Fraction(0), start, BITS)
         spin = above((2 * stored / to_arb(least)).sqrt())
-    n, top = setting.n, gamma.upper
-    sizes = ArmBounds(setting.fixed).sizes
-    rows = [sizes[n * i : n * i + n] for i in range(n)]
+    top = gamma.upper
     turning = (reach.speed + spin) * reach.speed
     return TorqueBounds(
         feedback=tuple(top * (p + v) for p, v in zip(setting.gains.kp, setting.gains.kv, strict=True)),
         inertia=tuple(
-            sum((m * a for m, a in zip(row, reach.acceleration, strict=True)), Fraction(0)) for row in rows
+            sum((m * a for m, a in zip(row, reach.acceleration, strict=True)), Fraction(0))
+            for row in mass_sizes(setting.fixed)
         ),
         coriolis=tuple(k * turning for k in _coriolis_rows(setting, constants.k_c.upper)),
-        gravity=tuple(entry_sizes(gravity_vector(setting.fixed))),
+        gravity=gravity_sizes(setting.fixed),
         friction=tuple(b * v for b, v in zip(setting.arm.viscous, reach.rate, strict=True)),
         error_rate=spin,
     )
@@ -92,13 +90,7 @@ def torque_bounds(
 
 def _coriolis_rows(setting: Setting, k_c: Fraction) -> Row:
     """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
-    n = setting.n
-    if n > QUICK:
-        return (k_c,) * n
-    sizes = ArmBounds(setting.fixed).symbol_sizes
+    if setting.n > QUICK:
+        return (k_c,) * setting.n
     with precision(BITS):
-        squares = [
-            sum((sizes[n * n * k + n * i + j] ** 2 for j in range(n) for k in range(n)), Fraction(0))
-            for i in range(n)
-        ]
-        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in squares)
+        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(setting.fixed))
