@@ -175,9 +175,9 @@ def test_json_has_the_fields_of_its_schema(write):
 
 
 def test_explain_names_place_use_and_procedure():
-    text = explain("16.6")
+    text = str(explain("16.6"))
     assert "term 6" in text
-    assert "used by  16" in text
+    assert "used by   16" in text
     assert "Implies" in text
     with pytest.raises(InputError, match=r"did you mean 16\.6"):
         explain("16_6")

@@ -11,6 +11,12 @@ from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.errors import InputError, Problem
 
+SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py")
+"""The proof scripts that come with lyapcheck."""
+
+MOST_NEAR = 8
+"""How many ids are suggested for one that is only the beginning of them."""
+
 
 def find_script(name: str) -> Path:
     """The proof script of that path, or the one that comes with lyapcheck under that name.
@@ -70,8 +76,16 @@ def check_ids(proof: Proof, ids: tuple[str, ...], file: str) -> None:
     problems = []
     for wanted in ids:
         if wanted not in proof.claims:
-            near = get_close_matches(wanted, proof.claims, n=3, cutoff=0.4)
+            near = _near(wanted, proof)
             repair = f"did you mean {', '.join(near)}?" if near else "run lyapcheck check to see all ids"
             problems.append(Problem(file, None, "id", wanted, "no claim has this id", repair))
     if problems:
         raise InputError(problems)
+
+
+def _near(wanted: str, proof: Proof) -> list[str]:
+    """The ids that may have been meant: those that begin alike, or else those of about the same letters."""
+    begun = (
+        [known for known in proof.claims if known.casefold().startswith(wanted.casefold())] if wanted else []
+    )
+    return begun[:MOST_NEAR] or get_close_matches(wanted, proof.claims, n=3, cutoff=0.5)

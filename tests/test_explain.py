@@ -1,0 +1,234 @@
+"""Claims explained: every claim there is, in every format, and statements that read as they are decided."""
+
+from __future__ import annotations
+
+import json
+import re
+from fractions import Fraction
+
+import mpmath
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from lyapcheck.check.functions import variables
+from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
+from lyapcheck.claims.case import Lacking
+from lyapcheck.claims.explain import explain
+from lyapcheck.claims.explain_formats import renderer
+from lyapcheck.claims.expression_text import expression_text
+from lyapcheck.claims.run import paper_case
+from lyapcheck.claims.script import SHIPPED, find_script, load_proof
+from lyapcheck.claims.statement_text import statement_text
+from lyapcheck.claims.statements import AllOf
+from lyapcheck.cli.main import build_app
+from lyapcheck.errors import InputError
+
+KNOWN = {
+    "gamma_1": "1",
+    "gamma_2": "1.0535692190337468",
+    "rho_2": "1.674609346798716",
+    "L_3": "0.969723315029385",
+}
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(("explain",)), ["explain", *arguments])
+
+
+EVERY = [(script, known) for script in SHIPPED for known in load_proof(find_script(script)).claims]
+
+
+def test_claims_of_every_proof_are_explained():
+    for script, known in EVERY[::11]:
+        found = explain(known, script)
+        assert found.id == known
+        assert found.says
+        assert found.lacking or (found.parts and found.procedures)
+        lines = str(found).splitlines()
+        assert lines[0].startswith(f"{known} ")
+        assert max(map(len, lines)) <= 130
+        assert not any(line != line.rstrip() for line in lines)
+
+
+def test_a_script_is_found_by_the_claim_alone():
+    assert explain("16.6").script == "published.py"
+    assert explain("A.gamma").script == "asymptotics.py"
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"), [("(19)", "19"), (" 7A ", "7a"), ("p", "P"), ("a.GAMMA", "A.gamma")]
+)
+def test_an_id_may_be_written_loosely(written, meant):
+    assert explain(written).id == meant
+
+
+@pytest.mark.parametrize(
+    ("written", "words"),
+    [
+        ("16_6", "did you mean 16.6"),
+        ("T1", "did you mean T1.torque.m1.base"),
+        ("nonsense", "run lyapcheck check to see all ids"),
+        ("", "no claim has this id"),
+    ],
+)
+def test_an_unknown_id_is_refused_with_the_likely_ones(written, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        explain(written)
+
+
+def test_what_is_printed_answers_the_five_questions():
+    out = run("16.9").stdout
+    for line in (
+        "16.9      ½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖",
+        "where     (16), term 9 of reyes2019family; claimed in published.py",
+        "uses      2.6: a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖",
+        "used by   16",
+        "asks      for m = 2, n = 3:",
+        "decided   Products of norms",
+        "run       lyapcheck check published.py --only 16.9",
+    ):
+        assert line in out
+
+
+@pytest.mark.parametrize(
+    ("known", "says"),
+    [
+        ("7a", "‖(h_2(x))ᵢ‖ ≤ √3·γ_2 for all x in R^3"),
+        ("T1.torque.m2.elbow", "150 = 15"),
+        ("T2.19.m2.true", "0.223 < 0.406/(√3·γ_2)"),
+        ("S4.norm.m1", "√(e1² + e2² + e3²) is 0.5934 for e1 = −0.5774, e2 = 0.1272, e3 = −0.051"),
+    ],
+)
+def test_the_statement_that_is_decided_is_written_out(known, says):
+    parts = " ".join(part.says for part in explain(known).parts)
+    assert says in parts
+
+
+def test_a_theorem_names_its_hypotheses_and_the_claims_that_give_them():
+    (part,) = explain("P").parts
+    assert "Lyapunov's direct method" in part.says
+    assert "rate bounded by a form (16)" in part.says
+    assert "globally asymptotically stable" in part.says
+
+
+def test_json_and_markdown_hold_the_same():
+    data = json.loads(run("12d", "--format", "json").stdout)
+    assert data["schema"] == "lyapcheck/explain/1"
+    assert data["uses"] == [{"id": "8", "says": explain("8").says}]
+    assert [part["name"] for part in data["parts"]] == [part.name for part in explain("12d").parts]
+    shown = run("12d", "--format", "markdown").stdout
+    assert shown.startswith("## 12d: ")
+    assert "- **run** lyapcheck check published.py" in shown
+
+
+def test_a_notebook_gets_a_table():
+    shown = explain("7a")._repr_html_()
+    assert shown.count("<tr>") == 8
+    assert "‖(h_2(x))ᵢ‖ ≤ √3·γ_2" in shown
+    assert renderer("text")(explain("7a")) == str(explain("7a"))
+
+
+x, y = var("x"), var("y")
+
+
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (x + y - 1, "x + y − 1"),
+        (x - (y - 1), "x − (y − 1)"),
+        (-(x + 1) * y, "(−(x + 1))·y"),
+        (x / (y * 2), "x/(y·2)"),
+        (x / y / 2, "x/y/2"),
+        ((x / 2) ** 3, "(x/2)³"),
+        (expr("-1/3") ** 2, "(−1/3)²"),
+        (sqrt(3) * gamma(2), "√3·γ_2"),
+        (sqrt(x + 1), "√(x + 1)"),
+        (abs(x) * tanh(y), "|x|·tanh(y)"),
+        (h(3, x) - dh(3, x), "h_3(x) − h_3′(x)"),
+        (log(cosh(x)) + potential(1, y), "ln(cosh(x)) + U_1(y)"),
+        (expr("0.223") * rho(1) + secant_bound(4), "0.223·ρ_1 + L_4"),
+        (x**12, "x¹²"),
+    ],
+)
+def test_expressions_read_as_one_writes_them(expression, text):
+    assert expression_text(expression.tree) == text
+
+
+trees = st.recursive(
+    st.one_of(
+        st.sampled_from([("var", "x"), ("var", "y"), ("pi",), ("gamma", 2), ("rho", 2), ("L", 3)]),
+        st.fractions(min_value=-3, max_value=3, max_denominator=40).map(lambda q: ("num", str(q))),
+    ),
+    lambda part: st.one_of(
+        st.tuples(st.just("add"), part, part, part),
+        st.tuples(st.just("add"), part, part),
+        st.tuples(st.just("mul"), part, part),
+        st.tuples(st.just("div"), part, part),
+        st.tuples(st.just("neg"), part),
+        st.tuples(st.sampled_from(["sin", "atan", "tanh"]), part),
+        st.tuples(st.just("pow"), part, st.integers(0, 3)),
+    ),
+    max_leaves=12,
+)
+
+
+@settings(max_examples=120, deadline=None)
+@given(tree=trees)
+def test_brackets_are_where_they_must_be(tree):
+    """The text, read again by Python's grammar, has the value of the expression."""
+    assert variables(tree) <= {"x", "y"}
+    try:
+        expected = value(tree)
+    except ZeroDivisionError:
+        return
+    assert mpmath.almosteq(reread(expression_text(tree)), expected, 1e-9, 1e-9)
+
+
+POINT = {"x": mpmath.mpf("0.37"), "y": mpmath.mpf("-1.9")}
+
+
+def value(tree):
+    kind, *rest = tree
+    if kind in ("num", "var", "pi", "gamma", "rho", "L"):
+        leaf = {"num": lambda: number(rest[0]), "var": lambda: POINT[rest[0]], "pi": lambda: +mpmath.pi}
+        return leaf.get(kind, lambda: mpmath.mpf(KNOWN[f"{kind}_{rest[0]}"]))()
+    if kind == "pow":
+        return value(rest[0]) ** rest[1]
+    parts = [value(part) for part in rest]
+    if kind == "add":
+        return sum(parts)
+    pairs = {"mul": lambda a, b: a * b, "div": lambda a, b: a / b, "neg": lambda a: -a}
+    return pairs.get(kind, getattr(mpmath, kind, None))(*parts)
+
+
+def number(text):
+    exact = Fraction(text)
+    return mpmath.mpf(exact.numerator) / exact.denominator
+
+
+def reread(text):
+    text = re.sub(
+        "[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda k: "**" + k[0].translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")), text
+    )
+    for a, b in (("−", "-"), ("·", "*"), ("π", "pi"), ("γ", "gamma"), ("ρ", "rho")):
+        text = text.replace(a, b)
+    text = re.sub(r"(?<![\w.])(\d+(?:\.\d+)?)", r"mpf('\1')", text)
+    text = re.sub(r"\*\*mpf\('(\d+)'\)", r"**\1", text)
+    names = {name: mpmath.mpf(known) for name, known in KNOWN.items()}
+    functions = {"sin": mpmath.sin, "atan": mpmath.atan, "tanh": mpmath.tanh, "mpf": mpmath.mpf}
+    return eval(text, {"__builtins__": {}}, {**POINT, **names, **functions, "pi": +mpmath.pi})
+
+
+def test_the_statements_of_every_proof_can_be_written_out():
+    case, written = paper_case(2), 0
+    for script in SHIPPED:
+        for claim in load_proof(find_script(script)).claims.values():
+            try:
+                statement = claim.statement(case)
+            except Lacking:
+                continue
+            parts = statement.parts if isinstance(statement, AllOf) else (("", statement),)
+            written += any(statement_text(part) for _, part in parts)
+    assert written > 100
