@@ -80,7 +80,7 @@ def _asked(found: Explanation) -> list[str]:
 
 def _part(part: Part) -> str:
     name = f"{part.name}: " if part.name else ""
-    return f"{name}{part.says or 'data too long to print'} [{part.kind}]"
+    return f"{name}{part.says or 'as said above, in data too long to print'} [{part.kind}]"
 
 
 def _command(found: Explanation) -> str:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.certificates.rules.theorem import THEOREMS
+from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
 from lyapcheck.claims.expression_text import expression_text, number_text
 from lyapcheck.claims.statements import (
     Agrees,
@@ -20,10 +22,12 @@ from lyapcheck.claims.statements import (
     Relation,
     Statement,
     Theorem,
+    TrigonometricBound,
+    TrigonometricPositive,
     Variable,
 )
 
-LONGEST = 600
+LONGEST = 700
 """Characters beyond which a formula is no longer for reading."""
 
 
@@ -121,6 +125,44 @@ def _theorem(statement: Theorem) -> str:
     return f"by {statement.name} ({known.reference}), {known.conclusion}; its hypotheses: {given}"
 
 
+def _bounded(statement: TrigonometricBound) -> str:
+    limits = [limit for _, limit in statement.entries if limit is not None]
+    bounds = f" by {', '.join(map(number_text, limits))}" if limits else ""
+    return f"{_entries(len(statement.entries))} bounded{bounds} in size, for all q"
+
+
+def _positive(statement: TrigonometricPositive) -> str:
+    return f"{_entries(len(statement.entries))} positive, for all q"
+
+
+def _entries(count: int) -> str:
+    return (
+        "a polynomial in sines and cosines is"
+        if count == 1
+        else f"{count} polynomials in sines and cosines are"
+    )
+
+
+def _decreasing(statement: Decreasing) -> str:
+    weights = f", Λ = {_diagonal(statement.coupling)}" if statement.coupling else ""
+    gains = f"K_p = {_diagonal(statement.kp)}, K_v = {_diagonal(statement.kv)}"
+    return (
+        f"dV/dt < 0 at every state but the origin, for {gains}, ε₀ = {number_text(statement.eps0)}{weights}"
+    )
+
+
+def _damping_below(statement: DampingBelow) -> str:
+    return (
+        "for all κ > 0 and ε₀ > 0: if dV/dt < 0 at every state but the origin, for "
+        f"K_p = {_diagonal(statement.kp)} and κ K_v with K_v = {_diagonal(statement.kv)}, then "
+        f"κ·{number_text(max(statement.kv))} < {expression_text(statement.bound)}"
+    )
+
+
+def _diagonal(entries: Iterable[Fraction]) -> str:
+    return f"diag({', '.join(map(number_text, entries))})"
+
+
 WRITTEN: dict[type[Statement], Callable[[Any], str]] = {
     Identity: _identity,
     ForAll: _for_all,
@@ -130,5 +172,9 @@ WRITTEN: dict[type[Statement], Callable[[Any], str]] = {
     ForSmall: _for_small,
     Agrees: _agrees,
     NormChain: _norm_chain,
+    TrigonometricBound: _bounded,
+    TrigonometricPositive: _positive,
+    Decreasing: _decreasing,
+    DampingBelow: _damping_below,
     Theorem: _theorem,
 }
