@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import doctest
 import inspect
 import subprocess
 import sys
@@ -81,3 +82,24 @@ def test_importing_lyapcheck_imports_nothing_heavy_and_takes_no_time():
 
 def test_a_type_checker_may_trust_the_annotations():
     assert (Path(lyapcheck.__file__).parent / "py.typed").is_file()
+
+
+def homes_with_examples() -> list[str]:
+    """The modules of public names whose documentation has examples."""
+    root = Path(lyapcheck.__file__).parent
+    names = sorted({home.partition(":")[0] for home in _HOMES.values()})
+    files = {name: root / f"{name.replace('.', '/')}.py" for name in names}
+    return [
+        name for name, file in files.items() if file.is_file() and ">>> " in file.read_text(encoding="utf-8")
+    ]
+
+
+def test_gate_table_and_tune_have_examples():
+    assert {"family.table", "tune.tuning", "tune.targets", "claims.explain"} <= set(homes_with_examples())
+
+
+@pytest.mark.parametrize("home", homes_with_examples())
+def test_the_examples_of_the_documentation_are_true(home):
+    failed, tried = doctest.testmod(import_module(f"lyapcheck.{home}"))
+    assert failed == 0
+    assert tried > 0

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import csv
-import doctest
 import io
 import json
 import re
 import struct
-import sys
 from dataclasses import replace
 from fractions import Fraction
 from html.parser import HTMLParser
@@ -173,9 +171,3 @@ def test_a_folder_that_cannot_be_is_refused(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(InputError, match="--plot"):
         raise run("--plot", str(tmp_path / "file")).exception
-
-
-def test_the_examples_of_the_documentation_are_true():
-    failed, tried = doctest.testmod(sys.modules["lyapcheck.family.table"])
-    assert failed == 0
-    assert tried >= 4
