@@ -6,10 +6,10 @@ The names below are the whole public interface. Each is imported from its home w
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # typing takes longer to import than a short command to run
 if TYPE_CHECKING:
+    from typing import Any
+
     from lyapcheck.admissible import EpsilonResult, epsilon
     from lyapcheck.check.certificates.recheck import recheck
     from lyapcheck.check.constants import Constants, gamma_less_than, hyperbolic_constants
@@ -160,6 +160,8 @@ def __getattr__(name: str) -> Any:
 
         value: Any = version("lyapcheck")
     elif name in _HOMES:
+        from importlib import import_module
+
         module, _, inside = _HOMES[name].partition(":")
         value = getattr(import_module(f"{__name__}.{module}"), inside or name)
     else:

@@ -13,14 +13,19 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 
+from lyapcheck.check.balls import precision
+from lyapcheck.check.constants import gamma_less_than, gamma_value, hyperbolic_constants
+from lyapcheck.check.critical import peak_of_h
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.control.bound import PRINTED, GammaBound, gamma_of
+from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.conditions import CHECKS, Check, check_10, check_10p, check_19
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.control.norms import NormLimit
+from lyapcheck.control.peak import gamma_between
+from lyapcheck.control.thresholds import norms
 from lyapcheck.errors import InputError
-from lyapcheck.files.decimals import written
+from lyapcheck.files.decimals import places_of, written
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))
 
@@ -141,7 +146,7 @@ def test_table_2_by_hand(gammas: dict[int, mpf]) -> None:
         check = check_19(gains_of(["1"] * 3, [kv] * 3, m), limits, gamma_of(gains_of(["1"], ["1"], m)))[0]
         assert check.verdict == verdict
         assert check.limit is not None
-        assert float(check.limit.mid) == pytest.approx(0.406 / 3**0.5 / float(gammas[m]), rel=1e-15)
+        assert float(check.limit.lower) == pytest.approx(0.406 / 3**0.5 / float(gammas[m]), rel=1e-15)
 
 
 # --- the largest value that passes -----------------------------------------------------------------
@@ -173,7 +178,7 @@ def test_the_largest_admissible_is_admitted_and_the_next_decimal_is_not(
         if check.largest_admissible is None:
             assert check.limit.lower <= 0
             continue
-        unit = Fraction(1, 10**check.places)
+        unit = Fraction(1, 10 ** places_of(check.largest_admissible))
         assert (check.largest_admissible / unit).denominator == 1
         for value, verdict in (
             (check.largest_admissible, "accepted"),
@@ -190,7 +195,7 @@ def test_the_largest_admissible_has_the_digits_that_were_written(kv: str, larges
     limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
     check = check_19(gains_of(["1"] * 3, [kv] * 3), limits, gamma_of(gains_of(["1"], ["1"])))[0]
     assert check.largest_admissible == Fraction(largest)
-    assert check.places == len(largest) - 2
+    assert places_of(check.largest_admissible) == len(largest) - 2
 
 
 def test_more_digits_where_the_written_ones_allow_nothing_positive() -> None:
@@ -198,7 +203,7 @@ def test_more_digits_where_the_written_ones_allow_nothing_positive() -> None:
     limits = limits_of(["50"], ["0"], "0.01")
     for kv in ("1", "0.1"):
         check = check_19(gains_of(["1"], [kv]), limits, gamma_of(gains_of(["1"], ["1"])))[0]
-        assert (check.largest_admissible, check.places) == (Fraction(94, 10_000), 4)
+        assert (check.largest_admissible, places_of(check.largest_admissible)) == (Fraction(94, 10_000), 4)
 
 
 @pytest.mark.parametrize("budget", ["0", "-3"])
@@ -252,7 +257,7 @@ def test_19_and_10p_are_strict(n: int, limit: Fraction, family: str, digits: int
         gains = GainSet("set", m, (value,) * n, (value,) * n, family)
         for check in check_19(gains, limits, gamma_of(gains)):
             assert (check.value, check.verdict) == (value, verdict)
-            assert check.limit == Enclosure.exact(limit)
+            assert check.limit == Bracket.exact(limit)
             assert check.margin == limit - value
 
 
@@ -279,9 +284,7 @@ def test_10_on_a_border_between_irrational_norms() -> None:
         gains = gains_of([kp, "0.1"], ["0.5", "0.1"], 1)
         (check,) = check_10(gains, limits, gamma_of(gains))
         assert check.verdict == verdict
-    assert (
-        check_10(gains_of(["0.5"] * 2, ["0.5"] * 2, 1), limits, GammaBound(Enclosure.exact(1)))[0].margin == 0
-    )
+    assert check_10(gains_of(["0.5"] * 2, ["0.5"] * 2, 1), limits, GammaBound(Fraction(1)))[0].margin == 0
 
 
 def test_10_at_the_printed_bound() -> None:
@@ -300,7 +303,7 @@ def test_the_smaller_root_is_the_border(n: int, a: Fraction, b: Fraction, side: 
     n = n * n
     border = abs(a - b) / isqrt(n)
     value = border * (1 + Fraction(side, 10**digits))
-    bound = NormLimit(max(a, b) ** 2, min(a, b) ** 2, n, GammaBound(Enclosure.exact(1)))
+    bound = norms(max(a, b) ** 2, min(a, b) ** 2, n, GammaBound(Fraction(1)))
     assert bound.admits(value) == (side <= 0) if value > 0 else True
     assert value <= 0 or bound.equals(value) == (side == 0)
     larger = (a + b) / isqrt(n)
@@ -311,7 +314,7 @@ def test_the_smaller_root_is_the_border(n: int, a: Fraction, b: Fraction, side: 
 def test_two_roots_that_balls_do_not_tell_apart_at_first() -> None:
     """Norms 1 and 10^-60: the border is 1 − 10^-60, and 1 + 10^-60 solves the same quadratic."""
     tiny = Fraction(1, 10**60)
-    bound = NormLimit(Fraction(1), tiny**2, 1, GammaBound(Enclosure.exact(1)))
+    bound = norms(Fraction(1), tiny**2, 1, GammaBound(Fraction(1)))
     assert bound.admits(1 - tiny)
     for value in (1 - tiny / 2, Fraction(1), 1 + tiny):
         assert not bound.admits(value)
@@ -326,12 +329,11 @@ TRACE_AND_NORM = {2: (Fraction(17, 16), Fraction(17 * 17 - 49 * 7, 32 * 32))}
 def test_gamma_squared_is_the_root_of_its_own_polynomial_only(m: int) -> None:
     gains = gains_of(["1"], ["1"], m)
     gamma = gamma_of(gains)
-    assert gamma.enclosure is not None
     if m == 2:
         trace, norm = TRACE_AND_NORM[2]
         assert gamma.squared_is_root(norm, -trace, Fraction(1))
         assert not gamma.squared_is_root(norm + Fraction(1, 10**60), -trace, Fraction(1))
-    near = (gamma.enclosure.mid**2).limit_denominator(10**9)
+    near = (gamma.within(200).lower ** 2).limit_denominator(10**9)
     assert not gamma.squared_is_root(-near, Fraction(1), Fraction(0))
 
 
@@ -353,8 +355,7 @@ def test_gamma_squared_of_m_3_is_quadratic() -> None:
     a, b = value(1)
     assert b != 0
     gamma = gamma_of(gains_of(["1"], ["1"], 3))
-    assert gamma.enclosure is not None
-    assert float(a) + float(b) * 21**0.5 == pytest.approx(float(gamma.enclosure.mid) ** 2, rel=1e-14)
+    assert float(a) + float(b) * 21**0.5 == pytest.approx(float(gamma.within(64).lower) ** 2, rel=1e-14)
     assert gamma.squared_is_root(a * a - 21 * b * b, -2 * a, Fraction(1))
     assert not gamma_of(gains_of(["1"], ["1"], 4)).squared_is_root(a * a - 21 * b * b, -2 * a, Fraction(1))
 
@@ -373,16 +374,36 @@ def test_a_rational_near_gamma_is_told_from_it(family: str) -> None:
 
 
 @settings(max_examples=60, deadline=None)
-@given(MS.filter(lambda m: m > 1), st.integers(35, 300))
-def test_gamma_within_more_digits(m: int, digits: int) -> None:
+@given(st.integers(2, 300), st.integers(40, 1200))
+def test_gamma_is_within_its_bracket(m: int, bits: int) -> None:
+    """Integers against balls of twice the precision; and a bracket decides as the trusted checker does."""
     gamma = gamma_of(gains_of(["1"], ["1"], m))
-    assert gamma.enclosure is not None
-    found = gamma.within(digits)
-    assert found.width < Fraction(2, 10**digits)
-    assert gamma.enclosure.lower <= found.upper
-    assert found.lower <= gamma.enclosure.upper
-    assert gamma.squared_less(found.upper**2 + Fraction(1, 10**digits))
-    assert not gamma.squared_less(found.lower**2)
+    found = gamma.within(bits)
+    with precision(2 * bits + 200):
+        true = Enclosure.from_arb(gamma_value(m, peak_of_h(m)))
+    assert found.lower <= true.lower <= true.upper <= found.upper
+    assert found.width <= Fraction(20, 2**bits)
+    for s in (found.lower**2, found.upper**2):
+        assert gamma.squared_less(s) == gamma_less_than(m, s) == (s > true.upper**2)
+
+
+@pytest.mark.parametrize("m", [2, 3, 1000, 100_000])
+def test_gamma_of_large_members_too(m: int) -> None:
+    low, high = gamma_between(m, 300)
+    assert 0 < high - low < 20
+    assert hyperbolic_constants(m, 120).gamma.less(Fraction(high + 1, 2**300))
+    assert not hyperbolic_constants(m, 120).gamma.less(Fraction(low - 1, 2**300))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.integers(-(10**30), 10**30), st.integers(0, 10**12), st.integers(1, 10**25), st.integers(1, 40))
+def test_digits_of_a_bracket_are_those_of_the_enclosure(low: int, more: int, den: int, digits: int) -> None:
+    bracket, enclosure = (
+        Bracket(low, low + more, den),
+        Enclosure(Fraction(low, den), Fraction(low + more, den)),
+    )
+    assert bracket.decimals(digits) == enclosure.decimals(digits)
+    assert bracket.correct_digits(digits) == enclosure.correct_digits(digits)
 
 
 # --- what cannot be decided ------------------------------------------------------------------------
@@ -420,7 +441,7 @@ def test_the_printed_bounds_are_those_of_the_paper() -> None:
     for m, printed in PRINTED.items():
         true = gamma_of(gains_of(["1"], ["1"], m))
         assert true.squared_less(printed**2) is False
-        assert gamma_of(gains_of(["1"], ["1"], m), "printed").enclosure == Enclosure.exact(printed)
+        assert gamma_of(gains_of(["1"], ["1"], m), "printed").exactly == printed
 
 
 @pytest.mark.parametrize(("m", "family"), [(4, "hyperbolic"), (None, "arctan")])

@@ -258,8 +258,11 @@ def annotations(results: Sequence[GateResult]) -> list[tuple[str, dict[str, str]
 
 
 def test_github_annotates_the_gain(paper: list[GateResult]) -> None:
-    *errors, notice = annotations(paper)
+    *found, notice = annotations(paper)
+    errors, remarks = found[:6], found[6:]
     assert [kind for kind, _, _ in errors] == ["error"] * 6
+    assert [(kind, place["line"]) for kind, place, _ in remarks] == [("notice", "13"), ("notice", "19")]
+    assert all("stable" in message for _, _, message in remarks)
     lines = paper_gain_file("table2").read_text().splitlines()
     for _, place, message in errors:
         assert place["file"] == str(paper_gain_file("table2"))
@@ -308,7 +311,8 @@ def test_markdown_is_a_table_of_seven_columns(paper: list[GateResult]) -> None:
     assert page.parts["th"][1:7] == ["condition", "joint", "value", "limit", "margin", "largest admissible"]
     assert "(19) k_v < λmin(B)/(√n γ)" in page.parts["td"]
     assert [row.split(": ")[-1] for row in page.parts["h3"]] == ["accepted", "rejected", "rejected"]
-    assert len(page.parts["li"]) == 6
+    assert len(page.parts["li"]) == 6 + 2
+    assert sum("stable" in item for item in page.parts["li"]) == 2
 
 
 # --- names -------------------------------------------------------------------------------------------
@@ -344,7 +348,7 @@ def test_names_survive_junit(paper: list[GateResult], name: str) -> None:
 @example("::error file=x,line=1::owned")
 @example("%0A\n%250A\r")
 def test_names_survive_github(paper: list[GateResult], name: str) -> None:
-    *errors, _ = annotations(renamed(paper, name, name, path=name))
+    *errors, _, _, _ = annotations(renamed(paper, name, name, path=name))
     assert [kind for kind, _, _ in errors] == ["error"] * 6
     for _, place, _ in errors:
         assert place.keys() == {"file", "line", "col", "title"}

@@ -2,40 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from lyapcheck.errors import InputError, Problem
-from lyapcheck.verdicts import Exit
-
-
-class GateFormat(StrEnum):
-    """How the results are written."""
-
-    TEXT = "text"
-    JSON = "json"
-    JUNIT = "junit"
-    SARIF = "sarif"
-    GITHUB = "github"
-    MARKDOWN = "markdown"
-
-
-class Condition(StrEnum):
-    """The conditions that can decide."""
-
-    NORM = "10"
-    JOINT = "10p"
-    DAMPING = "19"
-
-
-class Gamma(StrEnum):
-    """Which γ the conditions use."""
-
-    TRUE = "true"
-    PRINTED = "printed"
+from lyapcheck.cli.gate_options import Condition, Gamma, GateCall, GateFormat
 
 
 def command(
@@ -43,31 +14,24 @@ def command(
     format: Annotated[GateFormat, typer.Option(help="How to write it.")] = GateFormat.TEXT,  # noqa: A002
     condition: Annotated[
         list[Condition] | None,
-        typer.Option(help="A condition that must hold; may be repeated. Default: 10p and 19."),
+        typer.Option(
+            help="A condition that must hold; may be repeated. scalar and global: dV/dt < 0 proved for the "
+            "arm. Default: 10p and 19."
+        ),
     ] = None,
     robot: Annotated[str | None, typer.Option(help="An arm that replaces the one the files name.")] = None,
     gamma: Annotated[Gamma, typer.Option(help="The certified γ, or the one the paper prints.")] = Gamma.TRUE,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="What is undecided counts as a failure, exit code 1.")
+    ] = False,
 ) -> None:
     """Accept or reject gains by the paper's conditions, decided exactly.
 
     For each gain set and joint: value, limit, margin and the largest value that would pass. Exit code 0: all
     accepted, 1: something rejected, 2: a file cannot be used, 3: undecided.
     """
-    from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.control.gate import DECIDING, GateResult, gate, gate_exit
-    from lyapcheck.control.gate_formats import renderer
+    from lyapcheck.cli.gate_run import run
 
-    deciding = tuple(item.value for item in condition) if condition else DECIDING
-    results: list[GateResult] = []
-    problems: list[Problem] = []
-    for file in files:
-        try:
-            results += gate(read_gain_file(file), robot, deciding, gamma.value)
-        except InputError as error:
-            problems += error.problems
-    if results:
-        sys.stdout.write(renderer(format.value)(results))
-    if problems:
-        sys.stdout.flush()
-        raise InputError(problems)
-    raise typer.Exit(int(gate_exit(results) if results else Exit.USAGE))
+    conditions = tuple(item.value for item in condition or ())
+    call = GateCall(tuple(files), format.value, conditions, robot, gamma.value, strict)
+    raise typer.Exit(int(run(call)))

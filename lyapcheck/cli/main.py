@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import sys
-from importlib import import_module
-from typing import Annotated
-
-import typer
 
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import typer
 
 COMMANDS = (
     "bounds",
@@ -29,52 +30,35 @@ COMMANDS = (
 
 CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        from importlib.metadata import version
-
-        print(f"lyapcheck {version('lyapcheck')}")
-        raise typer.Exit(int(Exit.PROVED))
-
-
-def _top(
-    version: Annotated[
-        bool, typer.Option("--version", help="Print the version and leave.", callback=_version, is_eager=True)
-    ] = False,
-) -> None:
-    """Check the Lyapunov proof of bounded hyperbolic controllers for robot manipulators.
-
-    Exit codes: 0 all proved or accepted, 1 something refuted or rejected, 2 unusable input, 3 undecided,
-    4 internal error.
-    """
+INTERRUPTED = 130
+"""128 + SIGINT."""
 
 
 def build_app(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
     """The Typer application with the named commands."""
-    app = typer.Typer(
-        name="lyapcheck",
-        callback=_top,
-        no_args_is_help=True,
-        add_completion=False,
-        pretty_exceptions_enable=False,
-    )
-    for name in names:
-        app.command(name)(import_module(f"lyapcheck.cli.{name}").command)
-    return app
+    from lyapcheck.cli.app import build
+
+    return build(names)
 
 
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
     _same_bytes_everywhere()
     wanted = sys.argv[1] if len(sys.argv) > 1 else ""
-    app = build_app((wanted,) if wanted in COMMANDS else COMMANDS)
     try:
-        app()
+        if wanted == "gate":
+            _quick_gate(sys.argv[2:])
+        build_app((wanted,) if wanted in COMMANDS else COMMANDS)()
     except SystemExit as leave:
         # what Typer makes of a reader that went away is 1, which here would mean refuted
         sys.exit(CLOSED_PIPE if isinstance(leave.__context__, BrokenPipeError) else leave.code)
+    except BrokenPipeError:
+        os.dup2(
+            os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno()
+        )  # what is left goes nowhere, in silence
+        sys.exit(CLOSED_PIPE)
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
     except InputError as error:
         for problem in error.problems:
             print(f"error: {_one_line(str(problem))}", file=sys.stderr)
@@ -88,6 +72,23 @@ def main() -> None:
             file=sys.stderr,
         )
         sys.exit(Exit.INTERNAL)
+
+
+def _quick_gate(words: list[str]) -> None:
+    """Run the gate and leave, without Typer, if the words are plain: in a hook the start is what counts."""
+    from lyapcheck.cli.gate_options import quick_call
+
+    call = quick_call(words)
+    if call is not None:
+        from lyapcheck.cli.gate_run import run
+
+        gc.disable()  # results hold no cycles, and looking for some among thousands takes its time
+        try:
+            code = run(call)
+        finally:
+            gc.enable()
+        sys.stdout.flush()
+        sys.exit(int(code))
 
 
 def _same_bytes_everywhere() -> None:

@@ -2,104 +2,92 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from flint import fmpq, fmpq_poly
-
-from lyapcheck.check.balls import precision
-from lyapcheck.check.constants import gamma_less_than, gamma_value, hyperbolic_constants
-from lyapcheck.check.critical import peak_of_h
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.bracket import Bracket
+from lyapcheck.control.peak import gamma_between
 from lyapcheck.errors import argument_error
+from lyapcheck.records import Record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from lyapcheck.check.enclosure import Enclosure
+    from lyapcheck.control.gains import GainSet
 
 PRINTED = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
 """γ_1, γ_2, γ_3 as the paper prints them (Table 2): the last two are below the true ones."""
 
-DIGITS = 30
+FIRST_BITS = 160
 
 
-@dataclass(frozen=True)
-class GammaBound:
-    """γ of one gain set: an enclosure to show, and exact decisions about γ² to decide with.
+class GammaBound(Record):
+    """γ of one gain set: brackets of any width, and whether γ² is a given algebraic number.
 
     Args:
-        enclosure: γ to 30 digits; ``None`` for an unbounded function, whose γ is below nothing.
-        m: the member, where γ is the true γ_m of the hyperbolic family.
+        exactly: γ where it is a rational number.
+        m: the member, where γ is γ_m of the hyperbolic family, m ≥ 2.
         family: the family, where γ is a transcendental number that the family encloses to any precision.
+
+    With none of these the function is unbounded, and γ is infinite.
     """
 
-    enclosure: Enclosure | None
+    exactly: Fraction | None = None
     m: int | None = None
     family: str = ""
 
-    def within(self, digits: int) -> Enclosure:
-        """γ of a bounded function to so many digits."""
-        if self.enclosure is None:
-            raise ValueError("an unbounded function has no γ")
-        if digits <= DIGITS or self.enclosure.width == 0:
-            return self.enclosure
-        if self.m is None:
-            return _of_family(self.family, digits)
-        return _of_member(self.m, digits)
+    @property
+    def finite(self) -> bool:
+        """Whether the function is bounded."""
+        return self.exactly is not None or self.m is not None or bool(self.family)
 
-    def squared_less(self, s: Fraction) -> bool:
-        """Decide γ² < s.
-
-        Soundness: γ_m by ``gamma_less_than``, which never leaves it open; a γ that is known exactly by
-        rationals; π/2 by ever tighter enclosures, which end because no rational equals its square.
-        """
-        if self.enclosure is None:
-            return False
+    def within(self, bits: int) -> Bracket:
+        """γ of a bounded function in a bracket of about 2^-bits."""
+        if self.exactly is not None:
+            return Bracket.exact(self.exactly)
         if self.m is not None:
-            return gamma_less_than(self.m, s)
-        digits, known = DIGITS, self.enclosure
-        while known.width and known.lower**2 < s < known.upper**2:
-            digits *= 2
-            known = self.within(digits)
-        return known.upper**2 < s or (known.width > 0 and known.upper**2 == s)
+            return Bracket(*gamma_between(self.m, bits), 1 << bits)
+        if not self.family:
+            raise ValueError("an unbounded function has no γ")
+        found = _of_family(self.family, bits * 3 // 10)
+        den = found.lower.denominator * found.upper.denominator
+        return Bracket(int(found.lower * den), int(found.upper * den), den)
 
     def squared_is_root(self, c0: Fraction, c1: Fraction, c2: Fraction) -> bool:
         """Whether c0 + c1 γ² + c2 γ⁴ = 0, exactly; the coefficients are not all 0.
 
-        Soundness: γ_m² = A²/W with A = 2m(1 + u) − 1 and W = 4m² u(1 + u), where u is the only positive root
-        of P = u^m − 2m u − (2m − 1) (Descartes). So γ_m² is a root exactly when u is a common root of P and
-        c0 W² + c1 A² W + c2 A⁴, that is when their greatest common divisor has a positive root. It divides P,
-        so it has at most one, a simple one, and then its sign at 0 differs from that at infinity. A
-        transcendental γ is a root of nothing.
+        Soundness: a rational γ is put in; γ_m as in ``ties``; a transcendental γ is a root of nothing.
         """
-        if self.enclosure is None:
-            return False
-        if self.enclosure.width == 0:
-            x = self.enclosure.lower**2
+        if self.exactly is not None:
+            x = self.exactly**2
             return c0 + c1 * x + c2 * x * x == 0
         if self.m is None:
             return False
-        a, w = fmpq_poly([2 * self.m - 1, 2 * self.m]) ** 2, 4 * self.m**2 * fmpq_poly([0, 1, 1])
-        k0, k1, k2 = (fmpq(c.numerator, c.denominator) for c in (c0, c1, c2))
-        common = _peak_equation(self.m).gcd(k0 * w * w + k1 * a * w + k2 * a * a)
-        return bool(common.degree() >= 1 and common[0] * common[common.degree()] < 0)
+        from lyapcheck.control.ties import gamma_squared_is_root
 
+        return gamma_squared_is_root(self.m, c0, c1, c2)
 
-def _peak_equation(m: int) -> fmpq_poly:
-    """u^m − 2m u − (2m − 1), for m >= 2."""
-    return fmpq_poly([0] * m + [1]) - fmpq_poly([2 * m - 1, 2 * m])
-
-
-@lru_cache(maxsize=1024)
-def _of_member(m: int, digits: int) -> Enclosure:
-    """γ_m, for m >= 2."""
-    with precision(4 * digits + 64):
-        return Enclosure.from_arb(gamma_value(m, peak_of_h(m)))
+    def squared_less(self, s: Fraction) -> bool:
+        """Decide γ² < s."""
+        if not self.finite or s <= 0:
+            return False
+        bits = FIRST_BITS
+        while True:
+            near = self.within(bits)
+            if near.high**2 * s.denominator < s.numerator * near.den**2:
+                return True
+            if near.low**2 * s.denominator > s.numerator * near.den**2:
+                return False
+            if self.squared_is_root(-s, Fraction(1), Fraction(0)):
+                return False
+            bits *= 2
 
 
 @lru_cache(maxsize=64)
 def _of_family(family: str, digits: int) -> Enclosure:
     from lyapcheck.family import named
 
-    gamma = named(family).constants(digits).gamma
+    gamma = named(family).constants(digits + 2).gamma
     assert gamma is not None
     return gamma
 
@@ -115,9 +103,10 @@ def gamma_of(gain_set: GainSet, source: str = "true") -> GammaBound:
             raise argument_error(
                 "--gamma", source, f"the paper prints no γ for {gain_set.name}", "use the true γ"
             )
-        return GammaBound(Enclosure.exact(PRINTED[gain_set.m]))
-    if gain_set.family == "hyperbolic" and gain_set.m is not None:
-        return GammaBound(hyperbolic_constants(gain_set.m, DIGITS).gamma, gain_set.m)
+        return GammaBound(PRINTED[gain_set.m])
+    if gain_set.family == "hyperbolic":
+        return GammaBound(Fraction(1)) if gain_set.m == 1 else GammaBound(m=gain_set.m)
     if gain_set.family == "linear":
-        return GammaBound(None)
-    return GammaBound(_of_family(gain_set.family, DIGITS), family=gain_set.family)
+        return GammaBound()
+    known = _of_family(gain_set.family, FIRST_BITS // 3)
+    return GammaBound(known.lower) if known.width == 0 else GammaBound(family=gain_set.family)

@@ -2,28 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 from lyapcheck.control.bound import gamma_of
-from lyapcheck.control.conditions import ACCEPTED, CHECKS, CONDITIONS, REJECTED, UNDECIDED, Check
+from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED, UNDECIDED, Check, Conditions
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.errors import argument_error
+from lyapcheck.records import Record
 from lyapcheck.verdicts import Exit
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 DECIDING = ("10p", "19")
 """What the paper's tuning rules ask for; (10) is shown beside them and decides only when asked to."""
+CERTIFICATES = ("scalar", "global")
+"""Proofs that dV/dt < 0 for the arm; they are looked for only when asked to decide."""
 
 
-@dataclass(frozen=True)
-class GateResult:
-    """What the gate found about one gain set; ``verdict`` follows from the deciding checks alone."""
+class GateResult(Record):
+    """What the gate found about one gain set; ``verdict`` follows from the deciding checks alone.
+
+    Args:
+        file: that the set is from.
+        gains: the set.
+        limits: of the arm.
+        checks: of (10), (10p) and (19), and of the certificates that decide.
+        deciding: the conditions that must hold.
+        strict: whether what is undecided counts as a failure.
+    """
 
     file: GainFile
     gains: GainSet
     limits: Limits
     checks: tuple[Check, ...]
     deciding: tuple[str, ...] = DECIDING
+    strict: bool = False
 
     @property
     def name(self) -> str:
@@ -38,16 +52,24 @@ class GateResult:
     @property
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
-        found = {check.verdict for check in self.checks if check.id in self.deciding}
+        return self.verdict_of(self.deciding)
+
+    def verdict_of(self, conditions: Sequence[str]) -> str:
+        """The verdict that some of the conditions give together."""
+        found = {check.verdict for check in self.checks if check.id in conditions}
         if REJECTED in found:
             return REJECTED
         return UNDECIDED if UNDECIDED in found or not found else ACCEPTED
+
+    def failed(self, check: Check) -> bool:
+        """Whether a check counts as a failure, and not as a warning."""
+        return check.verdict == REJECTED or (self.strict and check.verdict == UNDECIDED)
 
     @property
     def failures(self) -> tuple[Check, ...]:
         """The deciding checks that were not accepted."""
         return tuple(
-            check for check in self.checks if check.id in self.deciding and check.verdict != ACCEPTED
+            [check for check in self.checks if check.verdict != ACCEPTED and check.id in self.deciding]
         )
 
 
@@ -56,37 +78,70 @@ def gate(
     robot: str | None = None,
     deciding: Sequence[str] = DECIDING,
     gamma: str = "true",
+    strict: bool = False,
 ) -> list[GateResult]:
-    """Decide (10), (10p) and (19) for every gain set of a file.
+    """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
     Args:
         gain_file: what ``read_gain_file`` returned.
         robot: an arm that replaces the one the file names.
-        deciding: which of the conditions must hold.
+        deciding: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
+        strict: whether what is undecided counts as a failure.
 
     Raises:
-        InputError: no arm to judge the gains by, or no printed γ for an m.
+        InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
 
-    Soundness: exact, see ``lyapcheck.control.conditions``.
+    Soundness: (10), (10p) and (19) exact, see ``lyapcheck.control.conditions``; a certificate is accepted
+        only with an ε₀ that has been proved, see ``lyapcheck.control.certificates``, and never rejected.
 
     References: (10), (19) and Section 4 of reyes2019family.
+
+    Example:
+        >>> from lyapcheck.control import paper_gain_file, read_gain_file
+        >>> [result.verdict for result in gate(read_gain_file(paper_gain_file("table2")))]
+        ['accepted', 'rejected', 'rejected']
     """
+    _require_known(deciding)
     limits = limits_for(gain_file, robot)
-    return [_result(gain_file, gains, limits, tuple(deciding), gamma) for gains in gain_file.gains]
+    conditions: dict[tuple[str, int | None], Conditions] = {}
+    proved = _certificates(gain_file, limits, deciding)
+    results = []
+    for gains, certificates in zip(gain_file.gains, proved, strict=True):
+        key = gains.family, gains.m
+        if key not in conditions:
+            conditions[key] = Conditions(limits, gamma_of(gains, gamma))
+        checks = (*conditions[key].all(gains), *certificates)
+        results.append(GateResult(gain_file, gains, limits, checks, tuple(deciding), strict))
+    return results
 
 
-def _result(
-    gain_file: GainFile, gains: GainSet, limits: Limits, deciding: tuple[str, ...], source: str
-) -> GateResult:
-    gamma = gamma_of(gains, source)
-    checks = tuple(check for name in CONDITIONS for check in CHECKS[name](gains, limits, gamma))
-    return GateResult(gain_file, gains, limits, checks, deciding)
+def _require_known(deciding: Sequence[str]) -> None:
+    known = (*CONDITIONS, *CERTIFICATES)
+    unknown = [name for name in deciding if name not in known]
+    if unknown:
+        raise argument_error(
+            "conditions", ", ".join(unknown), "names no condition", f"use some of: {', '.join(known)}"
+        )
+
+
+def _certificates(gain_file: GainFile, limits: Limits, deciding: Sequence[str]) -> list[tuple[Check, ...]]:
+    """The checks of the certificates that decide, for each gain set."""
+    wanted = [name for name in CERTIFICATES if name in deciding]
+    if not wanted:
+        return [()] * len(gain_file.gains)
+    from lyapcheck.control.certificates import Prover
+
+    prover = Prover(limits.robot, gain_file.bounds.viscous_min)
+    return [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
 
 
 def gate_exit(results: Sequence[GateResult]) -> Exit:
-    """The exit code for gate results: 1 if any is rejected, else 3 if any is undecided, else 0."""
-    found = {result.verdict for result in results}
+    """The exit code for gate results: 1 if any is rejected, else 3 if any is undecided, else 0.
+
+    Where undecided counts as a failure it leads to 1 as well.
+    """
+    found = {REJECTED if any(map(result.failed, result.failures)) else result.verdict for result in results}
     if REJECTED in found:
         return Exit.REFUTED
     return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED

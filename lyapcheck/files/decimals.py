@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from functools import lru_cache
 
 from lyapcheck.records import Record
 
@@ -62,8 +63,13 @@ def written(text: str) -> Written | NotFinite:
     exponent = re.search(r"[eE]([+-]?\d+)$", plain)
     if exponent and abs(int(exponent[1])) > LARGEST_EXPONENT:
         return NotFinite(text, RANGE)
-    value = Written(plain)
-    value.text = plain
+    return exact_decimal(plain)
+
+
+def exact_decimal(text: str) -> Written:
+    """The value of a decimal of reasonable length that is known to be one."""
+    value = Written(text)
+    value.text = text
     return value
 
 
@@ -111,6 +117,7 @@ def scaled_text(scaled: int, places: int) -> str:
     return f"{'-' if scaled < 0 else ''}{digits[:-places]}.{digits[-places:]}"
 
 
+@lru_cache(maxsize=256)
 def _terminating_places(denominator: int) -> int | None:
     twos = (denominator & -denominator).bit_length() - 1
     rest, fives = denominator >> twos, 0

@@ -8,8 +8,8 @@ from math import ceil, floor
 
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.control.bound import GammaBound
-from lyapcheck.control.conditions import below, largest_passing, scaled_limit
 from lyapcheck.control.limits import Limits
+from lyapcheck.control.thresholds import Threshold, scaled
 from lyapcheck.tune.damping import Damping
 from lyapcheck.tune.targets import Targets
 
@@ -61,26 +61,23 @@ def room_of(
     Soundness: (10p) and (19) are decided as the gate decides them, for the largest and the next decimal.
     """
     torque, friction = limits.torque[joint], limits.viscous_min
-    if torque is None or friction is None or gamma.enclosure is None:
+    if torque is None or friction is None or not gamma.finite:
         raise ValueError("a room needs a torque limit, a friction and a bounded function")
-    budget = torque - limits.gravity[joint]
-    kept = _most(targets.share_of_kv(joint) * friction, limits.n, gamma, targets)
+    torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
+    dampings = scaled(friction, limits.n, gamma)
+    kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)
     least = ceil(targets.kv_min[joint] / targets.unit) if targets.kv_min else 0
     return Room(
         unit=targets.unit,
-        sum_limit=scaled_limit(budget, limits.n, gamma.enclosure),
-        kv_limit=scaled_limit(friction, limits.n, gamma.enclosure),
-        most_sum=_most(budget, limits.n, gamma, targets),
-        most_kv=_most(friction, limits.n, gamma, targets),
+        sum_limit=_enclosed(torques),
+        kv_limit=_enclosed(dampings),
+        most_sum=torques.most_units(targets.digits),
+        most_kv=dampings.most_units(targets.digits),
         least_kv=max(kept, least, 1),
         damping=damping,
     )
 
 
-def _most(budget: Fraction, n: int, gamma: GammaBound, targets: Targets) -> int:
-    """The largest number of units below budget/(√n γ); 0 where there is none."""
-    if budget <= 0 or gamma.enclosure is None:
-        return 0
-    limit = scaled_limit(budget, n, gamma.enclosure)
-    found = largest_passing(lambda k: below(k, budget, n, gamma), limit, targets.digits)
-    return 0 if found is None else int(found / targets.unit)
+def _enclosed(threshold: Threshold) -> Enclosure:
+    near = threshold.near()
+    return Enclosure(near.lower, near.upper)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from importlib import import_module
 
-from lyapcheck.control.gate import GateResult
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from lyapcheck.control.gate import GateResult
 
 FORMATS = ("text", "json", "markdown", "junit", "sarif", "github")
 

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from lyapcheck.control.conditions import Check
-from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import KEYS, advice
+from lyapcheck.control.stability import remarks
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gate import GateResult
 
 
 def render(results: Sequence[GateResult]) -> str:
-    """``::error …`` for each rejected check, ``::warning …`` for each undecided one, a notice if all pass."""
+    """``::error …`` for each failed check, ``::warning …`` for an undecided one, notices for the rest.
+
+    The rest: what the conditions say about each other, and how many sets passed.
+    """
     lines = [_annotation(result, check) for result in results for check in result.failures]
+    lines += [_notice(result, remark) for result in results for remark in remarks(result)]
     passed = sum(result.verdict == "accepted" for result in results)
     return (
         "\n".join([*lines, f"::notice title=lyapcheck gate::{passed} of {len(results)} gain sets accepted"])
@@ -20,11 +28,18 @@ def render(results: Sequence[GateResult]) -> str:
 
 
 def _annotation(result: GateResult, check: Check) -> str:
-    level = "error" if check.verdict == "rejected" else "warning"
+    level = "error" if result.failed(check) else "warning"
     place = result.file.place(result.gains, KEYS[check.id], check.joint)
     where = "" if place is None else f",line={place.line},col={place.column}"
     file, title = _property(result.file.path), _property(f"{result.name}: {check.verdict}")
     return f"::{level} file={file}{where},title={title}::{_message(advice(result, check))}"
+
+
+def _notice(result: GateResult, remark: str) -> str:
+    place = result.file.place(result.gains)
+    where = "" if place is None else f",line={place.line},col={place.column}"
+    file, title = _property(result.file.path), _property(result.name)
+    return f"::notice file={file}{where},title={title}::{_message(remark)}"
 
 
 def _message(text: str) -> str:

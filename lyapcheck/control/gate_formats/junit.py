@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from re import compile as pattern
 from xml.etree import ElementTree as ET
 
-from lyapcheck.control.conditions import Check
-from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import advice, joint_name
-from lyapcheck.files import printable
+from lyapcheck.control.stability import remarks
+from lyapcheck.files.printable import printable
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gate import GateResult
 
 _NOT_XML = pattern(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that no XML 1.0 document may hold, not even as a reference."""
 
 
 def render(results: Sequence[GateResult]) -> str:
-    """Rejected checks fail, undecided ones are skipped; checks that do not decide are left out."""
+    """Rejected checks fail; undecided ones are skipped, or fail where the gate is strict.
+
+    Checks that do not decide are left out.
+    """
     top = ET.Element("testsuites", name="lyapcheck gate")
     for result in results:
         _suite(top, result)
@@ -26,20 +34,22 @@ def render(results: Sequence[GateResult]) -> str:
 
 def _suite(top: ET.Element, result: GateResult) -> None:
     checks = [check for check in result.checks if check.id in result.deciding]
-    counts = {
-        verdict: sum(check.verdict == verdict for check in checks) for verdict in ("rejected", "undecided")
-    }
+    failed = sum(result.failed(check) for check in checks)
+    skipped = sum(check.verdict == "undecided" for check in checks) if not result.strict else 0
     suite = ET.SubElement(
         top,
         "testsuite",
         name=_text(result.name),
         tests=str(len(checks)),
-        failures=str(counts["rejected"]),
-        skipped=str(counts["undecided"]),
+        failures=str(failed),
+        skipped=str(skipped),
         errors="0",
     )
     for check in checks:
         _case(suite, result, check)
+    said = remarks(result)
+    if said:
+        ET.SubElement(suite, "system-out").text = _text("\n".join(said))
 
 
 def _case(suite: ET.Element, result: GateResult, check: Check) -> None:
@@ -49,8 +59,8 @@ def _case(suite: ET.Element, result: GateResult, check: Check) -> None:
         classname=_text(f"{result.file.path}.{result.name}"),
         name=_text(f"({check.id}) {joint_name(result, check)}"),
     )
-    if check.verdict == "rejected":
-        ET.SubElement(case, "failure", message=_text(advice(result, check)), type="rejected")
+    if result.failed(check):
+        ET.SubElement(case, "failure", message=_text(advice(result, check)), type=check.verdict)
     elif check.verdict == "undecided":
         ET.SubElement(case, "skipped", message=_text(advice(result, check)))
 

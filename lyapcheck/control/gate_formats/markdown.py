@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
-from lyapcheck.control.conditions import Check
-from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import (
     RULES,
     SYMBOLS,
+    about,
     advice,
     joint_name,
     largest_text,
     limit_text,
     margin_text,
+    value_text,
 )
-from lyapcheck.files import decimal_text, printable
+from lyapcheck.control.stability import remarks
+from lyapcheck.files.printable import printable
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gate import GateResult
 
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
 _MEANT = re.compile(r"[\\`*\[\]|~#!:@&<>]|(?<![^\W_])_|_(?![^\W_])")
@@ -29,15 +36,15 @@ def render(results: Sequence[GateResult]) -> str:
 
 
 def _section(result: GateResult) -> str:
-    about = f"m = {result.m}" if result.m is not None else result.gains.family
     lines = [
-        f"### {SYMBOLS[result.verdict]} {_escaped(result.name)} ({about}): {result.verdict}",
+        f"### {SYMBOLS[result.verdict]} {_escaped(result.name)} ({about(result)}): {result.verdict}",
         "",
         "| | condition | joint | value | limit | margin | largest admissible |",
         "|---|---|---|---:|---:|---:|---:|",
         *(_row(result, check) for check in result.checks),
         "",
         *(f"- {_escaped(advice(result, check))}" for check in result.failures),
+        *(f"- {_escaped(remark)}" for remark in remarks(result)),
     ]
     return "\n".join(lines) + "\n"
 
@@ -48,7 +55,7 @@ def _row(result: GateResult, check: Check) -> str:
         SYMBOLS[check.verdict],
         f"({check.id}) {_escaped(RULES[check.id])}{note}",
         _escaped(joint_name(result, check)),
-        decimal_text(check.value),
+        value_text(check),
         limit_text(check),
         margin_text(check),
         largest_text(check),

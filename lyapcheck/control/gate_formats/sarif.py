@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
 from importlib.metadata import version
-from typing import Any
 from urllib.parse import quote
 
-from lyapcheck.control.conditions import Check
-from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import KEYS, RULES, advice, joint_name
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
+
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gate import GateResult
 
 
 def render(results: Sequence[GateResult]) -> str:
@@ -38,7 +42,7 @@ def _result(result: GateResult, check: Check) -> dict[str, Any]:
     return {
         "ruleId": f"condition-{check.id}",
         "ruleIndex": list(RULES).index(check.id),
-        "level": "error" if check.verdict == "rejected" else "warning",
+        "level": "error" if result.failed(check) else "warning",
         "message": {"text": f"{result.name}: {advice(result, check)}"},
         "locations": [{"physicalLocation": location}],
         "partialFingerprints": {"gain/v1": _fingerprint(result, check)},

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from lyapcheck.control.conditions import Check
-from lyapcheck.control.gate import GateResult
 from lyapcheck.control.gate_formats.words import (
     RULES,
     SYMBOLS,
+    about,
     advice,
     joint_name,
     largest_text,
     limit_text,
     margin_text,
+    value_text,
 )
-from lyapcheck.files import decimal_text, printable
+from lyapcheck.control.stability import remarks
+from lyapcheck.files.printable import printable
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gate import GateResult
 
 _HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
 
@@ -27,32 +33,22 @@ def render(results: Sequence[GateResult]) -> str:
 
 
 def _block(result: GateResult) -> str:
-    title = f"{SYMBOLS[result.verdict]} {printable(result.name)}: {result.verdict}"
-    about = f"m = {result.m}" if result.m is not None else result.gains.family
-    rows = [_HEADS, *(_row(result, check) for check in result.checks)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADS))]
-    lines = [
-        "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
+    verdict, path = result.verdict, printable(result.file.path)
+    title = f"{SYMBOLS[verdict]} {printable(result.name)}: {verdict}  ({about(result)}, {path})"
+    rows = [_HEADS, *[_row(result, check) for check in result.checks]]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  " + "   ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
     failures = [f"  → {printable(advice(result, check))}" for check in result.failures]
-    return "\n".join(
-        [
-            f"{title}  ({about}, {printable(result.file.path)})",
-            *(f"  {line}" for line in lines),
-            *failures,
-            "",
-        ]
-    )
+    noted = [f"  ! {printable(remark)}" for remark in remarks(result)]
+    return "\n".join([title, *lines, *failures, *noted, ""])
 
 
 def _row(result: GateResult, check: Check) -> tuple[str, ...]:
-    shown = check.id if check.id in result.deciding else f"{check.id} *"
     return (
         SYMBOLS[check.verdict],
-        shown,
+        check.id if check.id in result.deciding else f"{check.id} *",
         printable(joint_name(result, check)),
-        decimal_text(check.value),
+        value_text(check),
         limit_text(check),
         margin_text(check),
         largest_text(check),
@@ -60,14 +56,16 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
 
 
 def _legend(results: Sequence[GateResult]) -> list[str]:
-    shown = dict.fromkeys(check.id for result in results for check in result.checks)
-    lines = [f"({name})".ljust(6) + RULES[name] for name in shown]
-    if any(check.id not in result.deciding for result in results for check in result.checks):
+    shown = dict.fromkeys([check.id for result in results for check in result.checks])
+    lines = [f"({name})".ljust(6) + ("  " if len(name) > 3 else "") + RULES[name] for name in shown]
+    deciding = {name for result in results for name in result.deciding}
+    if any(name not in deciding for name in shown):
         lines.append("*     shown, but does not decide; --condition chooses what does")
-    assumptions = dict.fromkeys(text for result in results for text in result.limits.assumptions)
-    return [*lines, *(f"assumed: {printable(text)}" for text in assumptions), ""]
+    assumptions = dict.fromkeys([text for result in results for text in result.limits.assumptions])
+    return [*lines, *[f"assumed: {printable(text)}" for text in assumptions], ""]
 
 
 def _summary(results: Sequence[GateResult]) -> str:
-    counts = {verdict: sum(result.verdict == verdict for result in results) for verdict in SYMBOLS}
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+    verdicts = [result.verdict for result in results]
+    counts = {verdict: verdicts.count(verdict) for verdict in SYMBOLS}
+    return ", ".join([f"{count} {verdict}" for verdict, count in counts.items() if count])

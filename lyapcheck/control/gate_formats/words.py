@@ -5,8 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lyapcheck.control.conditions import ACCEPTED, Check
-from lyapcheck.control.gate import GateResult
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text, scaled_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from lyapcheck.control.gate import GateResult
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
@@ -14,10 +17,12 @@ RULES = {
     "10": "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ)",
     "10p": "k_p + k_v < (τmax − k_g)/(√n γ)",
     "19": "k_v < λmin(B)/(√n γ)",
+    "scalar": "Θ' ≻ 0 with some ε₀ > 0, so that dV/dt < 0; the value is the ε₀ proved",
+    "global": "dV/dt < 0 with some ε₀ > 0 at every state, box by box; the value is the ε₀ proved",
 }
-UNITS = {"10": "N·m", "10p": "N·m", "19": "N·m"}
-KEYS = {"10": "kp", "10p": "kp", "19": "kv"}
+KEYS = {"10": "kp", "10p": "kp", "19": "kv", "scalar": "", "global": ""}
 """The gain to look at when a check fails."""
+_SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "19": "k_v"}
 
 
 def joint_name(result: GateResult, check: Check) -> str:
@@ -25,30 +30,52 @@ def joint_name(result: GateResult, check: Check) -> str:
     return "all" if check.joint is None else result.limits.joints[check.joint]
 
 
+def about(result: GateResult) -> str:
+    """The function h of a gain set."""
+    return f"m = {result.m}" if result.m is not None else result.gains.family
+
+
+def value_text(check: Check) -> str:
+    """What was compared, exactly; ``none`` where a certificate proved no ε₀."""
+    return "none" if check.value is None else decimal_text(check.value)
+
+
 def limit_text(check: Check, digits: int = 6) -> str:
     """The limit to a few digits, all correct; ``none`` where there is no limit."""
+    if check.id not in _SUBJECTS:
+        return "ε₀ > 0"
     return "none" if check.limit is None else check.limit.correct_digits(digits)
 
 
 def largest_text(check: Check) -> str:
     """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
     largest = check.largest_admissible
-    return "none" if largest is None else decimal_text(largest, check.places)
+    if check.id not in _SUBJECTS:
+        return ""
+    return "none" if largest is None else largest.text
 
 
 def margin_text(check: Check, digits: int = 4) -> str:
     """limit − value to a few digits, never larger than it is."""
-    return "" if check.margin is None else significant_down(check.margin, digits)
+    limit, value = check.limit, check.value
+    if limit is None or value is None:
+        return ""
+    margin = limit.low * value.denominator - value.numerator * limit.den
+    return _down(margin, limit.den * value.denominator, digits)
 
 
 def significant_down(value: Fraction, digits: int) -> str:
     """A decimal of a few significant digits that is not above ``value``."""
-    places = digits
-    while places < 40 and abs(value) * 10**places < 10 ** (digits - 1):
+    return _down(value.numerator, value.denominator, digits)
+
+
+def _down(numerator: int, denominator: int, digits: int) -> str:
+    size, places = abs(numerator), digits
+    while places < 40 and size * 10**places < denominator * 10 ** (digits - 1):
         places += 1
-    while places > 0 and abs(value) * 10**places >= 10**digits:
+    while places > 0 and size * 10**places >= denominator * 10**digits:
         places -= 1
-    return decimal_text(Fraction((value * 10**places).__floor__(), 10**places), places)
+    return scaled_text(numerator * 10**places // denominator, places)
 
 
 def advice(result: GateResult, check: Check) -> str:
@@ -59,13 +86,10 @@ def advice(result: GateResult, check: Check) -> str:
     if check.limit is None or check.verdict == "undecided":
         return f"({check.id}) {joint}: {check.reason}"
     broken = (
-        f"{_subject(check.id)} = {decimal_text(check.value)} breaks {RULES[check.id]} = {limit_text(check)}"
+        f"{_SUBJECTS[check.id]} = {value_text(check)} breaks {RULES[check.id]} = {limit_text(check)}, "
+        f"margin {margin_text(check)}"
     )
     return f"({check.id}) {joint}: {broken}; {_repair(result, check)}"
-
-
-def _subject(condition: str) -> str:
-    return {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "19": "k_v"}[condition]
 
 
 def _repair(result: GateResult, check: Check) -> str:

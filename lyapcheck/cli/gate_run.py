@@ -1,0 +1,67 @@
+"""Running the gate: read, decide, write."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.gate import DECIDING, GateResult, gate, gate_exit
+from lyapcheck.control.gate_formats import renderer
+from lyapcheck.errors import InputError, Problem
+from lyapcheck.verdicts import Exit
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from lyapcheck.cli.gate_options import GateCall
+
+SUMMARY = "GITHUB_STEP_SUMMARY"
+"""The variable by which GitHub names the file that it shows under a job."""
+LARGEST_SUMMARY = 1_000_000
+"""Bytes; GitHub refuses more than a mebibyte."""
+
+
+def run(call: GateCall) -> Exit:
+    """Judge the files of a call and write the results to standard output.
+
+    Returns:
+        the exit code.
+
+    Raises:
+        InputError: a file cannot be used; the results of the others have been written.
+    """
+    results: list[GateResult] = []
+    problems: list[Problem] = []
+    for file in call.files:
+        try:
+            gain_file = read_gain_file(file)
+            results += gate(gain_file, call.robot, call.conditions or DECIDING, call.gamma, call.strict)
+        except InputError as error:
+            problems += error.problems
+    if results:
+        sys.stdout.write(renderer(call.format)(results))
+        if call.format == "github" and os.environ.get(SUMMARY):
+            _append_summary(os.environ[SUMMARY], results)
+    if problems:
+        sys.stdout.flush()
+        raise InputError(problems)
+    return gate_exit(results)
+
+
+def _append_summary(path: str, results: list[GateResult]) -> None:
+    """Add the results in Markdown to the summary of the job; of too many only those that did not pass."""
+    render = renderer("markdown")
+    text = render(results)
+    if len(text.encode()) > LARGEST_SUMMARY:
+        kept = [result for result in results if result.failures]
+        share = LARGEST_SUMMARY * len(results) // len(text.encode())
+        passed, shown = len(results) - len(kept), kept[: max(1, share)]
+        head = f"{passed} of {len(results)} gain sets accepted, {len(shown)} of the others:"
+        text = f"{head}\n\n{render(shown)}"
+    try:
+        with open(path, "a", encoding="utf-8") as stream:
+            stream.write(text)
+    except OSError as error:
+        raise InputError(
+            Problem("environment", None, SUMMARY, path, f"cannot be written ({error.strerror})", "unset it")
+        ) from error

@@ -1,0 +1,60 @@
+"""The limits of an arm from its model."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq_mpoly
+
+from lyapcheck.control.known_arms import ArmLimits
+from lyapcheck.robots import Number, RobotModel
+
+
+def model_limits(model: RobotModel) -> ArmLimits:
+    """The limits for all values of what is uncertain about the arm, with what they assume."""
+    return ArmLimits(
+        name=model.name,
+        joints=model.joints,
+        torque=tuple(None if limit is None else limit.bounds[0] for limit in model.torque_limit),
+        gravity=gravity_bounds(model),
+        viscous_min=min(number.bounds[0] for number in model.viscous),
+        torque_notes=_assumed("torque limit", model.joints, model.torque_limit),
+        viscous_notes=_assumed("friction", model.joints, model.viscous),
+    )
+
+
+def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
+    """k_gi of each joint: as the source prints it, else the smaller of two bounds.
+
+    The sum of the coefficients of g_i in size, and for a chain of links what masses and distances say.
+
+    Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
+    most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other.
+    """
+    printed = (None if bound is None else bound.bounds[1] for bound in model.gravity_bound)
+    sums = [_coefficient_sum(model, torque) for torque in model.gravity]
+    chain = sums if model.chain_bounds is None else model.chain_bounds.gravity
+    return tuple(
+        min(a, b) if bound is None else bound for bound, a, b in zip(printed, sums, chain, strict=True)
+    )
+
+
+def _coefficient_sum(model: RobotModel, poly: fmpq_mpoly) -> Fraction:
+    sizes = [Fraction(1)] * (2 * model.n)
+    sizes += [max(map(abs, number.bounds)) for number in model.parameters.values()]
+    total = Fraction(0)
+    for powers, coefficient in poly.terms():
+        size = abs(Fraction(int(coefficient.p), int(coefficient.q)))
+        for base, power in zip(sizes, powers, strict=True):
+            size *= base ** int(power)
+        total += size
+    return total
+
+
+def _assumed(what: str, joints: tuple[str, ...], numbers: tuple[Number | None, ...]) -> tuple[str, ...]:
+    """The assumed numbers among some of the joints', each as a sentence."""
+    return tuple(
+        number.sentence(f"{what} of {joint}")
+        for joint, number in zip(joints, numbers, strict=True)
+        if number is not None and number.assumed
+    )
