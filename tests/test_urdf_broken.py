@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import random
 from pathlib import Path
 
 import pytest
@@ -201,7 +200,7 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
     assert "has a chain of 10 joints, more than 9" in told(tmp_path, f"<robot>{links}{joints}</robot>")
 
 
-# Fuzzing ---------------------------------------------------------------------------------------------------
+# Fuzzing, here guided by Hypothesis; tests/fuzz_readers runs many more -----
 
 SEEDS = {
     "arm.urdf": [TWO, (ARMS / "panda.urdf").read_text()[:3000] + "</robot>"],
@@ -242,21 +241,3 @@ def test_bytes_never_end_in_another_error(
     file.write_bytes(content)
     with contextlib.suppress(InputError):
         robots.load(file)
-
-
-@pytest.mark.slow
-def test_a_hundred_thousand_garbled_files(tmp_path: Path) -> None:
-    """Seeded, so that a failure can be repeated: the text is in the file that is left."""
-    rng = random.Random(20190301)
-    kinds = [(name, text) for name, texts in SEEDS.items() for text in texts]
-    for _ in range(100_000):
-        name, text = rng.choice(kinds)
-        for _ in range(rng.randint(1, 5)):
-            at, kind = rng.randrange(len(text) + 1), rng.random()
-            piece = (
-                rng.choice(WORDS)
-                if kind < 0.5
-                else "".join(chr(rng.randrange(1, 0x250)) for _ in range(rng.randint(0, 3)))
-            )
-            text = text[:at] + piece + text[at + rng.randint(0, 12) :]
-        survives(tmp_path / name, text)
