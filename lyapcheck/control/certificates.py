@@ -25,10 +25,11 @@ from lyapcheck.search.scalar_program import scalar_epsilon
 from lyapcheck.search.setting import Setting
 
 MAX_BOXES = 5_000
-"""For each gain set: any ε₀ will do, so the boxes of a second or two are enough."""
+"""For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
 CEILINGS = (64, 16, 8, 4, 2)
 """Times the scalar ε₀: where branch and bound begins, from above."""
 
+_NOMINAL = "certificates are about the arm at its nominal numbers"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
@@ -62,6 +63,11 @@ class Prover:
     def model(self) -> RobotModel:
         """The arm."""
         return load(self.robot)
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What is taken for granted about the arm, and that its numbers are nominal."""
+        return (_NOMINAL, *self.model.assumptions) if self.robot else ()
 
     @cached_property
     def bounds(self) -> RobotBounds:
@@ -97,10 +103,8 @@ def _proofs(setting: Setting, coarse: Fraction) -> Iterator[Fraction]:
     Args:
         coarse: ε₀ of the checker's own scalar form.
     """
-    boxes = MAX_BOXES
     for ceiling in CEILINGS:
-        found = certified_epsilon(setting, ceiling * coarse, max(boxes, 1))
-        boxes -= found.looked_at
+        found = certified_epsilon(setting, ceiling * coarse, MAX_BOXES)
         if found.eps0 is not None:
             yield found.eps0
     radial = radial_epsilon(setting)

@@ -105,7 +105,9 @@ def gate(
     _require_known(deciding)
     limits = limits_for(gain_file, robot)
     conditions: dict[tuple[str, int | None], Conditions] = {}
-    proved = _certificates(gain_file, limits, deciding)
+    proved, rests_on = _certificates(gain_file, limits, deciding)
+    if rests_on:
+        limits = limits.resting_on(rests_on)
     results = []
     for gains, certificates in zip(gain_file.gains, proved, strict=True):
         key = gains.family, gains.m
@@ -125,15 +127,18 @@ def _require_known(deciding: Sequence[str]) -> None:
         )
 
 
-def _certificates(gain_file: GainFile, limits: Limits, deciding: Sequence[str]) -> list[tuple[Check, ...]]:
-    """The checks of the certificates that decide, for each gain set."""
+def _certificates(
+    gain_file: GainFile, limits: Limits, deciding: Sequence[str]
+) -> tuple[list[tuple[Check, ...]], tuple[str, ...]]:
+    """The checks of the certificates that decide, for each gain set, and what they take for granted."""
     wanted = [name for name in CERTIFICATES if name in deciding]
     if not wanted:
-        return [()] * len(gain_file.gains)
+        return [()] * len(gain_file.gains), ()
     from lyapcheck.control.certificates import Prover
 
     prover = Prover(limits.robot, gain_file.bounds.viscous_min)
-    return [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
+    checks = [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
+    return checks, prover.assumptions
 
 
 def gate_exit(results: Sequence[GateResult]) -> Exit:

@@ -40,6 +40,10 @@ class Limits(Record):
         """Number of joints."""
         return len(self.joints)
 
+    def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
+        """The same limits with other assumptions told."""
+        return Limits(self.torque, self.gravity, self.viscous_min, self.joints, assumptions, self.robot)
+
 
 def limits_for(gain_file: GainFile, robot: str | None = None) -> Limits:
     """The limits that a gain file is judged by: its own ``[bounds]`` first, the arm for the rest.
