@@ -91,8 +91,8 @@ class Asked:
         time = SECONDS if self.time is None else self.time
         return task_of(model, self.target, self.start, time, self.eps0, self.velocity)
 
-    def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> Request | None:
-        """The tracking request; none where there is no reference to be asked about.
+    def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> Request:
+        """The tracking request; without a reference only its problems are of interest.
 
         Raises:
             InputError: every problem with it at once.
@@ -104,12 +104,10 @@ class Asked:
         q0 = _angles("--start", home if self.start is None else self.start, model, problems)
         rates = _angles("--velocity", home if self.velocity is None else self.velocity, model, problems)
         size = math.radians(BAND if band is None else band)
-        request = None
-        if reference is not None:
-            try:
-                request = request_for(model.n, reference, q0, rates, self.time, eps0=self.eps0, band=size)
-            except InputError as error:
-                problems += [_renamed(problem) for problem in error.problems]
+        try:
+            request = request_for(model.n, reference, q0, rates, self.time, eps0=self.eps0, band=size)
+        except InputError as error:
+            problems += [_renamed(problem) for problem in error.problems]
         if problems:
             raise InputError(problems)
         return request

@@ -90,8 +90,9 @@ def simulate(
     )
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else _difference(rough, fine, model.n)
-    run = _reference(loop, setup, fine, accuracy)
-    breach = _broken(setup, run)
+    with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
+        run = _reference(loop, setup, fine, accuracy)
+        breach = _broken(setup, run)
     if breach is not None and stop:
         end = breach.index + 1
         short = Trajectory(fine.t[:end], fine.y[:end], "stopped")

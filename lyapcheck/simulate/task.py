@@ -11,6 +11,12 @@ from lyapcheck.errors import InputError, Problem
 LONGEST = 3600.0
 """Seconds of motion that one run may cover."""
 
+SHORTEST = 1e-6
+"""Seconds: less is a slip of units, and no arm moves in it."""
+
+LARGEST_EPS0 = 1e9
+"""ε₀ of V: what arms admit is about 1, and squares of it must stay in range."""
+
 FASTEST = 1e3
 """rad/s: no arm turns faster, and a request beyond it is a slip of units."""
 
@@ -66,14 +72,12 @@ def task_for(
         *_vector_problems("q0", q0, n, FARTHEST, "rad"),
         *_vector_problems("w0", w0, n, FASTEST, "rad/s"),
     ]
-    if not 0.0 < T <= LONGEST:
-        problems.append(
-            _problem("T", T, f"must be more than 0 and at most {LONGEST:g} s", "give seconds, for instance 5")
-        )
-    if eps0 is not None and not 0.0 <= eps0 < math.inf:
-        problems.append(
-            _problem("eps0", eps0, "must be finite and not negative", "give the ε₀ of V, for instance 0.01")
-        )
+    if not SHORTEST <= T <= LONGEST:
+        rule = f"must be from {SHORTEST:g} to {LONGEST:g} s"
+        problems.append(_problem("T", T, rule, "give seconds, for instance 5"))
+    if eps0 is not None and not 0.0 <= eps0 <= LARGEST_EPS0:
+        rule = f"must be from 0 to {LARGEST_EPS0:g}"
+        problems.append(_problem("eps0", eps0, rule, "give the ε₀ of V, for instance 0.01"))
     if not 2 <= points <= MOST_POINTS:
         problems.append(
             _problem("points", points, f"must be from 2 to {MOST_POINTS}", "give the number of samples")

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from lyapcheck.tracking.reference import Reference, read_reference
     from lyapcheck.tracking.request import Request
     from lyapcheck.tracking.run import TrackingFailed, TrackingRun
-    from lyapcheck.tracking.track import track, track_as_asked
+    from lyapcheck.tracking.simulation import track, track_as_asked
 
 _HOME = {
     "Reference": "reference",
@@ -17,8 +17,8 @@ _HOME = {
     "TrackingFailed": "run",
     "TrackingRun": "run",
     "read_reference": "reference",
-    "track": "track",
-    "track_as_asked": "track",
+    "track": "simulation",
+    "track_as_asked": "simulation",
 }
 
 __all__ = [

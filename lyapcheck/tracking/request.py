@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.simulate.task import FASTEST, task_for
 from lyapcheck.tracking.reference import Reference
+from lyapcheck.tracking.reference.base import SECONDS
 
 POINTS = 2001
 """Samples of a run."""
@@ -34,7 +35,7 @@ class Request:
 
 def request_for(
     n: int,
-    reference: Reference,
+    reference: Reference | None,
     q0: Sequence[float] | None,
     velocity: Sequence[float] | None,
     T: float | None,
@@ -45,11 +46,14 @@ def request_for(
 ) -> Request:
     """The request to an arm of ``n`` joints.
 
+    Without a reference, because it could not be read, the rest is looked at all the same.
+
     Raises:
         InputError: all that is wrong with it at once.
     """
     problems: list[Problem] = []
-    seconds = reference.duration if T is None else T
+    natural = SECONDS if reference is None else reference.duration
+    seconds = natural if T is None else T
     zeros = (0.0,) * n
     try:
         task = task_for(n, zeros, q0, velocity, seconds, eps0=eps0, points=points)
@@ -57,7 +61,8 @@ def request_for(
         problems += error.problems
     if not 0.0 < band <= math.pi:
         problems.append(_problem("band", f"{math.degrees(band):g}", "must be more than 0 and at most 180°"))
-    problems += _reference_problems(n, reference, seconds)
+    if reference is not None:
+        problems += _reference_problems(n, reference, seconds)
     if problems:
         raise InputError(problems)
     return Request(task.q0, task.w0, task.T, eps0, band, points)

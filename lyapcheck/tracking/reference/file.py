@@ -111,13 +111,14 @@ class RowFields(Fields):
 
     def same_length(self, rows: dict[str, Row | None]) -> bool:
         """Whether all rows are there and of one length; notes those of another length than the first."""
-        present = {key: row for key, row in rows.items() if row is not None}
-        first = next(iter(present), "")
-        for key, row in present.items():
-            if len(row) != len(present[first]):
-                rule = f"has {len(row)} values where {first} has {len(present[first])}"
-                self.fail(key, rule, f"give {len(present[first])} values, one a joint")
-        return len(present) == len(rows) and len({len(row) for row in present.values()}) == 1
+        lists = {key: self.data.get(key) for key in rows}
+        given = {key: value for key, value in lists.items() if isinstance(value, list) and value}
+        first = next(iter(given), "")
+        for key, row in given.items():
+            if len(row) != len(given[first]):
+                rule = f"has {len(row)} values where {first} has {len(given[first])}"
+                self.fail(key, rule, f"give {len(given[first])} values, one a joint")
+        return None not in rows.values() and len({len(row) for row in given.values()}) == 1
 
 
 def _sine(fields: RowFields, folder: Path) -> Reference | None:

@@ -34,6 +34,8 @@ class _Table:
     """Of each joint, counted from 1: its column and what a number there is in rad."""
     time: int = -1
     rows: list[list[float]] = field(default_factory=list)
+    latest: float = -math.inf
+    """s, the largest time so far."""
 
     def fail(self, line: int | None, key: str, value: str, rule: str, repair: str) -> None:
         if len(self.problems) < MOST_PROBLEMS:
@@ -108,12 +110,13 @@ def _sample(table: _Table, line: int, row: list[str]) -> None:
         unit * _number(table, line, f"q{joint}", row, column)
         for joint, (column, unit) in sorted(table.columns.items())
     ]
-    if not all(map(math.isfinite, (t, *q))):
-        return
-    if table.rows and t <= table.rows[-1][0]:
-        table.fail(line, "t", row[table.time], "times must increase", "keep the samples of one run, in order")
-        return
-    table.rows.append([t, *q])
+    if t <= table.latest < math.inf:
+        rule = "times must increase, and do not here"
+        table.fail(line, "t", row[table.time], rule, "keep the samples of one run, in order")
+        table.latest = math.inf  # one slip: what follows is not told as well
+    table.latest = max(table.latest, t) if math.isfinite(t) else table.latest
+    if all(map(math.isfinite, (t, *q))):
+        table.rows.append([t, *q])
 
 
 def _number(table: _Table, line: int, key: str, row: list[str], column: int) -> float:

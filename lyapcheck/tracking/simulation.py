@@ -113,7 +113,8 @@ def track_as_asked(
     rough, fine = task.twice(tolerance, max_steps, on_progress or (lambda fraction, note: None))
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else float(np.max(np.abs(fine.y - rough.y)[:, : 2 * model.n]))
-    run = task.run(fine, accuracy)
+    with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
+        run = task.run(fine, accuracy)
     title = f"{gain_set.name} on {model.name}"
     if run.breach is not None and stop:
         end = run.breach.index + 1

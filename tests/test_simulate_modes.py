@@ -1,0 +1,236 @@
+"""The simulate command beyond one set-point run: references, random starts, broken promises."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.cli.main import main
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.simulate import PAPER_TASK, simulate
+from lyapcheck.simulate.starts import Starts, sweep
+
+TABLE2 = str(paper_gain_file("table2"))
+SINE = 'kind = "sine"\namplitude = [20, 30, 40]\nfrequency = [0.5, 0.5, 0.25]\n'
+
+
+class Done(NamedTuple):
+    """What a command left behind."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def lyapcheck(monkeypatch, capsys):
+    def run(*arguments: object) -> Done:
+        monkeypatch.setattr(sys, "argv", ["lyapcheck", "simulate", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        return Done(int(left.value.code or 0), *capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture
+def sine(tmp_path):
+    place = tmp_path / "sine.toml"
+    place.write_text(SINE, encoding="utf-8")
+    return place
+
+
+@pytest.fixture
+def single(tmp_path):
+    """A gain file with one set, m = 2 on the two-joint arm."""
+    place = tmp_path / "single.toml"
+    text = 'robot = "reyes-kelly2"\n[[gains]]\nname = "s"\nm = 2\nkp = [40, 5]\nkv = [2, 1]\n'
+    place.write_text(text, encoding="utf-8")
+    return place
+
+
+@pytest.fixture
+def wave(tmp_path):
+    place = tmp_path / "wave.toml"
+    place.write_text('kind = "sine"\namplitude = [20, 30]\nfrequency = [0.5, 0.25]\n', encoding="utf-8")
+    return place
+
+
+def test_a_reference_is_followed_and_its_promises_stand_beside_what_was_seen(lyapcheck, sine):
+    done = lyapcheck(TABLE2, "--reference", sine, "--time", 1, "--format", "json", "--start", "5,0,0")
+    assert done.returncode == 0
+    data = json.loads(done.stdout)
+    assert data["schema"] == "lyapcheck/simulate/1"
+    assert [result["name"] for result in data["results"]] == ["tau_m1", "tau_m2", "tau_m3"]
+    for result in data["results"]:
+        promised, seen = result["promised"], result["seen"]
+        assert result["kind"] == "tracking"
+        assert result["start"] == [5.0, 0.0, 0.0]
+        assert seen["reference_speed"] <= promised["reference_speed"]
+        assert seen["error_rate"] <= promised["error_rate"]
+        assert 0 < seen["tightness"] <= 1
+        assert promised["V_falls"] is True
+        assert promised["eps0"] < float(promised["largest_eps0"])
+        pairs = zip(result["peak_torque"], promised["torque_bound"], strict=True)
+        assert all(peak <= bound for peak, bound in pairs)
+
+
+def test_tracking_in_words(lyapcheck, single, wave):
+    text = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5).stdout
+    assert "tracking (21)" in text
+    assert "within 5° from [s]" in text
+    assert "dV/dt ≤ −zᵀΘ'z at all 2001 samples" in text
+    page = lyapcheck(single, "--reference", wave, "--time", 1, "--format", "markdown").stdout
+    assert "## s (m = 2) on reyes-kelly2, tracking (21)" in page
+    assert "| shoulder |" in page
+
+
+def test_a_recording_lasts_as_long_as_it_was_recorded(lyapcheck, single, tmp_path):
+    rows = "\n".join(f"{k / 10},{k * k / 10},0" for k in range(9))
+    (tmp_path / "motion.csv").write_text(f"t [s],q1 [deg],q2 [deg]\n{rows}\n", encoding="utf-8")
+    file = tmp_path / "recorded.toml"
+    file.write_text('kind = "recorded"\nfile = "motion.csv"\n', encoding="utf-8")
+    done = lyapcheck(single, "--reference", file, "--format", "json")
+    assert done.returncode == 0
+    assert {result["time"] for result in json.loads(done.stdout)["results"]} == {0.8}
+    longer = lyapcheck(single, "--reference", file, "--time", 2)
+    assert longer.returncode == 2
+    assert "--time = 2: is longer than the recording, which ends at 0.8 s" in longer.stderr
+
+
+def test_figures_of_tracking_have_their_data_beside_them(lyapcheck, single, wave, tmp_path):
+    place = tmp_path / "plots"
+    place.mkdir()
+    done = lyapcheck(single, "--reference", wave, "--time", 0.5, "--plot", place, "--csv", "-")
+    names = {path.name for path in place.iterdir()}
+    figures = {"angles", "errors", "torques", "lyapunov"}
+    drawn = {f"s-{figure}.{form}" for figure in figures for form in ("svg", "png")}
+    assert names == drawn | {"s.csv"}
+    assert (place / "s.csv").read_text() == done.stdout
+
+
+def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it(lyapcheck):
+    done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json")
+    assert done.returncode == 1
+    assert done.stderr.count("promise broken: ") == 3
+    assert "confirmed in balls" in done.stderr
+    for result in json.loads(done.stdout)["results"]:
+        assert result["complete"] is False
+        assert result["reached"] == result["breach"]["t"] < 5
+        assert result["breach"]["grade"] == "enclosure"
+        assert result["breach"]["value"] > result["breach"]["limit"] == 0.0
+
+
+def test_keep_going_tells_of_the_promise_and_goes_on(lyapcheck):
+    done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json", "--keep-going", "--time", 1)
+    assert done.returncode == 1
+    for result in json.loads(done.stdout)["results"]:
+        assert result["complete"] is True
+        assert result["breach"]["t"] < 1
+
+
+def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
+    strong = tmp_path / "strong.toml"
+    strong.write_text('robot = "buap3"\n[[gains]]\nname = "s"\nm = 1\nkp = [99, 60, 5]\nkv = [1, 1, 1]\n')
+    done = lyapcheck(strong, "--format", "json")
+    assert done.returncode == 1
+    assert "|τ| of base within the motor's limit" in done.stderr
+    assert "CUT SHORT at 0 s" in lyapcheck(strong).stdout
+    assert lyapcheck(strong, "--experiment", "--time", 0.5).returncode == 0
+
+
+def test_initial_rates_are_degrees_a_second(lyapcheck):
+    done = lyapcheck(TABLE2, "--velocity", "90,0,-180", "--time", 0.1, "--csv", "-")
+    first = done.stdout.splitlines()[1].split(",")
+    assert [float(x) for x in first[6:9]] == pytest.approx([np.pi / 2, 0, -np.pi])
+
+
+def test_random_starts_tell_how_the_indices_spread(lyapcheck):
+    done = lyapcheck(TABLE2, "--runs", 40, "--seed", 7, "--spread", 30, "--format", "json")
+    assert done.returncode == 0
+    for result in json.loads(done.stdout)["results"]:
+        assert result["finished"] == result["runs"] == 40
+        assert result["V_rose"] == result["beyond_limits"] == 0
+        for values in result["quantiles"].values():
+            known = [x for x in values if x is not None]
+            assert known == sorted(known)
+    assert (
+        lyapcheck(TABLE2, "--runs", 40, "--seed", 7, "--spread", 30, "--format", "json").stdout == done.stdout
+    )
+    other = lyapcheck(TABLE2, "--runs", 40, "--seed", 8, "--spread", 30, "--format", "json").stdout
+    assert other != done.stdout
+
+
+def test_random_starts_in_words_and_rows(lyapcheck):
+    text = lyapcheck(TABLE2, "--runs", 12).stdout
+    assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text
+    assert "finished 12 of 12, V rose in 0" in text
+    assert "| L2 [°] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
+    rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()
+    assert len(rows) == 1 + 3 * 12
+    assert rows[1].startswith("tau_m1,1,yes,")
+
+
+def test_a_run_of_a_batch_is_the_run_by_itself():
+    model, gain_set = robots.load("buap3"), read_gain_file(TABLE2).gains[0]
+    found = sweep(gain_set, model, PAPER_TASK, Starts(3, 0.5, 1))
+    alone = simulate(gain_set, model, PAPER_TASK.q_d, found.q0[2], points=501)
+    assert found.runs.L2[2] == pytest.approx(alone.L2, rel=1e-8)
+    assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-8)
+    assert np.all(np.abs(found.q0) <= 0.5)
+
+
+def test_a_batch_that_breaks_a_promise_says_where(lyapcheck):
+    done = lyapcheck(TABLE2, "--runs", 5, "--eps0", 50, "--format", "json")
+    assert done.returncode == 1
+    assert "confirmed in balls" in done.stderr
+    for result in json.loads(done.stdout)["results"]:
+        assert result["V_rose"] > 0
+        assert result["breach"]["promise"].startswith("dV/dt")
+
+
+BAD = [
+    (["--runs", 0], ["--runs"]),
+    (["--runs", 10**9], ["--runs"]),
+    (["--runs", 5, "--spread", 1000, "--seed", -1], ["--seed", "--spread"]),
+    (["--runs", 5, "--spread", "nan"], ["--spread"]),
+    (["--runs", 5, "--plot", "."], ["--plot"]),
+    (["--runs", 5, "--experiment"], ["--experiment"]),
+    (["--seed", 1, "--spread", 3, "--band", 2], ["--band", "--seed", "--spread"]),
+    (["--experiment", "--keep-going"], ["--keep-going"]),
+    (["--velocity", "1,2"], ["--velocity"]),
+    (["--velocity", "1e9,0,0"], ["--velocity"]),
+    (["--eps0", "1e300"], ["--eps0"]),
+    (["--time", "1e-300"], ["--time"]),
+    (["--reference", "SINE", "--target", "1,2,3"], ["--target"]),
+    (["--reference", "SINE", "--experiment"], ["--experiment"]),
+    (["--reference", "SINE", "--runs", 5], ["--runs"]),
+    (["--reference", "SINE", "--band", 0, "--eps0", "nan", "--time", 0], ["--band", "--eps0", "--time"]),
+    (["--reference", "no-such-file.toml", "--start", "1"], ["--start", "file"]),
+    (["--reference", "."], ["file"]),
+]
+
+
+@pytest.mark.parametrize(("arguments", "keys"), BAD, ids=range(len(BAD)))
+def test_every_problem_of_a_command_line_is_told(lyapcheck, sine, arguments, keys):
+    done = lyapcheck(TABLE2, *(sine if word == "SINE" else word for word in arguments))
+    errors = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert len(errors) == len(keys)
+    for key, line in zip(keys, errors, strict=True):
+        assert f": {key}" in line
+
+
+def test_gains_beyond_all_sense_end_with_a_message(lyapcheck, tmp_path, sine):
+    huge = tmp_path / "huge.toml"
+    huge.write_text('robot = "buap3"\n[[gains]]\nname = "h"\nm = 1\nkp = [1e300, 1, 1]\nkv = [1, 1, 1]\n')
+    done = lyapcheck(huge, "--reference", sine, "--keep-going")
+    assert done.returncode == 3
+    assert "not finished: h on buap3" in done.stderr
+    assert "Traceback" not in done.stderr

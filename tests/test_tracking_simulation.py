@@ -1,0 +1,295 @@
+"""The tracking scheme (21) in motion, against an arm that knows nothing of its error system; its promises."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck import robots
+from lyapcheck.check.scalar import certifies
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.family import named
+from lyapcheck.robots import Number
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.setting import Setting
+from lyapcheck.simulate.gains import gains_for
+from lyapcheck.tracking import TrackingFailed, TrackingRun, track
+from lyapcheck.tracking.csv import tracking_csv
+from lyapcheck.tracking.form import TrackingForm, tracking_form
+from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
+from lyapcheck.tracking.results import bound_of, broken, energies
+from lyapcheck.tracking.run import Motion
+from lyapcheck.tracking.torque import torque_bounds
+
+TABLE2 = read_gain_file(paper_gain_file("table2")).gains
+PD = read_gain_file(paper_gain_file("table2_pd")).gains[0]
+
+
+def row(*values: object) -> tuple[Fraction, ...]:
+    return tuple(Fraction(str(value)) for value in values)
+
+
+WAVE = Sine(row(20, 30, 40), row("0.5", "0.5", "0.25"), row(0, 90, 10), row(0, 0, 0))
+JERK = MinimumJerk(row(0, 0, 0), row(45, 45, 90), Fraction(2))
+TWO = Sine(row(30, 20), row(1, "0.5"), row(0, 0), row(10, -20))
+STILL = Sine(row(0, 0, 0), row(1, 1, 1), row(0, 0, 0), row(45, 45, 90))
+START = [0.3, -0.2, 0.4]
+
+
+def gains(n: int, m: int | None = 2, kp: int = 10, kv: int = 2, family: str = "hyperbolic") -> GainSet:
+    return GainSet("set", m, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
+
+
+def run_of(gain_set: GainSet = TABLE2[0], reference=WAVE, q0=START, **options) -> TrackingRun:
+    options.setdefault("T", 2.0)
+    options.setdefault("points", 401)
+    return track(gain_set, robots.load("buap3"), reference, q0, **options)
+
+
+def arm_under_21(gain_set: GainSet, model, reference, q0, t):
+    """q of (1) under the torque of (21), by another integrator, from M, C, g, B as they stand."""
+    from scipy.integrate import solve_ivp
+
+    n, arm, held = model.n, NumericModel(model), gains_for(gain_set, model.n)
+    h = named(gain_set.family, gain_set.m).h
+
+    def rate(time, y):
+        q, velocity = y[:n], y[n:]
+        goal, speed, push = reference.at(np.array([time]))[0]
+        C, M, friction = arm.coriolis(q, velocity), arm.mass(q), arm.viscous
+        tau = np.array(held.kp) * h(goal - q) + np.array(held.kv) * h(speed - velocity)
+        tau += M @ push + C @ speed + arm.gravity(q) + friction * speed
+        pull = tau - C @ velocity - arm.gravity(q) - friction * velocity
+        return np.concatenate((velocity, np.linalg.solve(M, pull)))
+
+    start = np.concatenate((q0, np.zeros(n)))
+    return solve_ivp(rate, (0.0, t[-1]), start, "DOP853", t, rtol=1e-10, atol=1e-12).y[:n].T
+
+
+@pytest.mark.parametrize(
+    ("gain_set", "reference"), [(TABLE2[0], WAVE), (TABLE2[2], JERK), (PD, WAVE)], ids=["m1", "m3", "pd"]
+)
+def test_the_arm_moves_as_the_error_system_says(gain_set, reference):
+    run = run_of(gain_set, reference, T=1.0, points=101, stop=False)
+    truth = arm_under_21(gain_set, robots.load("buap3"), reference, START, run.motion.t)
+    np.testing.assert_allclose(run.motion.q, truth, atol=1e-7)
+    assert run.accuracy < 1e-7
+    assert run.work_balance < 1e-8
+
+
+def test_linear_gains_make_the_error_of_a_pendulum_a_damped_oscillator():
+    """¼ ë + (k_v + b) ė + k_p e = 0 whatever the reference does; e(0) = 0.2, ė(0) = q̇_d(0)."""
+    wave = Sine(row(40), row(1), row(30), row(10))
+    first = wave.at(np.zeros(1))[0, :, 0]
+    pendulum = robots.load("pendulum1")
+    run = track(gains(1, None, 10, 1, "linear"), pendulum, wave, [first[0] - 0.2], T=3.0, points=301)
+    roots = np.roots([0.25, 1.5, 10.0]).astype(complex)
+    weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([0.2, first[1]]))
+    exact = np.real(np.exp(np.outer(run.motion.t, roots)) @ weights)
+    np.testing.assert_allclose(run.motion.e[:, 0], exact, atol=1e-8)
+
+
+@pytest.mark.parametrize("family", ["hyperbolic", "tanh", "arctan", "algebraic", "linear"])
+@pytest.mark.parametrize("name", ["reyes-kelly2", "pelican2"])
+def test_every_family_keeps_its_promises_and_balances_its_energy(name, family):
+    member = gains(2, 2 if family == "hyperbolic" else None, 5, 2, family)
+    run = track(member, robots.load(name), TWO, [0.0, 0.0], T=1.0, points=101)
+    assert run.breach is None
+    assert run.work_balance < 1e-8
+    assert (run.bound is None) == (family == "linear")
+
+
+def test_an_arm_that_starts_on_the_reference_stays_on_it():
+    first = WAVE.at(np.zeros(1))[0]
+    run = run_of(q0=first[0], velocity=first[1])
+    assert np.max(np.abs(run.motion.e)) < 1e-10
+    assert run.indices.entered.tolist() == [0.0, 0.0, 0.0]
+    assert run.V[-1] < 1e-15
+
+
+def test_a_reference_at_rest_is_the_regulator():
+    from lyapcheck.simulate import simulate
+
+    run = run_of(TABLE2[1], STILL, eps0=0.03)
+    task = np.radians([45, 45, 90])
+    known = simulate(TABLE2[1], robots.load("buap3"), task, START, T=2.0, eps0=0.03, points=401)
+    np.testing.assert_allclose(run.motion.q, known.q, atol=1e-8)
+    np.testing.assert_allclose(run.motion.tau, known.tau, atol=1e-6)
+    np.testing.assert_allclose(run.dV, known.dV, atol=1e-6)
+    assert pytest.approx(known.L2, rel=1e-8) == run.indices.L2
+
+
+def test_dV_is_the_derivative_of_V_along_the_motion():
+    """By central differences of V over the samples."""
+    run = run_of(T=0.5, points=2001, eps0=0.02)
+    h = run.motion.t[1]
+    slope = (run.V[:-4] - 8 * run.V[1:-3] + 8 * run.V[3:-1] - run.V[4:]) / (12 * h)
+    np.testing.assert_allclose(run.dV[2:-2], slope, atol=1e-5 * np.max(np.abs(run.dV)))
+
+
+def random_motion(seed: int, speed: float, count: int = 4000) -> Motion:
+    """States of all sizes with ‖q̇_d‖ = speed."""
+    rng = np.random.default_rng(seed)
+    q, e, w, way = rng.standard_normal((4, count, 3))
+    sizes = 10.0 ** rng.uniform(-2, 1.5, (2, count, 1))
+    fast = speed * way / np.linalg.norm(way, axis=1, keepdims=True)
+    zeros = np.zeros_like(q)
+    return Motion(np.arange(float(count)), 3 * q, sizes[0] * e, sizes[1] * w, zeros, 3 * q, fast, zeros)
+
+
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+def test_the_form_bounds_dV_at_states_of_all_sizes(gain_set):
+    """For any ε₀, admissible or not; and with a v_d that is too small it is broken."""
+    setting, held = Setting(gain_set, robots.load("buap3")), gains_for(gain_set, 3)
+    motion = random_motion(1, 1000.0)
+    for eps0 in (0.01, 0.5):
+        _, dV = energies(setting, held, eps0, motion)
+        bound = bound_of(tracking_form(setting, Fraction(1000)), held, eps0, motion)
+        assert np.all(dV <= bound + 1e-9 * np.abs(bound))
+        low = bound_of(tracking_form(setting, Fraction(0)), held, eps0, motion)
+        assert np.any(dV > low + 1e-6)
+
+
+@pytest.mark.parametrize("speed", [0, 2, 50])
+def test_the_largest_eps0_is_where_the_form_ceases_to_be_definite(speed):
+    """By eigenvalues of Θ'(ε) on a grid of ε, without the argument that the end decides."""
+    form = tracking_form(Setting(TABLE2[0], robots.load("buap3")), Fraction(speed))
+    largest = form.largest()
+    k, beta, c, d = (
+        float(x) for x in (form.still.stiffness, form.still.friction, form.still.drift, form.still.cross)
+    )
+    turn = float(form.turn)
+
+    def least(eps0: float) -> float:
+        eps = np.linspace(eps0 / 100, eps0, 200)
+        corner, side = eps * (k - eps * turn), -eps / 2 * (d + turn + eps * c)
+        matrices = np.stack((corner, side, side, beta - eps * c), axis=-1).reshape(-1, 2, 2)
+        return float(np.linalg.eigvalsh(matrices).min())
+
+    assert least(0.9999 * float(largest)) > 0
+    assert least(1.0001 * float(largest)) < 0
+    if speed == 0:
+        assert certifies(form.still, largest)
+        assert not certifies(form.still, largest * Fraction(10001, 10000))
+
+
+def test_faster_references_admit_less():
+    setting = Setting(TABLE2[0], robots.load("buap3"))
+    found = [tracking_form(setting, Fraction(speed)).largest() for speed in (0, 1, 5, 100)]
+    assert found == sorted(found, reverse=True)
+    assert found[-1] > 0
+
+
+def test_without_friction_there_is_no_eps0():
+    form = tracking_form(Setting(TABLE2[0], robots.load("buap3")), Fraction(1))
+    assert TrackingForm(replace(form.still, friction=Fraction(0)), form.turn).largest() is None
+
+
+def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
+    with pytest.raises(TrackingFailed, match="dV/dt ≤ 0") as stopped:
+        run_of(eps0=50.0)
+    partial = stopped.value.partial
+    assert partial.breach.confirmed
+    assert partial.motion.t[-1] == partial.breach.t
+    assert not partial.complete
+    assert not partial.promise.falls
+    assert ",no," in tracking_csv([partial])
+    whole = run_of(eps0=50.0, stop=False)
+    assert whole.complete
+    assert whole.breach == partial.breach
+
+
+def test_a_reference_faster_than_it_was_said_to_be_is_caught():
+    """The promise of v_d = 0 is planted on states at 1000 rad/s: the form is seen to break."""
+    setting, held = Setting(TABLE2[0], robots.load("buap3")), gains_for(TABLE2[0], 3)
+    motion, promise = random_motion(3, 1000.0, 500), run_of(T=0.1, points=11).promise
+    still = replace(promise, eps0=0.01, torque=None)
+    V, dV = energies(setting, held, 0.01, motion)
+    low = bound_of(tracking_form(setting, Fraction(0)), held, 0.01, motion)
+    high = bound_of(tracking_form(setting, Fraction(1000)), held, 0.01, motion)
+    falling = -np.arange(500.0)
+    assert "Θ'" in broken(setting, still, motion, falling, np.minimum(dV, -1e-12), low).promise
+    assert broken(setting, still, motion, falling, np.minimum(dV, -1e-12), high) is None
+    assert V.shape == dV.shape
+
+
+@settings(max_examples=8, deadline=None)
+@given(start=st.lists(st.floats(-1.5, 1.5), min_size=6, max_size=6), m=st.integers(1, 4))
+def test_no_motion_leaves_the_bounds_of_the_torque(start, m):
+    run = run_of(gains(3, m, 20, 2), q0=start[:3], velocity=start[3:], T=0.5, points=51, stop=False)
+    most = np.array([float(x) for x in run.promise.torque.total])
+    assert np.all(run.indices.peak_torque <= most)
+    assert np.linalg.norm(run.motion.w, axis=1).max() <= float(run.promise.torque.error_rate)
+
+
+def test_the_bound_of_the_torque_at_rest_is_the_rule_joint_by_joint():
+    """γ (k_pi + k_vi) + k_gi with γ = 1: 28.233, 60.233 + 40.28 and 5.233 + 1.81."""
+    setting = Setting(TABLE2[0], robots.load("buap3"))
+    found = torque_bounds(setting, STILL.suprema(), [0] * 3, [0.0] * 3, [0.0] * 3)
+    assert [float(x) for x in found.total] == pytest.approx([28.233, 100.513, 7.043])
+    assert found.error_rate == 0
+
+
+def test_the_largest_torque_comes_near_its_bound():
+    """A pendulum of one joint, far off and stretched out: k_p tanh(e) ≈ 5 and g = 4.905 at 90°."""
+    rest = Sine(row(0), row(1), row(0), row(600))
+    run = track(gains(1, 1, 5, 1), robots.load("pendulum1"), rest, [math.pi / 2], T=0.5, points=51)
+    assert run.indices.peak_torque[0] > 0.9 * float(run.promise.torque.total[0])
+
+
+def test_a_motor_that_is_asked_for_too_much_stops_the_run():
+    weak = replace(robots.load("buap3"), torque_limit=(None, Number(Fraction(15)), None))
+    with pytest.raises(TrackingFailed, match="shoulder within the motor's limit") as stopped:
+        track(TABLE2[0], weak, WAVE, START)
+    assert stopped.value.partial.breach.confirmed
+
+
+def test_a_run_read_back_is_followed_again(tmp_path):
+    """The CSV of a run is a recording; the arm that starts on it follows it to what the spline can do."""
+    from lyapcheck.tracking import read_reference
+
+    run = run_of(TABLE2[0], JERK)
+    (tmp_path / "run.csv").write_text(tracking_csv([run]), encoding="utf-8")
+    (tmp_path / "again.toml").write_text('kind = "recorded"\nfile = "run.csv"\n', encoding="utf-8")
+    again = read_reference(tmp_path / "again.toml", 3)
+    second = track(TABLE2[0], robots.load("buap3"), again, START, points=401)
+    assert second.T == 2.0
+    assert np.max(np.abs(second.motion.e)) < 1e-4
+    np.testing.assert_allclose(second.motion.tau, run.motion.tau, atol=0.05)
+
+
+def test_a_spent_budget_keeps_what_was_reached():
+    with pytest.raises(TrackingFailed, match="steps were not enough") as stopped:
+        run_of(max_steps=30)
+    partial = stopped.value.partial
+    assert not partial.complete
+    assert 1 < partial.motion.t.size < 401
+    assert math.isnan(partial.accuracy)
+
+
+def test_the_same_request_gives_the_same_bytes():
+    assert tracking_csv([run_of(T=0.5)]) == tracking_csv([run_of(T=0.5)])
+
+
+BAD = [
+    ({"q0": [1.0]}, ["q0"]),
+    ({"velocity": [math.nan, 0, 0]}, ["w0"]),
+    ({"T": 0.0, "eps0": -1.0, "band": 0.0}, ["T", "band", "eps0"]),
+    ({"reference": TWO}, ["reference"]),
+    ({"reference": Sine(row(30, 30, 30), row(900, 900, 900), row(0, 0, 0), row(0, 0, 0))}, ["reference"]),
+    ({"reference": Recorded(np.arange(5.0), np.zeros((5, 3))), "T": 4.5}, ["T"]),
+]
+
+
+@pytest.mark.parametrize(("change", "keys"), BAD, ids=range(len(BAD)))
+def test_impossible_requests_are_refused_by_name(change, keys):
+    with pytest.raises(InputError) as refused:
+        run_of(**change)
+    assert [problem.key for problem in refused.value.problems] == keys
