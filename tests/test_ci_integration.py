@@ -99,6 +99,30 @@ def action_script():
     return "\n".join(line.removeprefix(" " * 8) for line in block.splitlines())
 
 
+def action(folder, environment, **inputs):
+    """The action's last step, run as GitHub runs it; the process and the summary of the job."""
+    (folder / "lyapcheck" / "bin").mkdir(parents=True)
+    (folder / "lyapcheck" / "bin" / "lyapcheck").symlink_to(Path(sys.executable).with_name("lyapcheck"))
+    summary = folder / "summary.md"
+    summary.write_text("of another step\n", encoding="utf-8")
+    defaults = {"FILES": "*.toml", "ROBOT": "", "CONDITIONS": "", "STRICT": "false"}
+    done = subprocess.run(
+        ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", action_script()],
+        cwd=folder,
+        env={
+            **environment,
+            "RUNNER_TEMP": str(folder),
+            "GITHUB_STEP_SUMMARY": str(summary),
+            **defaults,
+            **inputs,
+        },
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done, summary.read_text(encoding="utf-8").removeprefix("of another step\n")
+
+
 @pytest.mark.parametrize(
     ("gains", "robot", "code", "words"),
     [
@@ -110,26 +134,27 @@ def action_script():
 )
 def test_the_action_annotates_and_fails(gains, robot, code, words, tmp_path, environment):
     (tmp_path / "gains.toml").write_text(gains, encoding="utf-8")
-    (tmp_path / "lyapcheck" / "bin").mkdir(parents=True)
-    (tmp_path / "lyapcheck" / "bin" / "lyapcheck").symlink_to(Path(sys.executable).with_name("lyapcheck"))
-    summary = tmp_path / "summary.md"
-    done = subprocess.run(
-        ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", action_script()],
-        cwd=tmp_path,
-        env={
-            **environment,
-            "RUNNER_TEMP": str(tmp_path),
-            "GITHUB_STEP_SUMMARY": str(summary),
-            "FILES": "*.toml",
-            "ROBOT": robot,
-        },
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done, summary = action(tmp_path, environment, ROBOT=robot)
     assert done.returncode == code, done.stdout + done.stderr
     assert words in done.stdout
-    assert summary.read_text(encoding="utf-8").startswith("### " if code < 2 else "")
+    assert summary.startswith("### ") if code < 2 else summary == ""
+
+
+def test_the_action_takes_conditions_and_strictness(tmp_path, environment):
+    """No torque limit of the Pelican is known: (10p) is undecided, and (19) holds."""
+    text = 'robot = "pelican2"\n[[gains]]\nname = "a"\nm = 1\nkp = [1, 1]\nkv = [0.01, 0.01]\n'
+    (tmp_path / "gains.toml").write_text(text, encoding="utf-8")
+    for folder, inputs, code in (
+        ("a", {}, 3),
+        ("b", {"STRICT": "true"}, 1),
+        ("c", {"CONDITIONS": "19"}, 0),
+        ("d", {"CONDITIONS": "10 19", "STRICT": "true"}, 1),
+        ("e", {"CONDITIONS": "20"}, 2),
+    ):
+        (tmp_path / folder).mkdir()
+        done, _ = action(tmp_path / folder, environment, FILES="../gains.toml", **inputs)
+        assert done.returncode == code, done.stdout + done.stderr
+        assert ("::error" in done.stdout) == (code == 1)
 
 
 def test_what_a_caller_of_the_action_writes_is_never_part_of_the_script():
