@@ -36,6 +36,7 @@ def command(
 
     λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it; friction, torque
     limits, and every number with its source. A constant whose budget of boxes ends is enclosed more widely.
+    Where the source prints C or g too, the print is compared with what M and the potential give.
 
     Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
     """

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from lyapcheck.constants import Constant, arm_constants
+from lyapcheck.robot_report.print_claims import print_claims
 from lyapcheck.robot_report.properties import Property, properties
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Exit, exit_code
@@ -19,11 +20,20 @@ SMALL = 3
 
 @dataclass(frozen=True)
 class RobotReport:
-    """An arm with what was decided and certified about it, at its nominal parameters."""
+    """An arm with what was decided and certified about it, at its nominal parameters.
+
+    Args:
+        model: the arm.
+        properties: 2.1 to 2.8.
+        constants: from both sides.
+        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
+            follow from M and the potential.
+    """
 
     model: RobotModel
     properties: tuple[Property, ...]
     constants: tuple[Constant, ...]
+    prints: tuple[Property, ...] = ()
 
     @property
     def exit_code(self) -> Exit:
@@ -45,4 +55,5 @@ def build(
     constants = arm_constants(model, budget, on_progress=on_progress)
     if on_progress is not None:
         on_progress(1.0, "properties 2.1–2.8")
-    return RobotReport(model, properties(model, constants, by_script=model.n <= SMALL), constants)
+    decided = properties(model, constants, by_script=model.n <= SMALL)
+    return RobotReport(model, decided, constants, print_claims(model))

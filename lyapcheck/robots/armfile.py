@@ -52,6 +52,9 @@ A **printed model** gives M on and above the diagonal (kg·m²) and the potentia
     name = "elbow"
     viscous = 0.175
 
+A **printed C(q, q̇) or g(q)** goes into ``[printed]`` beside ``[model]``, to be compared with what M and the
+potential give, see `lyapcheck.robots.printed_torques`.
+
 A **URDF file** gives the links, and this file what such files lack, see `lyapcheck.robots.urdf`::
 
     title = "UR5 with friction"
@@ -138,6 +141,7 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: 
         numbers=numbers,
         parameters=parameters,
         remarks=remarks,
+        printed=plan.torques,
         chain=plan.exact(ring, polys),
         chain_bounds=plan.bounds(ring, polys),
     )

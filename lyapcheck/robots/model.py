@@ -16,6 +16,7 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.chain import Chain
 from lyapcheck.robots.chain_bounds import ChainBounds
 from lyapcheck.robots.number import Number
+from lyapcheck.robots.printed_torques import PrintedTorques
 
 T = TypeVar("T")
 Lift = Callable[[Fraction], T]
@@ -43,6 +44,7 @@ class RobotModel:
         numbers: every number of the arm with its provenance.
         parameters: the numbers with a range that enter M or the potential, in generator order.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
+        printed: C and g as the source prints them, where it does; nothing is derived from them.
         chain: the links where they are known and exact.
         chain_bounds: for a chain of exact links what masses and distances say for all angles.
 
@@ -66,6 +68,7 @@ class RobotModel:
     numbers: dict[str, Number]
     parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
+    printed: PrintedTorques | None = None
     chain: Chain | None = None
     chain_bounds: ChainBounds | None = None
 

@@ -18,6 +18,7 @@ from lyapcheck.robots.joints import Joint, read_joints
 from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.printed import Printed, is_angle, read_printed
+from lyapcheck.robots.printed_torques import PrintedTorques, read_torques
 
 _MOST_JOINTS = 9
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
@@ -33,6 +34,10 @@ class Plan(Protocol):
     @property
     def joints(self) -> list[Joint]:
         """The joints, base first."""
+
+    @property
+    def torques(self) -> PrintedTorques | None:
+        """C and g in print, where they are."""
 
     def numbers(self) -> dict[str, Number]:
         """The numbers of the description, by name."""
@@ -58,6 +63,7 @@ class ChainPlan:
     joints: list[Joint]
     bodies: list[Body]
     gravity: tuple[Number, ...]
+    torques: None = None
 
     def numbers(self) -> dict[str, Number]:
         """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
@@ -99,6 +105,7 @@ class PrintedPlan:
     joints: list[Joint]
     entries: dict[str, Number]
     printed: Printed
+    torques: PrintedTorques | None
 
     def numbers(self) -> dict[str, Number]:
         """The entries of ``[numbers]``."""
@@ -124,9 +131,9 @@ class PrintedPlan:
 def read_plan(top: ArmFields) -> Plan | None:
     """The model of an arm file, ``None`` when it has none that can be built; problems are noted."""
     links, joints = top.tables("links"), top.tables("joints")
-    numbers, model = top.table("numbers"), top.table("model")
+    numbers, model, torques = top.table("numbers"), top.table("model"), top.table("printed")
     gravity = top.vector("gravity", "m/s²") if "links" in top.data or "gravity" in top.data else None
-    for key in ("joints", "numbers", "model"):
+    for key in ("joints", "numbers", "model", "printed"):
         if "links" in top.data and key in top.data:
             top.fail(
                 key, "does not go together with [[links]]", "keep the links or the printed model, not both"
@@ -136,7 +143,7 @@ def read_plan(top: ArmFields) -> Plan | None:
     if links:
         return _read_chain(top, links, gravity)
     if joints and model:
-        return _read_printed(top, joints, numbers, model)
+        return _read_printed(top, joints, numbers, model, torques)
     _note_missing(top)
     return None
 
@@ -159,15 +166,21 @@ def _read_chain(top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, 
 
 
 def _read_printed(
-    top: ArmFields, tables: list[ArmFields], numbers: ArmFields | None, model: ArmFields
+    top: ArmFields,
+    tables: list[ArmFields],
+    numbers: ArmFields | None,
+    model: ArmFields,
+    torques: ArmFields | None,
 ) -> Plan:
     joints = _read_joints(top, "joints", tables)
     taken = {name for joint in joints for name in joint.numbers()}
     entries = {} if numbers is None else _read_numbers(numbers, taken)
     names = [] if numbers is None else list(numbers.data)
-    printed = read_printed(model, min(len(joints), _MOST_JOINTS), names)
-    _close([*tables, model])
-    return PrintedPlan(joints, entries, printed)
+    n = min(len(joints), _MOST_JOINTS)
+    printed = read_printed(model, n, names)
+    compared = None if torques is None else read_torques(torques, n, names)
+    _close([*tables, model, *([] if torques is None else [torques])])
+    return PrintedPlan(joints, entries, printed, compared)
 
 
 def _read_joints(top: ArmFields, key: str, tables: list[ArmFields]) -> list[Joint]:

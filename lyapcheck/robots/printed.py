@@ -12,6 +12,7 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -37,19 +38,21 @@ class Printed:
 
     def names(self) -> set[str]:
         """The entries of ``[numbers]`` that occur."""
-        entries = [*self.mass.values(), self.potential]
-        return {
-            name for terms in entries for _, factors in terms for name, _ in factors if not is_angle(name)
-        }
+        return names_of([*self.mass.values(), self.potential])
 
     def build(
         self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]
     ) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], fmpq_mpoly]:
         """M and the potential in normal form, with the given polynomials for the numbers."""
         n = trig.joint_count(ring)
-        upper = {place: _polynomial(terms, ring, numbers) for place, terms in self.mass.items()}
+        upper = {place: polynomial(terms, ring, numbers) for place, terms in self.mass.items()}
         mass = tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
-        return mass, _polynomial(self.potential, ring, numbers)
+        return mass, polynomial(self.potential, ring, numbers)
+
+
+def names_of(entries: Collection[Terms]) -> set[str]:
+    """The entries of ``[numbers]`` that occur in some terms."""
+    return {name for terms in entries for _, factors in terms for name, _ in factors if not is_angle(name)}
 
 
 def is_angle(name: str) -> bool:
@@ -59,10 +62,8 @@ def is_angle(name: str) -> bool:
 
 def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed:
     """The ``[model]`` table of an arm with n joints; problems are noted in ``fields``."""
-    mass = {
-        (i, j): _read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)
-    }
-    potential = _read_terms(fields, "potential", n, numbers)
+    mass = {(i, j): read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)}
+    potential = read_terms(fields, "potential", n, numbers)
     for i, j in mass:
         mirror = f"M{j + 1}{i + 1}"
         if i != j and mirror in fields.data:
@@ -71,21 +72,29 @@ def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed
     return Printed(mass, potential)
 
 
-def _read_terms(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Terms:
-    value = fields.raw(key, required=True)
-    if value is None:
-        return ()
-    if not isinstance(value, list) or len(value) > _MOST_TERMS:
-        rule = f"must be a list of at most {_MOST_TERMS} terms"
-        fields.fail(key, rule, f'write {key} = [[2.351, ""], [0.168, "c2"]]')
-        return ()
-    read = [_read_term(fields, (*fields.path, key, i), term, n, numbers) for i, term in enumerate(value)]
+def read_terms(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Terms:
+    """The terms behind a key; what is wrong with them is noted."""
+    terms = enumerate(term_list(fields, key))
+    read = [read_term(fields, (*fields.path, key, i), term, n, numbers) for i, term in terms]
     return tuple(term for term in read if term is not None)
 
 
-def _read_term(
+def term_list(fields: ArmFields, key: str) -> list[Any]:
+    """The list behind a key, its items not yet looked at; empty where it is bad."""
+    value = fields.raw(key, required=True)
+    if value is None:
+        return []
+    if not isinstance(value, list) or len(value) > _MOST_TERMS:
+        rule = f"must be a list of at most {_MOST_TERMS} terms"
+        fields.fail(key, rule, f'write {key} = [[2.351, ""], [0.168, "c2"]]')
+        return []
+    return value
+
+
+def read_term(
     fields: ArmFields, path: KeyPath, term: object, n: int, numbers: Collection[str]
 ) -> tuple[Fraction, tuple[tuple[str, int], ...]] | None:
+    """One term, ``None`` where it is bad."""
     if not isinstance(term, list) or len(term) != 2 or not isinstance(term[1], str):
         fields.notes.fail(path, term, "must be a decimal and a text of factors", 'write [0.168, "c2"]')
         return None
@@ -116,7 +125,8 @@ def _broken_rule(text: str, factors: list[re.Match[str] | None], n: int, numbers
     return f"adds up more than {_MOST_ANGLES} angles" if angles > _MOST_ANGLES else ""
 
 
-def _polynomial(terms: Terms, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
+def polynomial(terms: Terms, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> fmpq_mpoly:
+    """The sum of the terms, in normal form."""
     result = trig.constant(ring, 0)
     for coefficient, factors in terms:
         product = trig.constant(ring, coefficient)

@@ -27,6 +27,7 @@ def render(report: RobotReport) -> str:
         "n": model.n,
         "seed": SEED,
         "properties": [_property(row) for row in report.properties],
+        "prints": [_property(row) for row in report.prints],
         "constants": [_constant(constant, model.n) for constant in report.constants],
         "joints": [
             {

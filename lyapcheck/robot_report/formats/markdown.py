@@ -24,6 +24,10 @@ def render(report: RobotReport) -> str:
     ]
     lines = [f"# {headline(report)}", "", "## Properties", ""]
     lines += _table([("property", "verdict", "grade", "statement", "evidence"), *claims])
+    if report.prints:
+        rows = [(row.verdict.value, row.statement, evidence(row)) for row in report.prints]
+        lines += ["", "## As the source prints it", ""]
+        lines += _table([("verdict", "claim", "evidence"), *rows])
     lines += [
         "",
         "## Constants",

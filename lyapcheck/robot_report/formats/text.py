@@ -22,6 +22,10 @@ def render(report: RobotReport) -> str:
     for row in report.properties:
         lines.append(f"  {row.verdict.value:<9}  {row.id}  {row.statement} [{row.finding.grade.label}]")
         lines.append(f"             {evidence(row)}")
+    if report.prints:
+        lines += ["", "As the source prints it", ""]
+        for row in report.prints:
+            lines += [f"  {row.verdict.value:<9}  {row.statement}", f"             {evidence(row)}"]
     lines += ["", "Constants at nominal parameters; for k_c the last numbers are the direction x", ""]
     lines += _table([CONSTANT_HEADS, *map(constant_row, report.constants)])
     lines += ["", "Joints", "", *_table([JOINT_HEADS, *joint_rows(report)]), "", "Numbers", ""]
