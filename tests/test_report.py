@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from PIL import Image
 from typer.testing import CliRunner
 
 from lyapcheck.cli.main import build_app
@@ -19,9 +22,10 @@ from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.figures.bars import epsilon_figure, indices_figure
-from lyapcheck.report.figures.claims import claims_figure, layout, tied
-from lyapcheck.report.figures.motion import errors_figure, torques_figure
+from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
+from lyapcheck.report.figures.claims import claims_plot, layout, tied
+from lyapcheck.report.figures.motion import draw_errors, draw_torques
+from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Report
 from lyapcheck.report.text import bracket, listed, number, span_words, together, witness_words
@@ -38,8 +42,14 @@ def report() -> Report:
 
 
 @pytest.fixture(scope="module")
-def files(report: Report) -> dict[str, str]:
+def everything(report: Report) -> dict[str, str | bytes]:
     return render(report)
+
+
+@pytest.fixture(scope="module")
+def files(everything: dict[str, str | bytes]) -> dict[str, str]:
+    """All of it as text; what is not is known by its name only."""
+    return {name: content if isinstance(content, str) else "" for name, content in everything.items()}
 
 
 class Balance(HTMLParser):
@@ -64,13 +74,37 @@ def test_every_format_is_there(files: dict[str, str]) -> None:
     assert "figures/family.svg" in files
 
 
+def test_every_figure_is_there_in_three_forms(everything: dict[str, str | bytes]) -> None:
+    figures = {Path(name) for name in everything if name.startswith("figures/")}
+    stems = {figure.stem for figure in figures}
+    assert {"family", "claims_m1", "indices", "epsilon", "tau_m1_errors"} <= stems
+    assert {figure.name for figure in figures} == {
+        f"{s}.{form}" for s in stems for form in ("svg", "png", "csv")
+    }
+    for name, content in everything.items():
+        if name.endswith(".png"):
+            assert isinstance(content, bytes)
+            picture = Image.open(BytesIO(content))
+            assert picture.size[0] > 1000
+            assert picture.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
+            assert set(picture.info) <= {"dpi"}
+
+
+def test_the_data_beside_a_figure_are_those_of_the_run(report: Report, files: dict[str, str]) -> None:
+    run = report.runs[0]
+    rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
+    for joint, peak in zip(run["joints"], run["peak_torque"], strict=True):
+        assert max(abs(float(row[f"{joint} [N·m]"])) for row in rows) == pytest.approx(peak, rel=1e-6)
+    assert float(rows[-1]["t [s]"]) == run["time"]
+
+
 def test_pages_are_balanced_and_their_links_lead_somewhere(files: dict[str, str]) -> None:
     for name, page in files.items():
         if name.endswith(".html"):
             reader = Balance()
             reader.feed(page)
             assert reader.open == []
-            assert set(reader.targets) <= set(files)
+            assert {target.partition("#")[0] for target in reader.targets} <= set(files)
             assert "<script" not in page
 
 
@@ -196,13 +230,14 @@ def test_figures_are_the_same_bytes_twice() -> None:
     t = np.linspace(0, 5, 50)
     e = np.stack([np.exp(-t), np.cos(t)], axis=1)
 
-    def draw() -> list[str]:
-        return [
-            errors_figure("a", t, e, ["one", "two"]),
-            torques_figure("a", t, e, ["one", "two"], [1.0, None]),
-            indices_figure(["a", "b"], {"simulated": [1.0, None]}),
-            epsilon_figure(["a"], {"scalar": [0.1], "certified": [None]}),
+    def draw() -> list[dict[str, str | bytes]]:
+        plots = [
+            Plot(draw_errors("a", t, e, ["one", "two"]), ["t"], t[:, None]),
+            Plot(draw_torques("a", t, e, ["one", "two"], [1.0, None]), ["t"], t[:, None]),
+            indices_plot(["a", "b"], {"simulated": [1.0, None]}),
+            epsilon_plot(["a"], {"scalar": [0.1], "certified": [None]}),
         ]
+        return [plot.files("a") for plot in plots]
 
     assert draw() == draw()
 
@@ -229,6 +264,7 @@ BROKEN = [
     (["--m", "1:40"], "at most 20"),
     (["--m", "1", "2", "-3"], "No such option"),
     (["--format", "docx"], "is not a format"),
+    (["--format", "html,pdf"], "print-to-pdf"),
     (["--robot", "nobody"], "nobody"),
     (["--robot", "reyes-kelly2"], "3 joints"),
     (["--gains", "missing.toml"], "missing.toml"),
@@ -247,13 +283,33 @@ def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_pa
 
 def test_claims_stand_right_of_what_they_use() -> None:
     names = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["x"], "e": []}
-    rows = [{"id": name, "uses": uses, "broken": [], "verdict": "proved"} for name, uses in names.items()]
+    rows = [{"id": name, "uses": uses, "broken": []} for name, uses in names.items()]
     chosen = tied(rows)
     places = layout(chosen)
     assert sorted(places) == ["a", "b", "c"]
     assert places["a"][0] < places["b"][0] < places["c"][0]
     assert len(set(places.values())) == 3
-    assert claims_figure(rows) == claims_figure(rows)
+
+
+def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
+    about = {"uses": [], "broken": []}
+    rows = [
+        {"id": "a", "verdict": "proved", "grade": "exact", **about},
+        {"id": "b", "verdict": "proved", "grade": "enclosure", "uses": ["a"], "broken": []},
+        {"id": "c", "verdict": "refuted", "grade": "enclosure", "uses": ["a"], "broken": ["a"]},
+    ]
+    files = claims_plot(rows).files("claims")
+    drawn = str(files["claims.svg"])
+    for word in ("✓ proved", "✗ refuted", "exact", "enclosure", "broken link", "✗ c"):
+        assert word in drawn
+    assert "? undecided" not in drawn
+    assert "numeric" not in drawn
+    assert str(files["claims.csv"]).splitlines()[1:] == [
+        "a,proved,exact,,",
+        "b,proved,enclosure,a,",
+        "c,refuted,enclosure,a,a",
+    ]
+    assert files == claims_plot(rows).files("claims")
 
 
 def test_conclusions_for_several_m_are_one_row_as_long_as_they_agree() -> None:

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from lyapcheck.report.model import Report
 
 _MOST_MEMBERS = 20
+_PRINT = (
+    "write html and print it, its pages are made for paper: "
+    "chromium --headless --print-to-pdf=report.pdf reports/index.html, or print from any browser"
+)
 
 
 def command(
@@ -56,6 +60,8 @@ def _formats(text: str) -> tuple[str, ...]:
 
     wanted = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
     unknown = [part for part in wanted if part not in FORMATS]
+    if "pdf" in unknown:
+        raise argument_error("--format", text, "PDF is not written", _PRINT)
     if unknown:
         known = ", ".join(FORMATS)
         raise argument_error("--format", text, f"{unknown[0]!r} is not a format", f"choose from {known}")

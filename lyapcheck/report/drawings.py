@@ -1,62 +1,94 @@
-"""All figures of a report, by file name."""
+"""All figures of a report, by file name: each as SVG and PNG, with its data as CSV."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
-    from lyapcheck.report.jobs import RunData
+    from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.jobs import GainData
 
 KINDS = ("published", "scalar", "certified", "falsified")
 
 
-def draw(
-    ms: Sequence[int], claims: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[RunData]
-) -> dict[str, str]:
-    """SVG text by file name; a comparison that has nothing to compare is left out."""
+def draw_family(ms: Sequence[int]) -> Files:
+    """The functions h of the members and their derivatives."""
     from lyapcheck.family import hyperbolic
-    from lyapcheck.report.figures.claims import claims_figure
-    from lyapcheck.report.figures.family import family_figure
+    from lyapcheck.report.figures.family import family_plot
 
-    figures = {"family.svg": family_figure([(f"m = {m}", hyperbolic(m)) for m in ms])}
-    for m in ms:
-        figures[f"claims_m{m}.svg"] = claims_figure([row for row in claims if row["m"] in (m, None)])
-    for run in runs:
-        figures |= _of_run(run)
-    return figures | _comparisons(epsilon, [run.facts for run in runs])
+    return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
 
 
-def _of_run(run: RunData) -> dict[str, str]:
-    from lyapcheck.report.figures.lyapunov import lyapunov_figure
-    from lyapcheck.report.figures.motion import errors_figure, torques_figure
+def draw_claims(m: int, claims: Sequence[Data]) -> Files:
+    """What rests on what for one member."""
+    from lyapcheck.report.figures.claims import claims_plot
 
-    facts, name = run.facts, file_stem(run.facts["name"])
+    return claims_plot([row for row in claims if row["m"] in (m, None)]).files(f"claims_m{m}")
+
+
+def draw_set(data: GainData) -> Files:
+    """Errors, torques, V and dV/dt of the simulated run of a gain set."""
+    from lyapcheck.report.figures.lyapunov import draw_lyapunov
+    from lyapcheck.report.figures.motion import draw_errors, draw_torques
+    from lyapcheck.report.figures.plot import Plot
+
+    run = data.run
+    facts, name, joints = run.facts, file_stem(run.facts["name"]), run.facts["joints"]
     label = facts["name"] if facts["m"] is None else f"{facts['name']} (m = {facts['m']})"
+    errors = draw_errors(label, run.t, run.e, joints)
+    torques = draw_torques(label, run.t, run.tau, joints, facts["torque_limit"])
+    falling = draw_lyapunov(label, run.t, run.V, run.dV)
+    e, tau = (["t [s]", *(f"{joint} [{unit}]" for joint in joints)] for unit in ("deg", "N·m"))
     return {
-        f"{name}_errors.svg": errors_figure(label, run.t, run.e, facts["joints"]),
-        f"{name}_torques.svg": torques_figure(label, run.t, run.tau, facts["joints"], facts["torque_limit"]),
-        f"{name}_lyapunov.svg": lyapunov_figure(label, run.t, run.V, run.dV),
+        **Plot(errors, e, np.column_stack([run.t, np.degrees(run.e)])).files(f"{name}_errors"),
+        **Plot(torques, tau, np.column_stack([run.t, run.tau])).files(f"{name}_torques"),
+        **Plot(falling, ["t [s]", "V [J]", "dV/dt [W]"], np.column_stack([run.t, run.V, run.dV])).files(
+            f"{name}_lyapunov"
+        ),
     }
 
 
-def _comparisons(epsilon: Sequence[Data], runs: Sequence[Data]) -> dict[str, str]:
-    from lyapcheck.report.figures.bars import epsilon_figure, indices_figure
+def draw_comparisons(epsilon: Sequence[Data], runs: Sequence[Data], sensitivity: Data | None) -> Files:
+    """Gain sets side by side; a comparison that has nothing to compare is left out."""
+    from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
 
-    figures = {}
+    figures: Files = {}
     if runs:
-        bars = {"simulated": [run["L2"] for run in runs]}
-        printed = [run["printed"]["L2"] if run["printed"] else None for run in runs]
-        if any(value is not None for value in printed):
-            bars["measured in the paper"] = printed
-        figures["indices.svg"] = indices_figure([run["name"] for run in runs], bars)
+        figures |= indices_plot([run["name"] for run in runs], _indices(runs, sensitivity)).files("indices")
     known = [row for row in epsilon if any(row[kind] is not None for kind in KINDS)]
     if known:
         values = {kind: [_float(row[kind]) for row in known] for kind in KINDS}
-        figures["epsilon.svg"] = epsilon_figure([row["name"] for row in known], values)
+        figures |= epsilon_plot([row["name"] for row in known], values).files("epsilon")
     return figures
+
+
+def draw_sensitivity(study: Data | None) -> Files:
+    """The printed numbers beside the spread, and what each assumption does alone; nothing without a study."""
+    from lyapcheck.report.figures.sensitivity import alone_plot, spread_plot
+
+    if study is None:
+        return {}
+    words = {one["name"]: one["words"] for one in study["assumed"]}
+    return {
+        **spread_plot(study["sets"]).files("spread"),
+        **alone_plot(study["sets"], words).files("assumptions"),
+    }
+
+
+def _indices(runs: Sequence[Data], sensitivity: Data | None) -> dict[str, list[float | None]]:
+    """The L2 index of each run by where it is from; a source without any number is left out."""
+    bench = {one["name"]: one["numbers"][0]["nominal"] for one in (sensitivity or {"sets": ()})["sets"]}
+    bars = {
+        "simulation of (11)": [run["L2"] for run in runs],
+        "bench with dry friction": [bench.get(run["name"]) for run in runs],
+        "measured in the paper": [run["printed"]["L2"] if run["printed"] else None for run in runs],
+    }
+    return {source: values for source, values in bars.items() if any(value is not None for value in values)}
 
 
 def file_stem(name: str) -> str:

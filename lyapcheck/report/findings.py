@@ -6,16 +6,22 @@ from collections.abc import Iterator, Sequence
 
 from lyapcheck.report.model import Data, Finding
 from lyapcheck.report.text import witness_words
+from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
 SAME = 0.02
 """A simulated index this close to the printed one, relatively, counts as confirmed."""
 
 
 def findings(
-    claims: Sequence[Data], gate: Sequence[Data], epsilon: Sequence[Data], runs: Sequence[Data]
+    claims: Sequence[Data],
+    gate: Sequence[Data],
+    epsilon: Sequence[Data],
+    runs: Sequence[Data],
+    sensitivity: Data | None = None,
 ) -> tuple[Finding, ...]:
-    """All findings: refuted claims first, then rejected gains, ε₀, and the simulated indices."""
-    return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *_indices(runs))
+    """All findings: refuted claims first, then rejected gains, ε₀, and the experiment."""
+    experiment = _indices(runs) if sensitivity is None else _experiment(sensitivity)
+    return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *experiment)
 
 
 def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
@@ -71,3 +77,24 @@ def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
             )
             ms = () if run["m"] is None else (run["m"],)
             yield Finding(f"index of {run['name']}", ms, text, "differs")
+
+
+def _experiment(study: Data) -> Iterator[Finding]:
+    """What the bench does with the nominal arm, and whether any assumed arm does what is printed."""
+    for one in study["sets"]:
+        ms = () if one["m"] is None else (one["m"],)
+        for number in one["numbers"]:
+            text = _apart(number, study)
+            if text:
+                yield Finding(f"{quantity_words(number)} of {one['name']}", ms, text, "differs")
+    if study["together"] and study["together"]["worst"] > SAME:
+        yield Finding("indices of all gains", (), together_words(study), "differs")
+
+
+def _apart(number: Data, study: Data) -> str:
+    """Empty where the nominal arm is near what is printed, and for torques: these are claims of the paper."""
+    if number["quantity"] == "L2" and abs(number["nominal"] / number["printed"] - 1) > SAME:
+        return f"{beside_words(number)}; {hangs_words(number, study)}; {answer_words(number)}"
+    if number["quantity"] in ("settling", "final_error") and number["answer"] == "no":
+        return f"{beside_words(number)}; {answer_words(number)}"
+    return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -58,6 +59,24 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     row = _epsilon(gain_set, model, seed)
     eps0 = float(row["certified"] or row["scalar"] or 0.0)
     return GainData(row, _run_data(_simulated(gain_set, model, eps0)))
+
+
+def sensitivity_job(sets: Sequence[tuple[str, str]], robot: str, seed: int) -> dict[str, Any] | None:
+    """The printed experiment on arms from all over the ranges of what is assumed; none if nothing is printed.
+
+    Args:
+        sets: (gain file, name of the gain set).
+        robot: the arm.
+        seed: of all random choices.
+    """
+    from lyapcheck.control import read_gain_file
+    from lyapcheck.robots import load
+    from lyapcheck.sensitivity.json import study_json
+    from lyapcheck.sensitivity.study import study
+
+    chosen = [one for path, name in sets for one in read_gain_file(path).gains if one.name == name]
+    found = study(chosen, load(robot), seed=seed)
+    return None if found is None else study_json(found)
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:

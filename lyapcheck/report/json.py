@@ -22,6 +22,7 @@ def render(report: Report) -> dict[str, str]:
         "claims": report.claims,
         "instead": report.instead,
         "runs": report.runs,
+        "sensitivity": report.sensitivity,
         "figures": sorted(report.figures),
         "versions": dict(report.versions),
         "seed": report.seed,

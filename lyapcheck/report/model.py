@@ -42,8 +42,9 @@ class Report:
         claims: decided claims of the paper, one row a claim and m.
         instead: what other proofs conclude, one row a conclusion and m.
         runs: simulated runs, one a gain set, the PD baseline last.
+        sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
         findings: where the paper is not confirmed.
-        figures: SVG text by file name.
+        figures: SVG text, PNG and CSV by file name.
         versions: the software that was used.
         seed: the seed of every random search.
     """
@@ -57,8 +58,9 @@ class Report:
     claims: tuple[Data, ...]
     instead: tuple[Data, ...]
     runs: tuple[Data, ...]
+    sensitivity: Data | None
     findings: tuple[Finding, ...]
-    figures: Mapping[str, str] = field(repr=False)
+    figures: Mapping[str, str | bytes] = field(repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
 
@@ -109,6 +111,12 @@ class MemberView:
     def runs(self) -> tuple[Data, ...]:
         """Runs of the gain sets of this m."""
         return tuple(row for row in self.report.runs if row["m"] == self.m)
+
+    @property
+    def sensitivity(self) -> tuple[Data, ...]:
+        """The printed numbers of the gain sets of this m, beside what the assumed arms do."""
+        sets = self.report.sensitivity["sets"] if self.report.sensitivity else ()
+        return tuple(one for one in sets if one["m"] == self.m)
 
     @property
     def findings(self) -> tuple[Finding, ...]:

@@ -6,7 +6,7 @@ from importlib import resources
 from itertools import groupby
 from typing import Any
 
-from lyapcheck.report import text
+from lyapcheck.report import text, words
 from lyapcheck.report.drawings import file_stem
 
 
@@ -28,7 +28,32 @@ def environment(escape: bool) -> Any:
     env.filters.update(
         listed=text.listed, together=text.together, sections=sections, cell=cell, stem=file_stem
     )
+    env.filters.update(
+        quantity=words.quantity_words,
+        printed=words.printed_words,
+        value=words.value_words,
+        answer=words.answer_cell,
+        tally_words=words.tally_words,
+        leading=words.leading,
+        span=words.span,
+        together_words=words.together_words,
+        at_once=words.at_once_words,
+        figure_gains=words.figure_gains_words,
+        arm=words.arm_words,
+        form=form,
+        capitalised=capitalised,
+    )
     return env
+
+
+def form(name: str, suffix: str) -> str:
+    """The same figure in another form: ``a.svg`` as ``a.png``."""
+    return f"{name.rsplit('.', 1)[0]}.{suffix}"
+
+
+def capitalised(sentence: str) -> str:
+    """A sentence with a large first letter, and nothing else changed."""
+    return sentence[:1].upper() + sentence[1:]
 
 
 def sections(claims: Any) -> list[tuple[str, list[Any]]]:

@@ -16,9 +16,9 @@ FORMATS = ("html", "md", "json")
 _MODULES = {"html": "html", "md": "markdown", "json": "json"}
 
 
-def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str]:
+def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str | bytes]:
     """Every file of a report by its name; figures are shared by the formats that show them."""
-    files: dict[str, str] = {}
+    files: dict[str, str | bytes] = {}
     for name in formats:
         files |= import_module(f"lyapcheck.report.{_MODULES[name]}").render(report)
     if set(formats) & {"html", "md"}:
@@ -43,7 +43,7 @@ def require_folder(option: str, folder: Path) -> None:
         raise argument_error(option, folder, rule, "name a folder elsewhere") from error
 
 
-def write(files: Mapping[str, str], folder: Path) -> None:
+def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     """Put all files into a folder; what stands there already under other names stays.
 
     All files are written to a new folder first, so that a full disk leaves the old report whole.
@@ -55,8 +55,8 @@ def write(files: Mapping[str, str], folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
-        for name, text in files.items():
-            _put(staged / name, text)
+        for name, content in files.items():
+            _put(staged / name, content)
         for name in files:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             os.replace(staged / name, folder / name)
@@ -68,7 +68,6 @@ def write(files: Mapping[str, str], folder: Path) -> None:
             shutil.rmtree(staged, ignore_errors=True)
 
 
-def _put(path: Path, text: str) -> None:
+def _put(path: Path, content: str | bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", encoding="utf-8", newline="") as stream:
-        stream.write(text)
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())

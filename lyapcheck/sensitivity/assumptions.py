@@ -31,8 +31,8 @@ class Assumption:
     @property
     def words(self) -> str:
         """The name as it stands in a sentence: ``base viscous friction``."""
-        words = self.name.replace("_", " ")
-        return f"{words} friction" if words.endswith(("viscous", "coulomb")) else words
+        words = self.name.replace("_", " ").replace("coulomb", "Coulomb")
+        return f"{words} friction" if words.endswith(("viscous", "Coulomb")) else words
 
     def share(self, value: float) -> float:
         """Where a value lies in the range: 0 at its low end, 1 at its high end."""

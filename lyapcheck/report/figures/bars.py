@@ -4,36 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lyapcheck.report.figures.style import COLOURS, panels, styled, svg
+from lyapcheck.report.figures.plot import Plot
+from lyapcheck.report.figures.style import COLOURS, panels, styled
 
 MARKERS = ("o", "s", "D", "X")
+HATCHES = ("", "///", "\\\\\\")
+"""One for each source, for grey prints."""
 
 
-def indices_figure(names: Sequence[str], bars: Mapping[str, Sequence[float | None]]) -> str:
+def indices_plot(names: Sequence[str], bars: Mapping[str, Sequence[float | None]]) -> Plot:
     """The L2 index in degrees of each gain set, one bar a source (simulated, printed).
 
     References: (20) and Fig. 11 of reyes2019family.
     """
     with styled():
-        figure, axes = panels(1, 1, height=2.8)
+        figure, axes = panels(1, 1, height=2.9)
         axis, width = axes[0, 0], 0.8 / len(bars)
         for index, (source, values) in enumerate(bars.items()):
             places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
             drawn = axis.bar(
-                places, [value or 0.0 for value in values], width, label=source, color=COLOURS[index]
+                places,
+                [value or 0.0 for value in values],
+                width,
+                label=source,
+                color=COLOURS[index],
+                hatch=HATCHES[index % len(HATCHES)],
+                edgecolor="white",
             )
-            axis.bar_label(
-                drawn, ["" if value is None else f"{value:.2f}" for value in values], fontsize=8, padding=2
-            )
+            texts = ["" if value is None else f"{value:.1f}" for value in values]
+            axis.bar_label(drawn, texts, fontsize=8, padding=2)
         axis.set_xticks(range(len(names)), names)
         axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
         axis.grid(axis="x", visible=False)
         axis.margins(y=0.15)
-        axis.legend(ncols=len(bars), loc="upper right", bbox_to_anchor=(1.0, 1.16))
-        return svg(figure)
+        figure.legend(ncols=len(bars), loc="outside lower center")
+    rows = ([name, *(bars[source][i] for source in bars)] for i, name in enumerate(names))
+    return Plot(figure, ["gains", *(f"{source} [deg]" for source in bars)], list(rows))
 
 
-def epsilon_figure(names: Sequence[str], epsilons: Mapping[str, Sequence[float | None]]) -> str:
+def epsilon_plot(names: Sequence[str], epsilons: Mapping[str, Sequence[float | None]]) -> Plot:
     """The four ε₀ of each gain set on one logarithmic axis; an ε₀ that does not exist has no mark."""
     with styled():
         figure, axes = panels(1, 1, height=0.8 + 0.45 * len(names))
@@ -49,6 +58,7 @@ def epsilon_figure(names: Sequence[str], epsilons: Mapping[str, Sequence[float |
         axis.set_yticks(range(len(names)), names)
         axis.invert_yaxis()
         axis.margins(y=0.3)
-        axis.set(xlabel="ε₀", title="ε₀: what is published, proved and refuted")
-        axis.legend(ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.35))
-        return svg(figure)
+        axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")
+        figure.legend(ncols=4, loc="outside lower center")
+    rows = ([name, *(epsilons[kind][i] for kind in epsilons)] for i, name in enumerate(names))
+    return Plot(figure, ["gains", *(f"{kind} [1/s]" for kind in epsilons)], list(rows))

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
-from lyapcheck.report.figures.style import panels, styled, svg
+from lyapcheck.report.figures.plot import Plot
+from lyapcheck.report.figures.style import panels, styled
 from lyapcheck.report.model import Data
 from lyapcheck.report.text import SYMBOLS
 
 FILL = {"proved": "#d6efe5", "refuted": "#fbdccb", "undecided": "#e3def2", "error": "#f6cdd5"}
 EDGE = {"proved": "#00664a", "refuted": "#a33a00", "undecided": "#5d4a8a", "error": "#8a0f2c"}
+FRAME = {"exact": "-", "enclosure": (0, (4, 2))}
+"""The frame of a claim that is decided: solid where nothing was rounded, dashed where balls enclose."""
+OTHER_FRAME = ":"
 Place = tuple[float, float]
 REACH = 0.2
 """From the middle of a box to where its arrows begin and end, in columns."""
 
 
-def claims_figure(rows: Sequence[Data]) -> str:
-    """Each claim that uses another or is used, right of all it uses; an arrow that breaks is drawn solid.
+def claims_plot(rows: Sequence[Data]) -> Plot:
+    """Each claim that uses another or is used, right of all it uses; colour and sign say the verdict, frames
+    the grade, and a thick arrow is a link that breaks.
 
     Args:
         rows: the claims of one proof for one m, with ``id``, ``uses``, ``broken``, ``verdict`` and ``grade``.
@@ -25,7 +31,7 @@ def claims_figure(rows: Sequence[Data]) -> str:
     places = layout(chosen)
     tallest = max((y for _, y in places.values()), default=0.0) + 1
     with styled():
-        figure, axes = panels(1, 1, width=7.6, height=0.8 + 0.27 * tallest)
+        figure, axes = panels(1, 1, width=7.6, height=1.2 + 0.27 * tallest)
         axis = axes[0, 0]
         axis.set_axis_off()
         for row in chosen:
@@ -35,7 +41,8 @@ def claims_figure(rows: Sequence[Data]) -> str:
             _box(axis, places[row["id"]], row)
         deepest = max((x for x, _ in places.values()), default=0.0)
         axis.set(xlim=(-0.45, deepest + 0.45), ylim=(tallest - 0.4, -0.6))
-        return svg(figure)
+        _legend(figure, chosen)
+    return Plot(figure, ["claim", "verdict", "grade", "uses", "broken"], [_row(row) for row in chosen])
 
 
 def tied(rows: Sequence[Data]) -> list[Data]:
@@ -88,7 +95,37 @@ def _arrow(axis: object, start: Place, end: Place, broken: bool) -> None:
 
 def _box(axis: object, place: Place, row: Data) -> None:
     verdict = row["verdict"]
-    style = {"boxstyle": "round,pad=0.25", "facecolor": FILL[verdict], "edgecolor": EDGE[verdict]}
+    style = {
+        "boxstyle": "round,pad=0.25",
+        "facecolor": FILL[verdict],
+        "edgecolor": EDGE[verdict],
+        "linestyle": FRAME.get(row["grade"], OTHER_FRAME),
+    }
     axis.text(  # type: ignore[attr-defined]
         *place, f"{SYMBOLS[verdict]} {row['id']}", ha="center", va="center", fontsize=8, bbox=style
     )
+
+
+def _legend(figure: Any, rows: Sequence[Data]) -> None:
+    """What colours, frames and thick arrows mean; only what is there."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    verdicts = [name for name in FILL if any(row["verdict"] == name for row in rows)]
+    grades = [name for name in (*FRAME, "numeric") if any(row["grade"] == name for row in rows)]
+    handles: list[Any] = [
+        Patch(facecolor=FILL[name], edgecolor=EDGE[name], label=f"{SYMBOLS[name]} {name}")
+        for name in verdicts
+    ]
+    handles += [
+        Patch(facecolor="white", edgecolor="#333333", linestyle=FRAME.get(name, OTHER_FRAME), label=name)
+        for name in grades
+    ]
+    if any(row["broken"] for row in rows):
+        handles.append(Line2D([], [], color=EDGE["refuted"], linewidth=1.3, label="broken link"))
+    if handles:
+        figure.legend(handles=handles, ncols=len(handles), loc="outside lower center", fontsize=8)
+
+
+def _row(row: Data) -> list[str]:
+    return [row["id"], row["verdict"], row["grade"] or "", " ".join(row["uses"]), " ".join(row["broken"])]

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from io import BytesIO
 from typing import Any
 
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.family.asymptotes import asymptotes, limits
 from lyapcheck.family.table import Table
-from lyapcheck.report.figures.style import COLOURS, panels, styled, svg
+from lyapcheck.report.figures.style import COLOURS, panels, png, styled, svg
 
-DOTS_PER_INCH = 200
 MOST_MARKERS = 40
 """With more members than these the points would run together: a line instead."""
 MOST_LINEAR = 20
@@ -24,11 +22,8 @@ def constants_svg(table: Table) -> str:
 
 
 def constants_png(table: Table) -> bytes:
-    """The figure as a PNG file; no date and no version in it, so that equal data give equal bytes."""
-    found = BytesIO()
-    with styled():
-        _figure(table).savefig(found, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
-    return found.getvalue()
+    """The figure as a PNG file."""
+    return png(_figure(table))
 
 
 def _figure(table: Table) -> Any:

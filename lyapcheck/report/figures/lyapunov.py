@@ -7,21 +7,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.report.figures.style import COLOURS, panels, styled, svg
+from lyapcheck.report.figures.style import COLOURS, panels, styled
 
 Array = NDArray[np.float64]
 
 
-def lyapunov_figure(title: str, t: Array, V: Array, dV: Array) -> str:
+def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None = None) -> Any:
     """V in J and −dV/dt in W over time on logarithmic axes; a rising V shows as a gap in the right panel.
+
+    ``bound`` (N,) in W is what dV/dt must stay below.
 
     References: (12) and (15) of reyes2019family.
     """
-    return svg(draw_lyapunov(title, t, V, dV))
-
-
-def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None = None) -> Any:
-    """The figure itself; ``bound`` (N,) in W is what dV/dt must stay below."""
     with styled():
         figure, axes = panels(1, 2, height=2.6)
         axes[0, 0].semilogy(t, _positive(V), color=COLOURS[0])

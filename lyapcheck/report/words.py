@@ -1,0 +1,174 @@
+"""The sensitivity study in words, for findings and documents."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from lyapcheck.report.model import Data
+
+NARROW = "\u00a0"
+"""A space at which no line ends."""
+
+QUANTITIES = {
+    "L2": "L2 index",
+    "settling": "settling time",
+    "final_error": "error after 5 s",
+    "start_torque": f"torque at t{NARROW}={NARROW}0",
+}
+BAND = "settling_band"
+LEAST_SHARE = 0.1
+"""An assumption that accounts for less of the variance than this is not what a number hangs on."""
+
+
+def quantity_words(number: Data) -> str:
+    """``settling time (elbow)``."""
+    joint = f" ({number['joint']})" if number["joint"] else ""
+    return QUANTITIES[number["quantity"]] + joint
+
+
+def value_words(value: float | None, unit: str) -> str:
+    """A value with its unit; never settled where there is none."""
+    if value is None:
+        return "not settled"
+    return f"{_short(value)}{'°' if unit == '°' else ' ' + unit}"
+
+
+def printed_words(number: Data) -> str:
+    """``25.4006°``, ``below 1.4 s``."""
+    bound = "below " if number["at_most"] else ""
+    return f"{bound}{number['printed']:g}{'°' if number['unit'] == '°' else ' ' + number['unit']}"
+
+
+def beside_words(number: Data) -> str:
+    """The nominal arm beside the print."""
+    nominal, printed = number["nominal"], number["printed"]
+    found = f"{value_words(nominal, number['unit'])} on the bench with the nominal arm"
+    if nominal is None:
+        found = "not settled within the run with the nominal arm"
+    apart = f" ({percent(nominal / printed - 1)})" if number["quantity"] == "L2" and nominal else ""
+    return f"{found}, {printed_words(number)} in the paper{apart}"
+
+
+def answer_words(number: Data) -> str:
+    """Whether any arm in range explains the printed number."""
+    unit, answer = number["unit"], number["answer"]
+    nearest = value_words(number["nearest"], unit)
+    if answer == "yes":
+        return "some arm in range does it"
+    if answer == "no part":
+        return f"no assumption has a part in it: {nearest} for every arm"
+    if answer == "jumps":
+        return f"arms in range do more and less, none does it: nearest {nearest}"
+    if number["nearest"] is None:
+        return f"no arm in range among {number['runs']} settles"
+    return f"no arm in range among {number['runs']} does it: nearest {nearest}"
+
+
+def answer_cell(number: Data) -> str:
+    """The same in a cell of a table."""
+    nearest = value_words(number["nearest"], number["unit"])
+    cells = {
+        "yes": "yes",
+        "no part": "no part in it",
+        "jumps": f"jumps over it: nearest {nearest}",
+        "no": f"no: nearest {nearest}",
+    }
+    return cells[number["answer"]]
+
+
+def tally_words(study: Data) -> str:
+    """How many printed numbers some arm in range explains, each by itself."""
+    numbers = [number for one in study["sets"] for number in one["numbers"]]
+    free = [number for number in numbers if number["answer"] != "no part"]
+    parts = [f"{sum(number['answer'] == 'yes' for number in free)} are what some arm in range does"]
+    for answer, words in (("jumps", "the arms jump past"), ("no", "no arm seen does")):
+        count = sum(number["answer"] == answer for number in free)
+        parts += [f"{count} {words}"] if count else []
+    rest = len(numbers) - len(free)
+    fixed = f"; on {rest} the arm has no influence at all" if rest else ""
+    return f"of {len(free)} printed numbers that depend on the arm, each by itself, {', '.join(parts)}{fixed}"
+
+
+def hangs_words(number: Data, study: Data) -> str:
+    """Which assumptions a number hangs on, by their share of the variance."""
+    found = leading(number, study)
+    return f"it hangs on {found}" if found else "it hangs on no assumption by itself"
+
+
+def leading(number: Data, study: Data, most: int = 2) -> str:
+    """The assumptions with the largest shares, ``elbow viscous friction 45 %``."""
+    shares: Mapping[str, float] = number["shares"] or {}
+    words = {one["name"]: one["words"] for one in study["assumed"]}
+    first = sorted(shares, key=lambda name: -shares[name])[:most]
+    large = [name for name in first if shares[name] >= LEAST_SHARE]
+    return ", ".join(f"{words[name]} {percent(shares[name], '')}" for name in large)
+
+
+def together_words(study: Data) -> str:
+    """One arm for all gain sets at once."""
+    found = study["together"]
+    indices = ", ".join(f"{_short(value)}°" for value in found["values"])
+    printed = ", ".join(f"{_short(one['numbers'][0]['printed'])}°" for one in study["sets"])
+    ordered = f"{percent(found['ordered'], '')} of them put" if found["ordered"] else "none of them puts"
+    return (
+        f"the L2 indices of all gain sets at one arm: the nearest of {found['arms']} arms in range has "
+        f"{indices} for {printed}, up to {percent(found['worst'], '')} away; "
+        f"{ordered} the gain sets in the printed order"
+    )
+
+
+def at_once_words(one: Data) -> str:
+    """L2 index and settling times of one gain set at one arm."""
+    found = one["at_once"]
+    goals = [number for number in one["numbers"] if number["quantity"] in ("L2", "settling")]
+    values = [value_words(value, goal["unit"]) for goal, value in zip(goals, found["values"], strict=True)]
+    printed = [printed_words(goal) for goal in goals]
+    return (
+        f"L2 index and settling times at one arm: the nearest of {found['arms']} has {', '.join(values)} "
+        f"for {', '.join(printed)}; the worst is {percent(found['worst'], '')} away"
+    )
+
+
+def figure_gains_words(one: Data) -> str:
+    """What the gains do with which the paper's figure starts."""
+    gains = ", ".join(f"{kp:.4g}" for kp in one["figure_gains"]["kp"])
+    source = next(number["source"] for number in one["numbers"] if number["quantity"] == "start_torque")
+    L2 = _short(one["figure_gains"]["L2"])
+    return (
+        f"{source} starts as with k_p = ({gains}); with these gains the nominal arm has an L2 index of {L2}°"
+    )
+
+
+def arm_words(at: Mapping[str, float] | None, study: Data) -> str:
+    """An arm by its assumed numbers, without the band of settling times, which is none of its own."""
+    if at is None:
+        return ""
+    known = {one["name"]: one for one in study["assumed"]}
+    numbers = (
+        f"{known[name]['words']} {value:.3g} {known[name]['unit']}"
+        for name, value in at.items()
+        if name != BAND
+    )
+    return ", ".join(number.rstrip() for number in numbers)
+
+
+def span(ends: Any, unit: str = "") -> str:
+    """Two ends of a range; open where a joint does not settle."""
+    low, high = ends
+    if low is None:
+        return "not settled"
+    if low == high:
+        return f"{_short(low)}{unit}"
+    return f"{_short(low)} to {'not settled' if high is None else _short(high)}{unit}"
+
+
+def percent(share: float, sign: str = "+") -> str:
+    """A share in per cent."""
+    return f"{100 * share:{sign}.0f}{NARROW}%"
+
+
+def _short(value: float) -> str:
+    """Four significant digits, no negative zero, and at most three decimals."""
+    text = f"{value:.4g}" if abs(value) >= 1 else f"{value:.3f}"
+    return text.removeprefix("-") if float(text) == 0 else text
