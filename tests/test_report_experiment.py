@@ -1,0 +1,175 @@
+"""The report on the printed experiment: what it says follows from the study, and nothing is said by heart."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from copy import deepcopy
+from io import StringIO
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
+from lyapcheck.report.findings import findings
+from lyapcheck.report.jobs import sensitivity_job
+from lyapcheck.report.model import Report
+from lyapcheck.report.words import (
+    answer_cell,
+    answer_words,
+    leading,
+    span,
+    tally_words,
+    together_words,
+    value_words,
+)
+from lyapcheck.report.write import render
+from lyapcheck.robots import load
+from lyapcheck.sensitivity.json import study_json
+from lyapcheck.sensitivity.study import study
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[str, Any]:
+    """A small study of m = 1 and PD, as it stands in a report."""
+    sets = [read_gain_file(paper_gain_file(name)).gains[0] for name in ("table2", "table2_pd")]
+    small = study(sets, load("buap3"), spread=32, corners=16, seed=1)
+    assert small is not None
+    document: dict[str, Any] = json.loads(json.dumps(study_json(small), allow_nan=False))
+    return document
+
+
+@pytest.fixture(scope="module")
+def files(found: dict[str, Any]) -> dict[str, str | bytes]:
+    robot = {"name": "buap3", "title": "the arm", "joints": [], "numbers": [], "assumptions": []}
+    empty: dict[str, Any] = dict.fromkeys(
+        ("table", "gate", "epsilon", "claims", "instead", "runs", "findings"), ()
+    )
+    found_out = findings((), (), (), (), found)
+    report = Report(
+        robot=robot,
+        ms=(1,),
+        equations={},
+        sensitivity=found,
+        figures=draw_sensitivity(found),
+        **(empty | {"findings": found_out}),
+    )
+    return render(report)
+
+
+def number(**changed: Any) -> dict[str, Any]:
+    plain = {"quantity": "settling", "joint": "base", "unit": "s", "printed": 1.0, "at_most": False}
+    return {**plain, "nearest": 1.2, "answer": "no", "runs": 10, "nominal": None, "shares": None} | changed
+
+
+def test_the_pages_show_every_printed_number(found: dict[str, Any], files: dict[str, str | bytes]) -> None:
+    m1, pd = found["sets"]
+    for page, one in (("m1", m1), ("index", pd)):
+        rows = re.findall(r"<tr><td class=\"id\">.*?</tr>", str(files[f"{page}.html"]), re.DOTALL)
+        text = " ".join(rows)
+        assert all(f">{_shown(entry)}<" in text for entry in one["numbers"])
+    assert str(files["m1.md"]).count("| tau_m1 |") == len(m1["numbers"])
+
+
+def _shown(entry: dict[str, Any]) -> str:
+    unit = "°" if entry["unit"] == "°" else f" {entry['unit']}"
+    return f"{'below ' if entry['at_most'] else ''}{entry['printed']:g}{unit}"
+
+
+def test_json_carries_the_study(found: dict[str, Any], files: dict[str, str | bytes]) -> None:
+    assert json.loads(str(files["report.json"]))["sensitivity"] == found
+
+
+def test_figures_draw_what_the_data_beside_them_say(
+    found: dict[str, Any], files: dict[str, str | bytes]
+) -> None:
+    for stem in ("spread", "assumptions"):
+        ElementTree.fromstring(str(files[f"figures/{stem}.svg"]))
+        assert f"figures/{stem}.csv" in str(files["index.html"])
+    rows = list(csv.DictReader(StringIO(str(files["figures/spread.csv"]))))
+    assert len(rows) == sum(len(one["numbers"]) for one in found["sets"])
+    index = found["sets"][0]["numbers"][0]
+    assert float(rows[0]["printed"]) == index["printed"] == 25.4006
+    assert float(rows[0]["least seen"]) == pytest.approx(index["low"])
+    unsettled = [row for row in rows if row["quantity"] == "settling" and row["nominal"] == ""]
+    assert unsettled
+    assert draw_sensitivity(found) == draw_sensitivity(found)
+    assert draw_sensitivity(None) == {}
+
+
+def test_indices_stand_beside_the_bench(found: dict[str, Any]) -> None:
+    runs = [
+        {"name": "tau_m1", "L2": 31.0, "printed": {"L2": 25.4}},
+        {"name": "other", "L2": 9.0, "printed": None},
+    ]
+    rows = list(csv.reader(StringIO(str(draw_comparisons((), runs, found)["indices.csv"]))))
+    assert rows[0] == [
+        "gains", "simulation of (11) [deg]", "bench with dry friction [deg]", "measured in the paper [deg]"
+    ]  # fmt: skip
+    assert rows[1][:2] == ["tau_m1", "31"]
+    assert float(rows[1][2]) == pytest.approx(found["sets"][0]["numbers"][0]["nominal"], rel=1e-5)
+    assert rows[2] == ["other", "9", "", ""]
+
+
+def test_findings_follow_the_answers(found: dict[str, Any]) -> None:
+    subjects = [item.subject for item in findings((), (), (), (), found)]
+    assert subjects[0] == "L2 index of tau_m1"
+    assert "indices of all gains" in subjects
+    changed = deepcopy(found)
+    for one in changed["sets"]:
+        for entry in one["numbers"]:
+            entry.update(answer="yes", nominal=entry["printed"])
+    changed["together"].update(worst=0.0)
+    assert findings((), (), (), (), changed) == ()
+
+
+@pytest.mark.parametrize(
+    ("changed", "cell", "sentence"),
+    [
+        ({"answer": "yes"}, "yes", "some arm in range does it"),
+        ({"answer": "no"}, "no: nearest 1.2 s", "no arm in range among 10 does it: nearest 1.2 s"),
+        ({"answer": "no", "nearest": None}, "no: nearest not settled", "no arm in range among 10 settles"),
+        ({"answer": "jumps"}, "jumps over it: nearest 1.2 s", "arms in range do more and less"),
+        ({"answer": "no part"}, "no part in it", "no assumption has a part in it: 1.2 s for every arm"),
+    ],
+)
+def test_answers_in_words(changed: dict[str, Any], cell: str, sentence: str) -> None:
+    assert answer_cell(number(**changed)) == cell
+    assert answer_words(number(**changed)).startswith(sentence)
+
+
+def test_small_shares_are_not_what_a_number_hangs_on() -> None:
+    about = {"assumed": [{"name": name, "words": name} for name in ("a", "b", "c")]}
+    assert leading(number(shares={"a": 0.05, "b": 0.6, "c": 0.2}), about) == "b 60\u00a0%, c 20\u00a0%"
+    assert leading(number(shares={"a": 0.05, "b": 0.06, "c": 0.0}), about) == ""
+    assert leading(number(), about) == ""
+
+
+def test_ranges_and_values_in_words() -> None:
+    assert span((1.0, None)) == "1 to not settled"
+    assert span((None, None)) == "not settled"
+    assert span((36.0, 36.0)) == "36"
+    assert value_words(-0.0001, "°") == "0.000°"
+    assert value_words(None, "s") == "not settled"
+
+
+def test_counts_are_counted(found: dict[str, Any]) -> None:
+    entries = [entry for one in found["sets"] for entry in one["numbers"]]
+    yes = sum(entry["answer"] == "yes" for entry in entries)
+    assert f"{yes} are what some arm in range does" in tally_words(found)
+    assert "on 6 the arm has no influence" in tally_words(found)
+    assert "none of them puts" in together_words(found)
+    ordered = replace_together(found, ordered=0.25)
+    assert "25\u00a0% of them put the gain sets" in together_words(ordered)
+
+
+def replace_together(found: dict[str, Any], **changed: Any) -> dict[str, Any]:
+    return {**found, "together": {**found["together"], **changed}}
+
+
+def test_an_arm_that_the_paper_did_not_run_has_no_such_part() -> None:
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    assert sensitivity_job([(file.path, file.gains[0].name)], "reyes-kelly2", 1) is None
