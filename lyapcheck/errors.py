@@ -35,6 +35,10 @@ class InputError(Exception):
         )
         super().__init__("\n".join(map(str, self.problems)))
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[list[Problem]]]:
+        """Its problems, not its text: so it comes back whole from another process."""
+        return InputError, (self.problems,)
+
 
 def argument_error(name: str, value: object, rule: str, repair: str) -> InputError:
     """The error for a single bad argument of a command or a function."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import pickle
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -19,7 +20,7 @@ from typer.testing import CliRunner
 
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
-from lyapcheck.errors import InputError
+from lyapcheck.errors import InputError, argument_error
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
@@ -256,6 +257,14 @@ def test_a_folder_that_is_a_file_is_refused_before_any_work(tmp_path: Path) -> N
     with pytest.raises(InputError, match="is a file"):
         require_folder("--out", tmp_path / "out")
     require_folder("--out", tmp_path / "new" / "deep")
+
+
+def test_a_refusal_in_another_process_comes_back_whole() -> None:
+    refused = argument_error("--robot", "x", "is wrong", "mend it")
+    again = pickle.loads(pickle.dumps(refused))
+    assert isinstance(again, InputError)
+    assert again.problems == refused.problems
+    assert str(again) == str(refused)
 
 
 BROKEN = [
