@@ -49,7 +49,9 @@ class Threshold:
         """A bracket that tells decimals of so many places apart."""
         bits = FIRST_BITS + 4 * (places - places % 16)
         if bits not in self._near:
-            self._near[bits] = self.within(bits)
+            found = self.within(bits)
+            wide = ((found.high - found.low) * 10**places // found.den).bit_length()
+            self._near[bits] = self.within(bits + wide + 4) if wide else found
         return self._near[bits]
 
     def apart(self, value: Fraction, places: int = 0) -> Bracket:

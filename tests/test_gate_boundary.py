@@ -1,0 +1,160 @@
+"""Exactly at the border, through the file and the command: never wrong because of rounding."""
+
+from __future__ import annotations
+
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from math import isqrt
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from lyapcheck.control import GateResult, gate, read_gain_file
+from lyapcheck.control.bracket import Bracket
+from lyapcheck.control.conditions import Check
+from lyapcheck.control.peak import gamma_between
+from lyapcheck.control.plain import read_plain
+
+SETTINGS = settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+@st.composite
+def decimals(draw: st.DrawFn, most: int = 30) -> str:
+    """A positive decimal of up to so many digits."""
+    places = draw(st.integers(0, most - 1))
+    digits = draw(st.integers(1, 10 ** draw(st.integers(places + 1 if places else 1, most)) - 1))
+    whole, rest = divmod(digits, 10**places)
+    return f"{whole}.{rest:0{places}d}" if places else str(whole)
+
+
+def judged(path: Path, top: str, kp: list[str], kv: list[str], bounds: str) -> GateResult:
+    path.write_text(
+        f'[[gains]]\nname = "a"\n{top}\nkp = [{", ".join(kp)}]\nkv = [{", ".join(kv)}]\n[bounds]\n{bounds}\n'
+    )
+    (result,) = gate(read_gain_file(path))
+    return result
+
+
+def arm(friction: str, torque: list[str], gravity: list[str]) -> str:
+    lists = f"torque = [{', '.join(torque)}]\ngravity = [{', '.join(gravity)}]"
+    return f"viscous_min = {friction}\n{lists}"
+
+
+def of(result: GateResult, name: str, joint: int = 0) -> Check:
+    return next(check for check in result.checks if (check.id, check.joint) == (name, joint))
+
+
+def one_unit_more(text: str) -> str:
+    """The decimal one unit larger in its last place."""
+    with localcontext() as context:
+        context.prec = 200
+        value = Decimal(text)
+        return format(value + Decimal(1).scaleb(int(value.as_tuple().exponent)), "f")
+
+
+@SETTINGS
+@given(st.integers(1, 60), st.integers(1, 4), decimals(), decimals())
+def test_the_largest_k_v_passes_and_one_unit_more_does_not(
+    tmp_path: Path, m: int, n: int, friction: str, written: str
+) -> None:
+    """(19), whatever digits were written: what the message proposes is accepted, and nothing larger is."""
+    bounds, kp = arm(friction, ["9e90"] * n, ["0"] * n), ["1"] * n
+
+    def check(kv: str) -> Check:
+        return of(judged(tmp_path / "g.toml", f"m = {m}", kp, [kv] * n, bounds), "19")
+
+    first = check(written)
+    largest = first.largest_admissible
+    assert largest is not None  # the friction is positive: some digits suffice
+    assert largest.places >= len(written.partition(".")[2])
+    assert check(largest.text).verdict == "accepted"
+    above = check(one_unit_more(largest.text))
+    assert above.verdict == "rejected"
+    assert first.verdict == ("accepted" if Fraction(written) <= largest else "rejected")
+    # and by γ itself, in balls of the paper's definition through an independent square
+    low, high = gamma_between(m, 600)
+    for found, sign in ((check(largest.text), 1), (above, -1)):
+        assert found.value is not None
+        square = n * found.value**2
+        assert (
+            sign * (Fraction(friction) ** 2 - square * Fraction(low if sign < 0 else high, 2**600) ** 2) >= 0
+        )
+
+
+@SETTINGS
+@given(st.integers(2, 60), decimals(20), decimals(20), decimals(20))
+def test_the_largest_k_p_passes_and_one_unit_more_does_not(
+    tmp_path: Path, m: int, torque: str, kp: str, kv: str
+) -> None:
+    """(10p): k_p as large as the message says beside the k_v that was written."""
+    bounds = arm("9e90", [torque], ["0"])
+    largest = of(judged(tmp_path / "g.toml", f"m = {m}", [kp], [kv], bounds), "10p").largest_admissible
+    if largest is None or largest <= Fraction(kv):
+        return
+    places = largest.places
+    room = (largest - Fraction(kv)) * 10**places
+    if room.denominator != 1:  # k_v has more digits than the answer
+        return
+    for units, verdict in ((room, "accepted"), (room + 1, "rejected")):
+        text = format(Decimal(int(units)).scaleb(-places), "f")
+        assert of(judged(tmp_path / "g.toml", f"m = {m}", [text], [kv], bounds), "10p").verdict == verdict
+
+
+@SETTINGS
+@given(st.sampled_from([1, 4]), decimals(), st.sampled_from(["m = 1", 'family = "tanh"']))
+def test_equality_is_rejected_by_19_and_10p(tmp_path: Path, n: int, limit: str, top: str) -> None:
+    """γ = 1 and √n whole: the border is a decimal, and (19) and (10p) are strict."""
+    border = Fraction(limit)
+    budget = format(Decimal(limit) * isqrt(n), "f")
+    result = judged(tmp_path / "g.toml", top, ["1"] * n, [limit] * n, arm(budget, ["9e90"] * n, ["0"] * n))
+    check = of(result, "19")
+    assert (check.verdict, check.margin, check.limit) == ("rejected", 0, Bracket.exact(border))
+    assert check.largest_admissible is not None
+    assert check.largest_admissible < border
+    if "." in limit:
+        half = format(Decimal(limit) / 2, "f")
+        result = judged(
+            tmp_path / "g.toml", top, [half] * n, [half] * n, arm("9e90", [budget] * n, ["0"] * n)
+        )
+        assert (of(result, "10p").verdict, of(result, "10p").margin) == ("rejected", 0)
+
+
+def test_equality_with_an_irrational_gamma_is_accepted_by_10(tmp_path: Path) -> None:
+    """(‖τ‖ − k_g)/(√n γ) with ‖τ‖ = 2γ_2 is out of reach of decimals; with m = 1 and n = 1 it is not."""
+    for kp, verdict in (("1.5", "accepted"), ("1.500000000000000000000000000001", "rejected")):
+        result = judged(tmp_path / "g.toml", "m = 1", [kp], ["0.5"], arm("9", ["3"], ["1"]))
+        (check,) = [check for check in result.checks if check.id == "10"]
+        assert check.verdict == verdict
+
+
+@pytest.mark.parametrize("digits", [10, 100, 300])
+@pytest.mark.parametrize("m", [2, 3, 17])
+def test_a_gain_that_agrees_with_the_limit_to_hundreds_of_digits(tmp_path: Path, m: int, digits: int) -> None:
+    """k_v is 1/γ_m cut off after so many digits, or one unit above: only a finer bracket tells them apart."""
+    low, high = gamma_between(m, 2000)
+    below = 2**2000 * 10**digits // high
+    assert below == 2**2000 * 10**digits // low
+    for units, verdict in ((below, "accepted"), (below + 1, "rejected")):
+        kv = f"0.{units:0{digits}d}"
+        check = of(judged(tmp_path / "g.toml", f"m = {m}", ["1"], [kv], arm("1", ["9"], ["0"])), "19")
+        assert check.verdict == verdict
+        assert check.largest_admissible == Fraction(below, 10**digits)
+
+
+def test_gamma_is_computed_once_for_each_member(tmp_path: Path) -> None:
+    path = tmp_path / "many.toml"
+    sets = (
+        f'[[gains]]\nname = "s{i}"\nm = {i % 7 + 1}\nkp = [1.{i:04}, 1.5, 2]\nkv = [0.1{i:04}, 0.1, 0.2]\n'
+        for i in range(2000)
+    )
+    path.write_text('robot = "buap3"\n' + "".join(sets))
+    gain_file = read_plain(str(path))
+    assert gain_file is not None
+    gamma_between.cache_clear()
+    results = gate(gain_file)
+    assert len(results) == 2000
+    assert gamma_between.cache_info().misses == 6  # γ_1 = 1 is known
