@@ -53,11 +53,11 @@ def _append_summary(path: str, results: list[GateResult]) -> None:
     render = renderer("markdown")
     text = render(results)
     if len(text.encode()) > LARGEST_SUMMARY:
-        kept = [result for result in results if result.failures]
-        share = LARGEST_SUMMARY * len(results) // len(text.encode())
-        passed, shown = len(results) - len(kept), kept[: max(1, share)]
-        head = f"{passed} of {len(results)} gain sets accepted, {len(shown)} of the others:"
-        text = f"{head}\n\n{render(shown)}"
+        others = [result for result in results if result.failures]
+        size = len(render(others).encode())
+        shown = others[: max(1, len(others) * LARGEST_SUMMARY // max(size, LARGEST_SUMMARY))]
+        passed = f"{len(results) - len(others)} of {len(results)} gain sets accepted"
+        text = f"{passed}, {len(shown)} of the others:\n\n{render(shown)}"
     try:
         with open(path, "a", encoding="utf-8") as stream:
             stream.write(text)

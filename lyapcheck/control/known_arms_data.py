@@ -56,7 +56,7 @@ ARMS: Arms = {'buap3': (359735764489276700,
                 'heaviest mass, 9.81 N·m',),
                ('friction of pivot = 0.5 N·m·s/rad is assumed, between 0.1 and 1 N·m·s/rad: chosen so '
                 'that the pendulum is visibly damped',)),
- 'reyes-kelly2': (612776932009522155,
+ 'reyes-kelly2': (736975888052219378,
                   ('shoulder', 'elbow'),
                   ('150', '15'),
                   ('4211433/100000', '91233/25000'),
