@@ -81,7 +81,7 @@ def read_plain(path: str) -> GainFile | None:
             content = stream.read(_LARGEST_FILE + 1)
         if len(content) > _LARGEST_FILE:
             return None
-        return _read(path, content.decode("utf-8-sig").replace("\r\n", "\n"))
+        return _read(path, content.removeprefix(b"\xef\xbb\xbf").decode().replace("\r\n", "\n"))
     except (OSError, ValueError, _Odd):
         return None
 

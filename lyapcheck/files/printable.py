@@ -8,4 +8,6 @@ def printable(text: str) -> str:
 
     So no name can break a line, move the cursor or turn the direction of writing.
     """
+    if text.isprintable():
+        return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
