@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
+from fractions import Fraction
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -234,3 +236,41 @@ def test_gains_beyond_all_sense_end_with_a_message(lyapcheck, tmp_path, sine):
     assert done.returncode == 3
     assert "not finished: h on buap3" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.slow
+def test_v_falls_with_the_eps0_that_is_certified(lyapcheck, tmp_path):
+    """A pendulum with M = ¼ and b = ½ and m = 1: near e = 0, fast, dV/dt ≈ −(b − ε₀ M) w², so ε₀ ≤ 2."""
+    file = tmp_path / "pendulum.toml"
+    file.write_text('robot = "pendulum1"\n[[gains]]\nname = "p"\nm = 1\nkp = [4]\nkv = [1]\n')
+    done = lyapcheck(file, "--eps0", "certified", "--target", "60", "--time", 1, "--format", "json")
+    assert done.returncode == 0
+    (result,) = json.loads(done.stdout)["results"]
+    assert result["V_decreases"] is True
+    assert 1.9 < result["eps0"] <= 2.0
+
+
+def test_a_certified_eps0_is_asked_for_each_gain_set(lyapcheck, single, monkeypatch):
+    """0.5 for the gain set of the file; and none at all is said, not passed over."""
+    import lyapcheck.admissible as room
+
+    def found(gain_set, model, **options):
+        return SimpleNamespace(certified=Fraction(1, 2) if options["max_boxes"] else None)
+
+    monkeypatch.setattr(room, "epsilon", found)
+    request = (single, "--eps0", "certified", "--target", "40,30", "--time", 1, "--format", "json")
+    done = lyapcheck(*request)
+    assert json.loads(done.stdout)["results"][0]["eps0"] == 0.5
+    monkeypatch.setattr(room, "epsilon", lambda *arguments, **options: SimpleNamespace(certified=None))
+    none = lyapcheck(*request)
+    assert none.returncode == 3
+    assert "no ε₀ is certified" in none.stderr
+
+
+@pytest.mark.parametrize(
+    "extra", [["--eps0", "x"], ["--eps0", "certified", "--reference", "SINE"]], ids=range(2)
+)
+def test_an_eps0_that_means_nothing_is_refused(lyapcheck, sine, extra):
+    done = lyapcheck(TABLE2, *(sine if word == "SINE" else word for word in extra))
+    assert done.returncode == 2
+    assert "--eps0 = " in done.stderr

@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lyapcheck.cli.eps0 import Eps0
 from lyapcheck.cli.output import write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
 from lyapcheck.cli.progress import Advance
@@ -50,6 +51,14 @@ class Ending:
         if breach is not None:
             self.breaches.append((name, breach))
 
+    def watching(self, eps0: Eps0, gain_set: GainSet, model: RobotModel, advance: Advance) -> float:
+        """The ε₀ to watch V with; 0 where none is certified, which is noted."""
+        number = eps0.of(gain_set, model, advance)
+        if number is None:
+            name = f"{gain_set.name} on {model.name}"
+            self.unfinished.append(f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
+        return number or 0.0
+
     def tell(self) -> Exit:
         """Say it all on standard error.
 
@@ -69,7 +78,7 @@ def regulate(
     model: RobotModel,
     task: Task,
     *,
-    eps0: float,
+    eps0: Eps0,
     bench: bool,
     stop: bool,
     output: Output,
@@ -84,8 +93,9 @@ def regulate(
     ending = Ending()
     mover = experiment if bench else partial(simulate, stop=stop)
     for gain_set, tell in _each(gains, advance):
+        number = ending.watching(eps0, gain_set, model, tell)
         try:
-            found = mover(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0, on_progress=tell)
+            found = mover(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=number, on_progress=tell)
         except SimulationFailed as failure:
             if not isinstance(failure, PromiseBroken):
                 ending.unfinished.append(failure.reason)
@@ -140,7 +150,7 @@ def spread_out(
     task: Task,
     starts: Starts,
     *,
-    eps0: float,
+    eps0: Eps0,
     output: Output,
     advance: Advance,
 ) -> Ending:
@@ -151,7 +161,8 @@ def spread_out(
     found: list[Sweep] = []
     ending = Ending()
     for gain_set, tell in _each(gains, advance):
-        found.append(sweep(gain_set, model, task, starts, eps0=eps0, on_progress=tell))
+        number = ending.watching(eps0, gain_set, model, tell)
+        found.append(sweep(gain_set, model, task, starts, eps0=number, on_progress=tell))
         left = starts.count - found[-1].finished
         if left:
             ending.unfinished.append(f"{gain_set.name} on {model.name}: {left} of {starts.count} runs")

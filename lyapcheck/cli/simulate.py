@@ -10,6 +10,7 @@ import typer
 
 from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.complaints import Complaints
+from lyapcheck.cli.eps0 import Eps0, eps0_of
 from lyapcheck.cli.motions import Output, follow, regulate, spread_out
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
@@ -51,8 +52,11 @@ def command(
         str | None, typer.Option(help="Initial joint rates in degrees a second; at rest if missing.")
     ] = None,
     eps0: Annotated[
-        float | None,
-        typer.Option(help="The ε₀ of V; 0 if missing (V is the energy), what (21) admits with --reference."),
+        str | None,
+        typer.Option(
+            help="The ε₀ of V: a number, or 'certified' (takes a while); 0 if missing (V is the energy). "
+            "With --reference half of what is proved for (21)."
+        ),
     ] = None,
     band: Annotated[
         float | None,
@@ -89,7 +93,9 @@ def command(
 
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))
-    asked = Asked(target, start, velocity, time, eps0)
+    wrong = Complaints()
+    watched = wrong.reading(eps0_of, eps0) or Eps0(None)
+    asked = Asked(target, start, velocity, time, watched)
     given = {
         "--experiment": experiment or None,
         "--reference": reference,
@@ -101,7 +107,6 @@ def command(
         "--keep-going": keep_going or None,
         "--plot": plot,
     }
-    wrong = Complaints()
     wrong.reading(check_options, [name for name, value in given.items() if value is not None])
     wrong.reading(check_places, csv, plot)
     starts = path = task = request = None
@@ -119,14 +124,14 @@ def command(
         if path is not None and request is not None:
             ending = follow(gains, model, path, request, stop=stop, output=output, advance=advance)
         elif task is not None and starts is not None:
-            ending = spread_out(gains, model, task, starts, eps0=eps0 or 0.0, output=output, advance=advance)
+            ending = spread_out(gains, model, task, starts, eps0=watched, output=output, advance=advance)
         elif task is not None:
             ending = regulate(
                 gains,
                 model,
                 task,
                 bench=experiment,
-                eps0=eps0 or 0.0,
+                eps0=watched,
                 stop=stop,
                 output=output,
                 advance=advance,

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.angles import parse_angles
+from lyapcheck.cli.eps0 import CERTIFIED, Eps0
 from lyapcheck.cli.output import require_writable
 from lyapcheck.errors import InputError, Problem, argument_error
 
@@ -84,12 +85,12 @@ class Asked:
     start: str | None
     velocity: str | None
     time: float | None
-    eps0: float | None
+    eps0: Eps0
 
     def task(self, model: RobotModel) -> Task:
         """The set-point task; see `task_of`."""
         time = SECONDS if self.time is None else self.time
-        return task_of(model, self.target, self.start, time, self.eps0, self.velocity)
+        return task_of(model, self.target, self.start, time, self.eps0.number, self.velocity)
 
     def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> Request:
         """The tracking request; without a reference only its problems are of interest.
@@ -100,12 +101,16 @@ class Asked:
         from lyapcheck.tracking.request import request_for
 
         problems: list[Problem] = []
+        if self.eps0.certified:
+            repair = "leave --eps0 out: one that is proved for (21) is taken"
+            problems.append(_wrong("--eps0", CERTIFIED, "is for tasks without --reference", repair))
+        number = self.eps0.number
         home = _home(model)
         q0 = _angles("--start", home if self.start is None else self.start, model, problems)
         rates = _angles("--velocity", home if self.velocity is None else self.velocity, model, problems)
         size = math.radians(BAND if band is None else band)
         try:
-            request = request_for(model.n, reference, q0, rates, self.time, eps0=self.eps0, band=size)
+            request = request_for(model.n, reference, q0, rates, self.time, eps0=number, band=size)
         except InputError as error:
             problems += [_renamed(problem) for problem in error.problems]
         if problems:

@@ -1,0 +1,56 @@
+"""The ε₀ of the V that ``lyapcheck simulate`` watches: a number, or what is certified for each gain set."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.errors import argument_error
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.progress import Advance
+    from lyapcheck.control import GainSet
+    from lyapcheck.robots import RobotModel
+
+CERTIFIED = "certified"
+MAX_BOXES = 100_000
+"""Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
+
+
+@dataclass(frozen=True)
+class Eps0:
+    """What was asked for."""
+
+    number: float | None
+    """None where nothing was asked for, and where it is to be certified."""
+    certified: bool = False
+
+    def of(self, gain_set: GainSet, model: RobotModel, advance: Advance) -> float | None:
+        """The ε₀ of one gain set, rounded down; 0 if nothing was asked for, ``None`` if none is certified."""
+        if not self.certified:
+            return self.number or 0.0
+        from lyapcheck.admissible import epsilon
+
+        advance(0.0, f"{gain_set.name}: what ε₀ is certified")
+        found = epsilon(gain_set, model, max_boxes=MAX_BOXES).certified
+        return None if found is None else Enclosure(found, found).float_lower
+
+
+def eps0_of(text: str | None) -> Eps0:
+    """What ``--eps0`` asks for.
+
+    Raises:
+        InputError: neither a number nor ``certified``; a number out of range is refused with its task.
+    """
+    if text is None or text == CERTIFIED:
+        return Eps0(None, text is not None)
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if math.isnan(number):
+        rule = f"must be a number or {CERTIFIED}"
+        raise argument_error("--eps0", text, rule, f"write --eps0 0.01, or --eps0 {CERTIFIED}")
+    return Eps0(number)
