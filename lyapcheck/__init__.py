@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.trial import experiment as run_experiment
+    from lyapcheck.tracking.reference.file import read_reference
+    from lyapcheck.tracking.run import TrackingRun
+    from lyapcheck.tracking.simulation import track as run_tracking
     from lyapcheck.tune.results import Tuning
     from lyapcheck.tune.targets import Targets
     from lyapcheck.tune.tuning import tune as tune_gains
@@ -74,6 +77,7 @@ __all__ = [
     "Run",
     "Table",
     "Targets",
+    "TrackingRun",
     "Tuning",
     "Verdict",
     "__version__",
@@ -90,12 +94,14 @@ __all__ = [
     "named_family",
     "paper_gain_file",
     "read_gain_file",
+    "read_reference",
     "recheck",
     "robot_constants",
     "robot_names",
     "run_experiment",
     "run_proof",
     "run_simulation",
+    "run_tracking",
     "tune_gains",
 ]
 
@@ -127,6 +133,7 @@ _HOMES = {
     "Run": "simulate.run",
     "Table": "family.table",
     "Targets": "tune.targets",
+    "TrackingRun": "tracking.run",
     "Tuning": "tune.results",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
@@ -142,12 +149,14 @@ _HOMES = {
     "named_family": "family.registry:named",
     "paper_gain_file": "control.paper",
     "read_gain_file": "control.gains",
+    "read_reference": "tracking.reference.file",
     "recheck": "check.certificates.recheck",
     "robot_constants": "constants.bounds",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "claims.run",
     "run_simulation": "simulate.closed_loop:simulate",
+    "run_tracking": "tracking.simulation:track",
     "tune_gains": "tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""
