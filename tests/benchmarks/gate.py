@@ -1,19 +1,35 @@
-"""gate beside a NumPy script."""
+"""gate beside a NumPy script, beside the start of Python, and on ten thousand gain sets."""
 
 from __future__ import annotations
 
 import json
+import random
+import statistics
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
 
-from .measure import PROOFS, Disagreement, by_hand, lyapcheck
+from .measure import LYAPCHECK, PROOFS, Disagreement, by_hand, in_turn, lyapcheck
 from .results import CommandResult
+
+TABLE2 = str(PROOFS / "table2.toml")
+SETS = 10_000
+SEED = 20190301
+
+
+def benchmarks() -> Iterator[CommandResult]:
+    """All three."""
+    yield benchmark()
+    yield start()
+    yield many()
 
 
 def benchmark(runs: int = 5) -> CommandResult:
     """Table 2 through the gate; both ways must give the same verdicts."""
-    gains = str(PROOFS / "table2.toml")
-    ours = lyapcheck("gate", gains, runs=runs)
-    theirs = by_hand("gate_numpy.py", gains, runs=runs)
-    exact = lyapcheck("gate", gains, "--format", "json", runs=1)
+    ours = lyapcheck("gate", TABLE2, runs=runs)
+    theirs = by_hand("gate_numpy.py", TABLE2, runs=runs)
+    exact = lyapcheck("gate", TABLE2, "--format", "json", runs=1)
     count = compare(exact.output, theirs.output)
     return CommandResult(
         command="lyapcheck gate proofs/table2.toml",
@@ -25,6 +41,50 @@ def benchmark(runs: int = 5) -> CommandResult:
     )
 
 
+def start(runs: int = 25) -> CommandResult:
+    """The gate beside a Python that does nothing, run in turn, so that both meet the same machine."""
+    pairs = in_turn([LYAPCHECK, "gate", TABLE2], [sys.executable, "-c", "pass"], runs)
+    ours, bare = (statistics.median(times) for times in zip(*pairs, strict=True))
+    ratio = statistics.median(one / other for one, other in pairs)
+    return CommandResult(
+        command="lyapcheck gate proofs/table2.toml",
+        seconds=ours,
+        runs=runs,
+        by_hand="`python -c pass`: the start of Python alone",
+        by_hand_seconds=bare,
+        agreement=f"{ratio:.2f} times the start of Python, median of pairs run in turn",
+    )
+
+
+def many(sets: int = SETS, runs: int = 5) -> CommandResult:
+    """A file of many gain sets, each different; both ways must give the same verdicts."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "gains.toml"
+        path.write_text(gain_sets(sets), encoding="utf-8")
+        ours = lyapcheck("gate", str(path), "--format", "json", runs=runs)
+        theirs = by_hand("gate_numpy.py", str(path), runs=runs)
+    count = compare(ours.output, theirs.output)
+    return CommandResult(
+        command=f"lyapcheck gate --format json, {sets} gain sets in one file",
+        seconds=ours.seconds,
+        runs=ours.runs,
+        by_hand="NumPy: γ from a grid, once for each m",
+        by_hand_seconds=theirs.seconds,
+        agreement=f"the same {count} verdicts; by hand no line, no margin and no largest value",
+    )
+
+
+def gain_sets(count: int) -> str:
+    """A gain file of so many sets for m = 1 … 9, about half of which pass."""
+    draw = random.Random(SEED).uniform
+    blocks = ['robot = "buap3"']
+    for i in range(count):
+        kp = f"{draw(20, 30):.3f}, {draw(50, 64):.3f}, {draw(4, 8):.3f}"
+        kv = ", ".join(f"{draw(0.15, 0.22):.4f}" for _ in range(3))
+        blocks.append(f'[[gains]]\nname = "set_{i}"\nm = {i % 9 + 1}\nkp = [{kp}]\nkv = [{kv}]')
+    return "\n\n".join(blocks) + "\n"
+
+
 def compare(ours: str, theirs: str) -> int:
     """How many verdicts were compared.
 
@@ -34,5 +94,6 @@ def compare(ours: str, theirs: str) -> int:
     verdicts = {row["name"]: row["verdict"] for row in json.loads(ours)["results"]}
     by_name = dict(line.split() for line in theirs.splitlines())
     if verdicts != by_name:
-        raise Disagreement(f"lyapcheck says {verdicts}, NumPy says {by_name}")
+        differ = [name for name in {*verdicts, *by_name} if verdicts.get(name) != by_name.get(name)]
+        raise Disagreement(f"lyapcheck and NumPy disagree about {', '.join(sorted(differ)[:5])}")
     return len(verdicts)

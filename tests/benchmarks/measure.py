@@ -58,6 +58,19 @@ def _timed(command: list[str], runs: int) -> Timing:
     return Timing(statistics.median(times), len(times), done.stdout)
 
 
+def in_turn(one: list[str], other: list[str], runs: int = REPEATS) -> list[tuple[float, float]]:
+    """The wall times of two commands run one after the other, pair by pair; what they print is not read."""
+    pairs = []
+    for _ in range(runs + 1):
+        times = []
+        for command in (one, other):
+            begin = time.perf_counter()
+            subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+            times.append(time.perf_counter() - begin)
+        pairs.append((times[0], times[1]))
+    return pairs[1:]  # the first pair has warmed up both
+
+
 def states_per_second(function: Callable[[], object], states: int, repeats: int = REPEATS) -> float:
     """States a second of a call that treats ``states`` of them; one call before that warms it up."""
     function()

@@ -56,9 +56,9 @@ def _commands(results: Sequence[CommandResult]) -> list[str]:
     rows = [
         [
             f"`{result.command}`" if "," not in result.command else result.command,
-            f"{result.seconds:.2f} s",
+            _seconds(result.seconds),
             str(result.runs),
-            "—" if result.by_hand_seconds is None else f"{result.by_hand_seconds:.2f} s",
+            "—" if result.by_hand_seconds is None else _seconds(result.by_hand_seconds),
             "—" if result.by_hand_seconds is None else f"{result.by_hand_seconds / result.seconds:.2f}",
             result.by_hand or "nothing compares",
             result.agreement or "—",
@@ -68,6 +68,10 @@ def _commands(results: Sequence[CommandResult]) -> list[str]:
     return _table(
         ["command", "wall time", "runs", "by hand", "ratio", "what is done by hand", "agreement"], rows
     )
+
+
+def _seconds(seconds: float) -> str:
+    return f"{seconds:.2f} s" if seconds >= 0.1 else f"{1000 * seconds:.0f} ms"
 
 
 def _rates(results: Sequence[RateResult]) -> list[str]:

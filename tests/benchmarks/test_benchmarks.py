@@ -94,6 +94,24 @@ def test_the_gate_by_hand_gives_the_same_verdicts():
     assert gate.benchmark(runs=1).agreement.startswith("the same 3 verdicts")
 
 
+def test_many_gain_sets_by_hand_give_the_same_verdicts():
+    result = gate.many(sets=300, runs=1)
+    assert result.agreement.startswith("the same 300 verdicts")
+    assert "300 gain sets" in result.command
+
+
+def test_the_start_is_measured_beside_that_of_python():
+    result = gate.start(runs=2)
+    ratio = float(result.agreement.split()[0])
+    assert 1 < ratio < 20
+    assert 0 < result.by_hand_seconds < result.seconds
+
+
+def test_short_times_are_told_in_milliseconds():
+    text = markdown(["a machine"], [CommandResult("lyapcheck gate", 0.0312, 5, "python", 0.0118)], [], [])
+    assert cells(text, "`lyapcheck gate`")[1:5] == ["31 ms", "5", "12 ms", "0.38"]
+
+
 def test_other_verdicts_are_noticed():
     ours = json.dumps({"results": [{"name": "a", "verdict": "rejected"}]})
     with pytest.raises(Disagreement):

@@ -5,6 +5,7 @@ Usage: python gate_numpy.py GAINS.toml
 
 import sys
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 TORQUE, GRAVITY, VISCOUS_MIN = np.array([50, 150, 15]), np.array([0, 40.28, 1.81]), 0.406
 
 
+@cache
 def gamma(m):
     x = np.linspace(1e-3, 20, 200_001)
     s = np.sinh(x)
