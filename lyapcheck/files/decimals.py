@@ -81,6 +81,8 @@ def of_physical_size(value: Fraction | int) -> bool:
 
 def decimal_places(text: str) -> int:
     """Digits after the decimal point of a decimal as written, with its exponent taken into account."""
+    if "e" not in text and "E" not in text:
+        return len(text.partition(".")[2])
     mantissa, _, exponent = text.lower().partition("e")
     return max(0, len(mantissa.partition(".")[2]) - int(exponent or 0))
 

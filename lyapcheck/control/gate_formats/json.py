@@ -7,7 +7,7 @@ each check is easy to read, and thousands of sets are written at once.
 from __future__ import annotations
 
 from functools import lru_cache
-from json import dumps, loads
+from json import JSONEncoder, loads
 
 from lyapcheck.control.gate_formats.words import KEYS, advice, joint_name, largest_text, margin_text
 from lyapcheck.control.stability import remarks, stability
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "lyapcheck/gate/1"
 DIGITS = 20
+_ENCODE = JSONEncoder(ensure_ascii=False).encode
 
 
 def render(results: Sequence[GateResult]) -> str:
@@ -90,7 +91,7 @@ def _limit(limit: Bracket) -> str:
 
 def _text(value: object) -> str:
     """A value as JSON."""
-    return dumps(value, ensure_ascii=False)
+    return _ENCODE(value)
 
 
 @lru_cache(maxsize=256)
