@@ -13,7 +13,7 @@ from lyapcheck.sensitivity.bench_runs import BenchRuns
 from lyapcheck.sensitivity.design import design, values
 from lyapcheck.sensitivity.numbers import number_study
 from lyapcheck.sensitivity.printed_numbers import figure_gains, printed_entry, printed_numbers
-from lyapcheck.sensitivity.results import FigureGains, SetStudy, Study
+from lyapcheck.sensitivity.results import FigureGains, SetStudy, Study, Together
 from lyapcheck.sensitivity.together import all_sets, one_set
 from lyapcheck.sensitivity.trials import Trials, first_trials
 from lyapcheck.simulate.gains import gains_for
@@ -64,24 +64,32 @@ def study(
         return None
     assumed = assumptions(model)
     plan = design(assumed, spread, corners, seed)
-    trials, sets = [], []
+    trials: list[Trials] = []
+    sets: list[SetStudy] = []
     for gain_set, entry in chosen:
         runs = BenchRuns(gain_set, model, PAPER_TASK, assumed)
         found = first_trials(runs, printed_numbers(entry), plan.points).searched(seed)
         sets.append(_set_study(gain_set, entry, found, plan, seed))
         trials.append(found)
         (on_progress or _silent)(len(sets) / (len(chosen) + 1), gain_set.name)
+    one_arm = all_sets(trials, len(plan.points), seed)
     return Study(
         robot=model.name,
         joints=model.joints,
         assumed=assumed,
         spread=spread,
         corners=corners,
-        runs=sum(len(found.points) for found in trials),
+        runs=_count(sets, one_arm, len(plan.points)),
         seed=seed,
         sets=tuple(sets),
-        together=all_sets(trials, len(plan.points), seed),
+        together=one_arm,
     )
+
+
+def _count(sets: Sequence[SetStudy], one_arm: Together | None, common: int) -> int:
+    """All bench runs: of each set, of the search for one arm, and one a set under the figure's gains."""
+    together = 0 if one_arm is None else (one_arm.nearest.arms - common) * len(sets)
+    return sum(one.at_once.arms + 1 for one in sets) + together
 
 
 def _set_study(gain_set: GainSet, entry: Printed, found: Trials, plan: Design, seed: int) -> SetStudy:

@@ -65,35 +65,37 @@ class Trials:
             below, above = np.any(seen <= 0.0, axis=0), np.any(seen >= 0.0, axis=0)
             return np.asarray(below & (above | bound))
 
+        fresh: list[Outcomes] = []
+
         def evaluate(points: Array) -> Array:
-            return differences(goals, self.at(points))
+            fresh.append(self.at(points))
+            return differences(goals, fresh[-1])
 
         found = approach(self.points, differences(goals, self.outcomes), evaluate, reached, seed)
-        return self._with(found)
+        return self._with(found, fresh)
 
     def _both_sides(self, number: PrintedNumber) -> bool:
         seen = differences([number], self.outcomes)
         return bool(np.any(seen <= 0.0) and np.any(seen >= 0.0))
 
     def _halved(self, goals: Sequence[PrintedNumber]) -> Trials:
-        seen = differences(goals, self.outcomes)
+        fresh: list[Outcomes] = []
 
         def evaluate(points: Array) -> Array:
-            return np.diagonal(differences(goals, self.at(points)))
+            fresh.append(self.at(points))
+            return np.diagonal(differences(goals, fresh[-1]))
 
-        return self._with(between(self.points, seen, evaluate))
+        found = between(self.points, differences(goals, self.outcomes), evaluate)
+        return self._with(found, fresh)
 
-    def _with(self, points: Array) -> Trials:
-        """These trials and new ones."""
-        if not len(points):
-            return self
-        fresh = self.at(points)
-        pairs = {one.name: (getattr(self.outcomes, one.name), getattr(fresh, one.name)) for one in _COLUMNS}
-        both = Outcomes(**{name: np.concatenate(pair) for name, pair in pairs.items()})
-        return replace(self, points=np.vstack([self.points, points]), outcomes=both)
+    def _with(self, points: Array, fresh: Sequence[Outcomes]) -> Trials:
+        """These trials and new ones, in the same order."""
+        parts = [self.outcomes, *fresh]
+        columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in _COLUMNS}
+        return replace(self, points=np.vstack([self.points, points]), outcomes=Outcomes(**columns))
 
 
-_COLUMNS = fields(Outcomes)
+_COLUMNS = tuple(one.name for one in fields(Outcomes))
 
 
 def differences(goals: Sequence[PrintedNumber], outcomes: Outcomes) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from io import StringIO
 from typing import Any
 
-from lyapcheck.report.figures.style import png, svg
+from lyapcheck.report.figures.style import png, settle, svg
 
 Files = dict[str, str | bytes]
 DIGITS = 7
@@ -31,9 +31,8 @@ class Plot:
 
     def files(self, stem: str) -> Files:
         """``stem.svg``, ``stem.png`` and ``stem.csv``; equal data give equal bytes."""
-        vector = svg(self.figure)
-        self.figure.set_layout_engine("none")  # drawing once has put everything into its place
-        return {f"{stem}.svg": vector, f"{stem}.png": png(self.figure), f"{stem}.csv": self.csv()}
+        settle(self.figure)
+        return {f"{stem}.svg": svg(self.figure), f"{stem}.png": png(self.figure), f"{stem}.csv": self.csv()}
 
     def csv(self) -> str:
         """The data, one line a row."""

@@ -42,6 +42,13 @@ def panels(rows: int, columns: int, width: float = 7.2, height: float = 3.0) -> 
     return figure, figure.subplots(rows, columns, squeeze=False)
 
 
+def settle(figure: Any) -> None:
+    """Put everything into its place for good; without this each form would compute the layout twice."""
+    with styled():
+        figure.draw_without_rendering()
+        figure.set_layout_engine(None)
+
+
 def svg(figure: Any) -> str:
     """The figure as SVG text: no date, no random ids, so that equal data give equal bytes."""
     import matplotlib as mpl
