@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 RATE_NOISE = 1e-12
 """dV/dt below this share of its largest size is not worth a look in balls."""
 
+ROUNDING = 1e-12
+"""How far a torque may be above its bound, relative to it."""
+
 CANDIDATES = 100
 """Samples that are judged in balls before a promise counts as kept."""
 
@@ -146,9 +149,25 @@ def _beyond_limit(run: Watched, joint: int) -> Iterator[Breach]:
             return
 
 
+def joint_monitor(name: str, bounds: Sequence[float] | None) -> Monitor:
+    """Each |τ_i| is at most a bound, of which no more than rounding is forgiven."""
+
+    def monitor(run: Watched) -> Breach | None:
+        if bounds is None:
+            return None
+        beyond = np.argwhere(np.abs(run.tau) > np.array(bounds) * (1 + ROUNDING))
+        if not beyond.size:
+            return None
+        i, joint = beyond[0].tolist()
+        promise = f"|τ| of {run.setting.model.joints[joint]} within {name}"
+        return run.breach(promise, i, abs(run.tau[i, joint]), bounds[joint], "N·m", False)
+
+    return monitor
+
+
 def bound_monitor(name: str, bound: float | None) -> Monitor:
     """‖τ‖ is at most a bound, of which no more than rounding is forgiven."""
-    most = math.inf if bound is None else bound * (1 + 1e-12)
+    most = math.inf if bound is None else bound * (1 + ROUNDING)
 
     def monitor(run: Watched) -> Breach | None:
         norm = np.linalg.norm(run.tau, axis=1)

@@ -16,6 +16,7 @@ from lyapcheck.simulate.breach import (
     bound_monitor,
     fall_monitor,
     first_breach,
+    joint_monitor,
     limit_monitor,
     rate_monitor,
 )
@@ -108,7 +109,8 @@ def _broken(setup: Setup, run: Run) -> Breach | None:
     signals = (run.t, run.q, run.e, run.w, run.tau, run.V, run.dV)
     watched = Watched(setup.setting, setup.eps0, *signals, noise=noise_of(run.V))
     bound = bound_monitor("the bound (9)", run.promises.torque_bound)
-    return first_breach(watched, (rate_monitor, fall_monitor, limit_monitor, bound))
+    joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
+    return first_breach(watched, (rate_monitor, fall_monitor, limit_monitor, joints, bound))
 
 
 def _twice(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.simulate.entries import gravity_sizes
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.run import Promises
 
@@ -42,6 +43,7 @@ def observe(
         torque_norm=norm,
         torque_bound=bound,
         inside_bound=None if bound is None else norm <= bound,
+        joint_bounds=joint_bounds(gains, model),
         inside_limits=tuple(
             None
             if most is None
@@ -66,6 +68,18 @@ def torque_bound(gains: Gains, model: RobotModel) -> float | None:
         return None
     gravity = math.hypot(*gravity_bounds(model))
     return math.sqrt(model.n) * gamma.float_upper * (max(gains.kp) + max(gains.kv)) + gravity
+
+
+def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
+    """The bound γ (k_pi + k_vi) + sup|g_i| on each |τ_i| in N·m; none where h is unbounded.
+
+    References: (6), (9) of ``reyes2019family``, joint by joint.
+    """
+    gamma = gains.family.constants().gamma
+    if gamma is None:
+        return None
+    rows = zip(gains.kp, gains.kv, gravity_sizes(model), strict=True)
+    return tuple(gamma.float_upper * (p + v) + float(weight) for p, v, weight in rows)
 
 
 def gravity_bounds(model: RobotModel) -> tuple[float, ...]:

@@ -16,7 +16,16 @@ from lyapcheck.simulate.printed import printed_for
 from lyapcheck.simulate.run import Run
 
 SCHEMA = "lyapcheck/simulate/1"
-HEADS = ("joint", "settling [s]", "overshoot [%]", "final error [°]", "peak torque [N·m]", "limit [N·m]", "")
+HEADS = (
+    "joint",
+    "settling [s]",
+    "overshoot [%]",
+    "final error [°]",
+    "peak torque [N·m]",
+    "bound [N·m]",
+    "limit [N·m]",
+    "",
+)
 LEGEND = f"Settled: within {100 * SETTLING_BAND:g} % of the step for good; — where that was not reached."
 
 
@@ -47,7 +56,7 @@ def as_markdown(runs: Sequence[Run]) -> str:
 
 
 def _section(run: Run) -> str:
-    rows = [HEADS, ("---", *["---:"] * 5, "---"), *_rows(run)]
+    rows = [HEADS, ("---", *["---:"] * (len(HEADS) - 2), "---"), *_rows(run)]
     table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
     return f"## {_headline(run)}\n\n" + "\n".join(f"- {fact}" for fact in _facts(run)) + f"\n\n{table}"
 
@@ -107,7 +116,7 @@ def _checks(run: Run) -> str:
 
 
 def _rows(run: Run) -> list[tuple[str, ...]]:
-    found = run.indices
+    found, bounds = run.indices, run.promises.joint_bounds
     return [
         (
             joint,
@@ -115,6 +124,7 @@ def _rows(run: Run) -> list[tuple[str, ...]]:
             cell(found.overshoot[i], "z.2f"),
             cell(found.final_error[i], "z.4f"),
             cell(found.peak_torque[i], "z.2f"),
+            cell(None if bounds is None else bounds[i], "z.2f"),
             cell(run.torque_limit[i], "g"),
             _WORDS[run.promises.inside_limits[i]],
         )
@@ -174,6 +184,7 @@ def result_json(run: Run) -> dict[str, Any]:
         "peak_torque": _list(found.peak_torque),
         "torque_limit": list(run.torque_limit),
         "inside_limits": list(seen.inside_limits),
+        "joint_bounds": None if seen.joint_bounds is None else [_plain(x) for x in seen.joint_bounds],
         "torque_norm": _plain(seen.torque_norm),
         "torque_bound": None if seen.torque_bound is None else _plain(seen.torque_bound),
         "inside_bound": seen.inside_bound,

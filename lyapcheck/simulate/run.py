@@ -27,6 +27,8 @@ class Promises:
     torque_bound: float | None
     """N·m, the bound (9) on ‖τ‖; none for an unbounded controller."""
     inside_bound: bool | None
+    joint_bounds: tuple[float, ...] | None
+    """N·m, the bound on each |τ_i|; none for an unbounded controller."""
     inside_limits: tuple[bool | None, ...]
     """Per joint: |τ_i| stayed within the motor's limit; none where the arm has no limit."""
 

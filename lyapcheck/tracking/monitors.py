@@ -1,4 +1,4 @@
-"""The promises of (21) along a run: dV/dt below its form, each torque below its bound."""
+"""The promise of (21) along a run: dV/dt below its form."""
 
 from __future__ import annotations
 
@@ -25,22 +25,5 @@ def form_monitor(bound: Array | None) -> Monitor:
             return None
         i = int(beyond[0])
         return run.breach("dV/dt ≤ −zᵀΘ'z", i, run.dV[i], bound[i], "W", False)
-
-    return monitor
-
-
-def torque_monitor(bounds: tuple[float, ...] | None) -> Monitor:
-    """Each |τ_i| at most its bound of `torque_bounds`, N·m."""
-
-    def monitor(run: Watched) -> Breach | None:
-        if bounds is None:
-            return None
-        beyond = np.argwhere(np.abs(run.tau) > np.array(bounds) * (1 + 1e-12))
-        if not beyond.size:
-            return None
-        i, joint = beyond[0].tolist()
-        name = run.setting.model.joints[joint]
-        value = abs(run.tau[i, joint])
-        return run.breach(f"|τ| of {name} within its bound for (21)", i, value, bounds[joint], "N·m", False)
 
     return monitor

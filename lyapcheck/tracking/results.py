@@ -10,11 +10,19 @@ from numpy.typing import NDArray
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
-from lyapcheck.simulate.breach import Breach, Watched, fall_monitor, first_breach, limit_monitor, rate_monitor
+from lyapcheck.simulate.breach import (
+    Breach,
+    Watched,
+    fall_monitor,
+    first_breach,
+    joint_monitor,
+    limit_monitor,
+    rate_monitor,
+)
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.results import noise_of
 from lyapcheck.tracking.form import TrackingForm
-from lyapcheck.tracking.monitors import form_monitor, torque_monitor
+from lyapcheck.tracking.monitors import form_monitor
 from lyapcheck.tracking.run import Indices, Motion, Promise
 
 Array = NDArray[np.float64]
@@ -61,8 +69,8 @@ def broken(
         acceleration=motion.push,
     )
     torque = None if promise.torque is None else tuple(map(float, promise.torque.total))
-    monitors = (rate_monitor, fall_monitor, form_monitor(bound), torque_monitor(torque), limit_monitor)
-    return first_breach(watched, monitors)
+    joints = joint_monitor("its bound for (21)", torque)
+    return first_breach(watched, (rate_monitor, fall_monitor, form_monitor(bound), joints, limit_monitor))
 
 
 def indices_of(motion: Motion, squares: float, band: float) -> Indices:

@@ -79,6 +79,17 @@ def track(
         InputError: a request the arm or the reference cannot meet.
         TrackingFailed: the integrator gave up, or a promise broke; carries what was reached.
 
+    Examples:
+        >>> from fractions import Fraction as F
+        >>> from lyapcheck.control import paper_gain_file, read_gain_file
+        >>> from lyapcheck.robots import load
+        >>> from lyapcheck.tracking.reference import MinimumJerk
+        >>> way = MinimumJerk((F(0),) * 3, (F(45), F(45), F(90)), F(2))
+        >>> gain_set = read_gain_file(paper_gain_file("table2")).gains[0]
+        >>> run = track(gain_set, load("buap3"), way, [0.1, 0.0, 0.0], T=1.0)
+        >>> run.promise.falls, run.breach
+        (True, None)
+
     Soundness: the motion is floating point: evidence, never a proof. ``promise`` is certified; that a run
         keeps it is what is looked at.
 

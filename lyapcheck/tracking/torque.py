@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.balls import precision, to_arb
 from lyapcheck.check.states import State, value
 from lyapcheck.constants import robot_constants
-from lyapcheck.tracking.entries import coriolis_squares, gravity_sizes, mass_sizes
+from lyapcheck.simulate.entries import coriolis_squares, gravity_sizes, mass_sizes
 from lyapcheck.tracking.reference.base import BITS, above
 
 if TYPE_CHECKING:
