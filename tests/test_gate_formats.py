@@ -419,3 +419,30 @@ def test_what_to_change_would_pass(tmp_path: Path) -> None:
             assert changed, text
             (kp if changed[1] == "k_p" else kv)[check.joint] = changed[2]
     assert result.verdict == "accepted"
+
+
+# --- Python and notebooks ------------------------------------------------------------------------------
+
+
+def test_results_print_as_the_command_does(paper: list[GateResult]) -> None:
+    assert str(gate(read_gain_file(paper_gain_file("table2")))) == renderer("text")(paper)
+    assert str(paper[1]) == renderer("text")([paper[1]])
+
+
+def test_results_show_themselves_in_a_notebook(paper: list[GateResult]) -> None:
+    class Tags(HTMLParser):
+        def __init__(self) -> None:
+            super().__init__()
+            self.found: list[str] = []
+
+        def handle_starttag(self, tag: str, attrs: object) -> None:
+            self.found.append(tag)
+
+    tags = Tags()
+    shown = gate(read_gain_file(paper_gain_file("table2")))._repr_html_()
+    tags.feed(shown)
+    assert set(tags.found) == {"table", "caption", "thead", "tbody", "tr", "th", "td", "p"}
+    assert (tags.found.count("table"), tags.found.count("td")) == (3, 3 * 7 * 7)
+    assert "✗ tau_m2: rejected" in shown
+    assert "lower it to at most 0.222" in shown
+    assert "<b>" not in renamed(paper, "<b>x</b>", "<b>")[0]._repr_html_()

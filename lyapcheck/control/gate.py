@@ -49,6 +49,14 @@ class GateResult(Record):
         """The member of the hyperbolic family."""
         return self.gains.m
 
+    def __str__(self) -> str:
+        """As ``lyapcheck gate`` prints a file with this set alone."""
+        return str(GateResults([self]))
+
+    def _repr_html_(self) -> str:
+        """Its table, for a notebook."""
+        return GateResults([self])._repr_html_()
+
     @property
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
@@ -73,13 +81,29 @@ class GateResult(Record):
         )
 
 
+class GateResults(list[GateResult]):
+    """The results of one file, in its order; prints and shows as the command does."""
+
+    def __str__(self) -> str:
+        """As ``lyapcheck gate`` prints them."""
+        from lyapcheck.control.gate_formats import renderer
+
+        return renderer("text")(self)
+
+    def _repr_html_(self) -> str:
+        """The tables, for a notebook."""
+        from lyapcheck.control.gate_formats import renderer
+
+        return renderer("html")(self)
+
+
 def gate(
     gain_file: GainFile,
     robot: str | None = None,
     deciding: Sequence[str] = DECIDING,
     gamma: str = "true",
     strict: bool = False,
-) -> list[GateResult]:
+) -> GateResults:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
     Args:
@@ -108,7 +132,7 @@ def gate(
     proved, rests_on = _certificates(gain_file, limits, deciding)
     if rests_on:
         limits = limits.resting_on(rests_on)
-    results = []
+    results = GateResults()
     for gains, certificates in zip(gain_file.gains, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
