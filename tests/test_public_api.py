@@ -27,7 +27,7 @@ def declared() -> dict[str, str]:
     tree = ast.parse(Path(lyapcheck.__file__).read_text(encoding="utf-8"))
     guarded = next(node for node in tree.body if isinstance(node, ast.If))
     for node in guarded.body:
-        if isinstance(node, ast.ImportFrom):
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("lyapcheck."):
             module = str(node.module).removeprefix("lyapcheck.")
             for alias in node.names:
                 found[alias.asname or alias.name] = f"{module}:{alias.name}" if alias.asname else module
