@@ -9,6 +9,7 @@ from fractions import Fraction
 from lyapcheck.claims import (
     ArmBounds,
     Constant,
+    FamilyBounds,
     ForSmall,
     Proof,
     above,
@@ -917,9 +918,14 @@ def _(case):
     uses=["11", "12d", "12p", "12u", "16", "18e"],
 )
 def _(case):
-    case.read.update(("m", "n"))
+    """By Θ of (16), with decimals for γ_m and ρ_m."""
+    known = FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
+    names = {"gamma": known.gamma, "rho": known.rho, "n": case.n, "root": sqrt(case.n)}
+    names |= {name: var(name) for name in ("eps", "eps0", "kp", "b_max", "beta", "kc")}
+    form = theta(names | {"kv": var("kv_max"), "b": var("b_min")})
     return theorem(
         "Lyapunov's direct method",
+        known.loop((h(case.m, x), dh(case.m, x), potential(case.m, x)), form),
         only_equilibrium="11",
         differentiable="12d",
         positive_definite="12p",

@@ -49,6 +49,7 @@ from lyapcheck.claims import (
     positive,
     potential,
     rate,
+    rate_bound,
     rate_of,
     reals,
     rho,
@@ -79,6 +80,42 @@ def known_of(case):
     return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
 
 
+def function_of(case):
+    """h, h' and U."""
+    return h(case.m, x), dh(case.m, x), potential(case.m, x)
+
+
+def form_of(known):
+    """θ'11, θ'12, θ'22 in the constants of the loop."""
+    names = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
+    eps, k, b_min, b_max, kv_max, beta, kc = map(var, names)
+    return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
+
+
+def loop_of(case, **more):
+    """The loop (11) with V of (13), as the theorem is about it."""
+    known = known_of(case)
+    return known.loop(function_of(case), form_of(known), **more)
+
+
+def sign_of(case):
+    """h is odd and has the sign of its argument."""
+    return {
+        "odd": identity(h(case.m, -x), -h(case.m, x)),
+        "positive_right_of_0": for_all(expr(0) < h(case.m, x), 0, open_low=True),
+    }
+
+
+def slope_of(case):
+    """h' is the derivative of h, and at most ρ in size."""
+    known = known_of(case)
+    return {
+        "derivative": identity(diff(h(case.m, x), "x"), dh(case.m, x)),
+        "from_above": for_all(dh(case.m, x) <= known.rho),
+        "from_below": for_all(-known.rho <= dh(case.m, x)),
+    }
+
+
 # The function h_m ------------------------------------------------------------------------------------------
 
 FAMILY = "The function h"
@@ -87,8 +124,7 @@ FAMILY = "The function h"
 @proof.claim("h.odd", "h is odd and x h(x) > 0 unless x = 0", place="(6)", section=FAMILY)
 def _(case):
     return all_of(
-        odd=identity(h(case.m, -x), -h(case.m, x)),
-        positive_right_of_0=for_all(expr(0) < h(case.m, x), 0, open_low=True),
+        **sign_of(case),
         zero_at_0=identity(h(case.m, 0), 0),
         product=for_all(expr(0) <= x * h(case.m, x)),
     )
@@ -111,12 +147,7 @@ def _(case):
 
 @proof.claim("h.steep", "|h'(x)| ≤ ρ, and h' is the derivative of h", place="(8)", section=FAMILY)
 def _(case):
-    known = known_of(case)
-    return all_of(
-        derivative=identity(diff(h(case.m, x), "x"), dh(case.m, x)),
-        from_above=for_all(dh(case.m, x) <= known.rho),
-        from_below=for_all(-known.rho <= dh(case.m, x)),
-    )
+    return all_of(**slope_of(case))
 
 
 @proof.claim(
@@ -148,6 +179,8 @@ def _(case):
     """U(x) > 0 unless x = 0, and where q̃ = 0, y = q̇; M is positive definite by Property 2.1."""
     m = case.m
     return all_of(
+        **sign_of(case),
+        derivative_of_U=identity(diff(potential(m, x), "x"), h(m, x)),
         argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
         argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
         argument_of_ln_is_1_at_0=identity(1 + sinh(0) ** (2 * m), 1),
@@ -161,6 +194,9 @@ def _(case):
     y, w, a, eps, eps0 = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0"))
     return all_of(
         potential=for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0),
+        odd=sign_of(case)["odd"],
+        away_from_0=for_all(expr("1/2") <= h(m, x), 1),
+        bounded=for_all(h(m, x) <= known.gamma),
         velocity=implies(
             nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0"),
             (w <= y + eps * a, a <= known.reach, eps <= eps0),
@@ -182,6 +218,8 @@ def _(case):
     variables = positive("eps0") + nonnegative("r", "norm_h")
     return all_of(
         potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
+        **slope_of(case),
+        at_most_L_times_the_error=norm_bound(h(case.m, x), case.n, L, power=1),
         differentiable_at_0=implies(variables, (a <= L * r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * L * r**2),
         gradient_continuous_at_0=implies(variables, (a <= L * r,), eps0 * a / (1 + r) ** 2 <= eps0 * L * r),
     )
@@ -194,7 +232,8 @@ def _(case):
     """At rest Mẇ = K_p h(q̃), and each k_pi h(q̃_i) vanishes only with q̃_i."""
     s, z = loops.loop(case.n), vector("z", case.n)
     still = replace(s, w=[expr(0)] * case.n, hw=[h(case.m, 0)] * case.n)
-    return identity(dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h)))
+    at_rest = identity(dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h)))
+    return all_of(at_rest=at_rest, **sign_of(case))
 
 
 # dV/dt -----------------------------------------------------------------------------------------------------
@@ -348,7 +387,7 @@ def theta(eps, k, b_min, c, d):
     uses=[f"rate.{k}" for k in range(1, 12)],
 )
 def _(case):
-    """The bounds of the eleven terms add up to the form."""
+    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
     known = known_of(case)
     a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(
         var, ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
@@ -367,7 +406,10 @@ def _(case):
         eps**2 * known.rho * beta * a * b,
     ]
     corner, side, low = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
-    return identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2))
+    return all_of(
+        sum=identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        from_V_for_every_n=rate_bound(loop_of(case)),
+    )
 
 
 # Every arm -------------------------------------------------------------------------------------------------
@@ -394,20 +436,21 @@ def condition(eps0, k, b_min, c, d):
     section=ARMS,
 )
 def _(case):
-    """det Θ'/ε does not increase with ε: with z = d + εc ≤ z₀ = d + ε₀c the condition passes from ε₀ to ε."""
-    eps, eps0, k, b, c, d, z, z0 = map(var, ("eps", "eps0", "kp", "b_min", "c", "d", "z", "z0"))
-    variables = positive("eps", "eps0", "kp", "b_min") + nonnegative("c", "d", "z", "z0")
-    corner, side, low = theta(eps, k, b, c, d)
+    """With ε₀ = ε + rest; det Θ'/ε does not increase with ε."""
+    known = known_of(case)
+    corner, side, low = form_of(known)
+    variables = positive("eps", "kp", "b_min", "beta") + nonnegative("rest", "b_max", "kv_max", "kc")
+    given = (condition_of(known, var("eps") + var("rest")),)
     return all_of(
-        z_increases=implies(variables, (eps <= eps0,), d + eps * c <= d + eps0 * c),
-        condition_passes_on=implies(
-            variables,
-            (eps <= eps0, z <= z0, eps0 * z0**2 / 4 < k * (b - eps0 * c)),
-            eps * z**2 / 4 < k * (b - eps * c),
-        ),
-        determinant=implies(variables, (condition(eps, k, b, c, d),), side**2 < corner * low),
-        corner=implies(variables, (), expr(0) < corner),
+        corner=implies(variables, given, expr(0) < corner),
+        determinant=implies(variables, given, side**2 < corner * low),
     )
+
+
+def condition_of(known, eps0):
+    """The condition on ε₀ in the constants of the loop."""
+    k, b_min, b_max, kv_max, beta, kc = map(var, ("kp", "b_min", "b_max", "kv_max", "beta", "kc"))
+    return condition(eps0, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
 
 
 @proof.claim(
@@ -419,8 +462,8 @@ def _(case):
 )
 def _(case):
     """For every robot with Properties 2.1–2.7 and the constants λmin(B), λmax(B), β_M, k_c, and any gains."""
-    case.read.update(("m", "n"))
-    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arms.theta")
+    loop = loop_of(case, condition=[condition_of(known_of(case), var("eps0"))])
+    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.theta")
 
 
 @proof.claim(
@@ -450,8 +493,8 @@ def _(case):
 )
 def _(case):
     """For every robot with Properties 2.1–2.7, friction included; ε₀ is not part of the controller."""
-    case.read.update(("m", "n"))
-    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arms.small")
+    loop = loop_of(case)
+    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.small")
 
 
 # This arm --------------------------------------------------------------------------------------------------
@@ -555,8 +598,15 @@ def _(case):
     uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.B", "arm.theta"],
 )
 def _(case):
-    case.read.update(("m", "n"))
-    return theorem("Lyapunov's direct method", **LYAPUNOVS, form_negative_definite="arm.theta")
+    loop = loop_of(case, **numbers_of(case))
+    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arm.theta")
+
+
+def numbers_of(case):
+    """The constants of the loop for the robot and gains at hand, and ε₀."""
+    arm = ArmBounds(case.robot.fixed())
+    bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc}
+    return bounds | {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
 
 
 @proof.claim(

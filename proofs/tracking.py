@@ -30,12 +30,14 @@ from lyapcheck.claims import (
     any_vector,
     apply,
     combined,
+    dh,
     dot,
     entry_floors,
     every_n,
     expr,
     for_all,
     gamma,
+    h,
     identity,
     implies,
     lacking,
@@ -47,6 +49,8 @@ from lyapcheck.claims import (
     nonnegative,
     norm_chain,
     positive,
+    potential,
+    rate_bound,
     rho,
     scaled,
     secant_bound,
@@ -63,6 +67,7 @@ proof = Proof(
     reference="reyes2019family",
 )
 
+x = var("x")
 SPEED = Fraction(2)
 """v_d in rad/s for the conclusion with numbers."""
 SHARE = Fraction(99, 100)
@@ -70,6 +75,15 @@ SHARE = Fraction(99, 100)
 
 SAME_TERMS = [f"rate.{k}" for k in (1, 2, 3, 4, 6, 7, 8, 10, 11)]
 proof.adopt("scalar.py", "V.positive", "V.unbounded", *SAME_TERMS)
+
+
+def sign_of(case):
+    """h is odd and has the sign of its argument."""
+    return {
+        "odd": identity(h(case.m, -x), -h(case.m, x)),
+        "positive_right_of_0": for_all(expr(0) < h(case.m, x), 0, open_low=True),
+    }
+
 
 LOOP = "The loop that (21) closes"
 
@@ -93,7 +107,9 @@ def _(case):
     zero = [expr(0)] * n
     entries = loop_of_21(loops.loop(n), [vector(name, n) for name in names], zero, identity)
     letters = [any_vector(name) for name in names]
-    return all_of(**entries, every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n)))
+    return all_of(
+        **sign_of(case), **entries, every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n))
+    )
 
 
 def loop_of_21(s, others, zero, equal):
@@ -180,7 +196,7 @@ def theta(eps, k, b_min, c, d, turn):
     uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
 )
 def _(case):
-    """The bounds of the eleven terms add up to the form."""
+    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
     known = known_of(case)
     names = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
     a, b, eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
@@ -199,7 +215,20 @@ def _(case):
     ]
     c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
     corner, side, low = theta(eps, k, b_min, c, d, kc * vd)
-    return identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2))
+    return all_of(
+        sum=identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        from_V_for_every_n=rate_bound(loop_of(case)),
+    )
+
+
+def loop_of(case, **more):
+    """The loop that (21) closes with V of (13), as the theorem is about it."""
+    known = known_of(case)
+    names = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
+    eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
+    form = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
+    h_and_more = (h(case.m, x), dh(case.m, x), potential(case.m, x))
+    return known.loop(h_and_more, form, desired=True, **more)
 
 
 UNIFORM = "Uniform asymptotic stability, for every arm"
@@ -253,6 +282,7 @@ def _(case):
 DIRECT_METHOD = {
     "equilibrium": "21.loop",
     "differentiable": "V.smooth",
+    "positive_definite": "V.positive",
     "bounded_below_by_a_positive_definite_function": "21.below",
     "bounded_above_by_a_positive_definite_function": "21.above",
     "radially_unbounded": "V.unbounded",
@@ -269,10 +299,8 @@ DIRECT_METHOD = {
 )
 def _(case):
     """For every robot with Properties 2.1–2.7 and all positive gains; ε₀ is not part of the controller."""
-    case.read.update(("m", "n"))
-    return theorem(
-        "Lyapunov's direct method, time-varying", **DIRECT_METHOD, form_negative_definite="21.small"
-    )
+    name = "Lyapunov's direct method, time-varying"
+    return theorem(name, loop_of(case), **DIRECT_METHOD, form_negative_definite="21.small")
 
 
 # With numbers for the robot, the gains and v_d -------------------------------------------------------------
@@ -356,7 +384,8 @@ def _(case):
     ],
 )
 def _(case):
-    case.read.update(("m", "n"))
-    return theorem(
-        "Lyapunov's direct method, time-varying", **DIRECT_METHOD, form_negative_definite="arm.21.theta"
-    )
+    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(case.robot.fixed())
+    bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc, "vd": SPEED}
+    gains = {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
+    loop = loop_of(case, **bounds, **gains)
+    return theorem(name, loop, **DIRECT_METHOD, form_negative_definite="arm.21.theta")

@@ -43,6 +43,7 @@ from lyapcheck.check.certificates.statements import Majorant, Relation, Statemen
 from lyapcheck.check.functions import CONSTANTS, FAMILY, FUNCTIONS
 from lyapcheck.claims import (
     Constant,
+    FamilyBounds,
     agrees,
     all_of,
     always_positive,
@@ -347,7 +348,11 @@ TOP = for_all(h(2, x) <= "1.06", 0)
 TRANSITIVE = implies(positive("a", "b", "c"), (a < b, b <= var("c")), a < var("c"))
 CHAIN = norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1))
 PRINTED = agrees(a * b, "100", a="9", b="10")
-DIRECT = theorem("Lyapunov's direct method", only_equilibrium="11")
+E0, KP = var("eps"), var("kp")
+LOOP = FamilyBounds(1, 1, 1, 1).loop((tanh(x), 1 - tanh(x) ** 2, tanh(x)), (E0 * KP, E0, KP))
+DIRECT = theorem("Lyapunov's direct method", LOOP, only_equilibrium="11")
+NAMES = ("only_equilibrium", "differentiable", "positive_definite", "radially_unbounded")
+NAMES += ("rate_bounded_by_a_form", "form_negative_definite")
 
 
 def boxes(*cuts, zero=False, tail=False, bits=64):
@@ -484,7 +489,17 @@ FORGED = {
     ),
     "an entry from behind": (always_positive([cos(x)]), EntryWitness(-1, True, (("x", F(3)),)), "entry = -1"),
     "an entry that has no bound": (bounded([cos(x)]), EntryWitness(0, False, (("x", F(0)),)), "no bound"),
-    "a theorem nobody knows": (theorem("Fermat"), Application(), "Fermat"),
+    "a theorem nobody knows": (theorem("Fermat", LOOP), Application(), "Fermat"),
+    **{
+        f"a loop with too small a {name}": (
+            theorem(
+                "Lyapunov's direct method", replace(LOOP, **{name: F(value)}), **dict.fromkeys(NAMES, "a")
+            ),
+            Application(),
+            f"{name} = {value}",
+        )
+        for name, value in (("reach", "9/10"), ("G", "2/5"), ("rho", "0"), ("L", "-1"))
+    },
     "a theorem without its hypotheses": (DIRECT, Application(), "those of the theorem"),
     "a part left out": (CASES["all of"], EveryPart((SeparateBalls(128),)), "one proof per part"),
     "a part that holds": (CASES["all of"], OnePart(0, SeparateBalls(128)), "must be refuted"),
@@ -530,9 +545,7 @@ def test_a_statement_that_is_no_statement_is_refused():
 
 
 def test_what_a_theorem_needs_must_be_among_the_uses():
-    names = ("only_equilibrium", "differentiable", "positive_definite", "radially_unbounded")
-    names += ("rate_bounded_by_a_form", "form_negative_definite")
-    statement = theorem("Lyapunov's direct method", **dict.fromkeys(names, "lemma"))
+    statement = theorem("Lyapunov's direct method", LOOP, **dict.fromkeys(NAMES, "lemma"))
     about = About("P", "", 2, 3, "test")
     with pytest.raises(Refused, match="not among the uses"):
         judge(Certificate(about, statement, "proved", "exact", Application()))

@@ -228,6 +228,13 @@ def _outer_derivative(kind: str, a: Tree) -> Tree:
     return table[kind]
 
 
+def substitute(tree: Tree, values: Mapping[str, Tree]) -> Tree:
+    """An expression with expressions in place of some variables."""
+    if tree[0] == "var":
+        return values.get(tree[1], tree)
+    return tuple(substitute(part, values) if isinstance(part, tuple) else part for part in tree)
+
+
 def variables(tree: Sequence[Any]) -> set[str]:
     """The names of the variables of an expression."""
     if tree[0] == "var":

@@ -30,6 +30,7 @@ from lyapcheck.check.functions import (
 from lyapcheck.check.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
+ODD = ("atan", "asin", "tan")
 
 
 @dataclass(frozen=True)
@@ -148,6 +149,9 @@ class RationalAlgebra(Algebra):
         return root
 
     def _opaque(self, name: str, value: Ratio) -> Ratio:
+        """A generator; f(−x) = −f(x) for the functions that are odd."""
+        if name in ODD and value.top != 0 and value.top.leading_coefficient() < 0:
+            return -self._opaque(name, -value)
         self.opaque.add(name)
         return self._generator(name, str((str(value.top), str(value.bottom))))
 

@@ -4,7 +4,9 @@ A proof script needs nothing but the names below.
 """
 
 from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.certificates.rules.loop_rate import rate_bound
 from lyapcheck.check.certificates.statements import Relation
+from lyapcheck.check.certificates.theorems import ClosedLoop
 from lyapcheck.claims.arms import (
     coriolis_matrix,
     determinant,
@@ -104,6 +106,7 @@ __all__ = [
     "Case",
     "Claim",
     "ClaimResult",
+    "ClosedLoop",
     "Constant",
     "DampingBelow",
     "Decision",
@@ -174,6 +177,7 @@ __all__ = [
     "positive",
     "potential",
     "rate",
+    "rate_bound",
     "rate_of",
     "reals",
     "rho",

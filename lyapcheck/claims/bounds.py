@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, TypeVar
 from flint import ctx
 
 from lyapcheck.check.certificates.rules.trigonometric import largest, lowest
+from lyapcheck.check.certificates.statements import Relation
+from lyapcheck.check.certificates.theorems import ClosedLoop
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.functions import ball
 from lyapcheck.claims.arms import coriolis_matrix, mass_matrix
@@ -64,9 +66,41 @@ class FamilyBounds:
     """
 
     def __init__(self, n: int, gamma: object, rho: object, L: object) -> None:
+        self.n = n
         self.gamma, self.rho, self.L = above(gamma), above(rho), above(L)
         self.reach = above(sqrt(n)) * self.gamma
         self.G = self.reach * self.L / (self.reach + self.L)
+
+    def loop(
+        self,
+        h: tuple[Expr, Expr, Expr],
+        form: tuple[Expr, Expr, Expr],
+        desired: bool = False,
+        condition: Iterable[Relation] = (),
+        **numbers: Fraction,
+    ) -> ClosedLoop:
+        """The loop (11) with these bounds, as theorems are about it.
+
+        Args:
+            h: the function, its derivative and its potential U, in x.
+            form: θ11, θ12, θ22 of dV/dt <= −[a b] Θ [a b]ᵀ in eps, kp, b_min, b_max, kv_max, beta, kc and vd.
+            desired: whether C is C(q, q̇_d + w) with ‖q̇_d‖ <= vd.
+            condition: what is asked of eps0 and the constants.
+            numbers: the constants and eps0, where the conclusion is for these alone.
+        """
+        function, slope, potential = h
+        corner, side, low = form
+        return ClosedLoop(
+            self.n,
+            function.tree,
+            slope.tree,
+            potential.tree,
+            *(self.gamma, self.rho, self.L, self.reach, self.G),
+            (corner.tree, side.tree, low.tree),
+            desired,
+            tuple(condition),
+            tuple(sorted(numbers.items())),
+        )
 
     def drift(self, beta: T, kc: T) -> T:
         """c = β_M(ρ + G) + √nγ k_c."""

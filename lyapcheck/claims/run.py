@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.check.certificates.document import theorems_of
+from lyapcheck.check.certificates.rules.premises import unmet
 from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.decision import Decision, undecided
@@ -51,7 +53,8 @@ def run_proof(
     Raises:
         InputError: the script, an id, the robot or the gain file cannot be used.
 
-    Soundness: a claim is proved only if its own decision is and every claim it uses is proved for the same m.
+    Soundness: a claim is proved only if its own decision is and every claim it uses is proved for the same m,
+    and if those behind the hypotheses of a theorem state what these come to.
     """
     script = find_script(str(path))
     shown = script.name
@@ -113,14 +116,16 @@ def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResul
         kind=type(statement).__name__,
         uses=claim.uses,
         broken=open_uses,
-        decision=_chained(decision, used, open_uses),
+        decision=_chained(decision, statement, used, open_uses),
         step=decision,
         stated=statement,
         seconds=time.perf_counter() - begin,
     )
 
 
-def _chained(decision: Decision, used: list[ClaimResult], open_uses: tuple[str, ...]) -> Decision:
+def _chained(
+    decision: Decision, statement: Statement, used: list[ClaimResult], open_uses: tuple[str, ...]
+) -> Decision:
     """The decision with the weakest link of what it uses; a witness needs none of it."""
     if decision.verdict is not Verdict.PROVED:
         return decision
@@ -128,6 +133,11 @@ def _chained(decision: Decision, used: list[ClaimResult], open_uses: tuple[str, 
         names = ", ".join(open_uses)
         reason = f"its own step holds, but it rests on {names}; prove those, or prove it without them"
         return replace(undecided(reason, decision.method), evidence=decision.evidence)
+    stated = {result.id: result.stated for result in used}
+    for theorem in theorems_of(statement):
+        lacks = unmet(theorem, stated)
+        if lacks is not None:
+            return replace(undecided(f"{lacks}; state it there", decision.method), evidence=decision.evidence)
     return replace(decision, grade=min([decision.grade, *(result.decision.grade for result in used)]))
 
 

@@ -19,11 +19,11 @@ from lyapcheck.check.certificates.statements import (
     NormChain,
     Relation,
     Statement,
-    Theorem,
     TrigonometricBound,
     TrigonometricPositive,
     Variable,
 )
+from lyapcheck.check.certificates.theorems import ClosedLoop, Theorem
 from lyapcheck.claims.expressions import Expr, expr
 
 __all__ = [
@@ -155,6 +155,10 @@ def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
     return TrigonometricPositive(tuple(entry.tree for entry in entries))
 
 
-def theorem(name: str, **hypotheses: str) -> Theorem:
-    """A theorem applied; the keywords name its hypotheses, their values are the ids of claims."""
-    return Theorem(name, tuple((key.replace("_", " "), claim) for key, claim in hypotheses.items()))
+def theorem(name: str, loop: ClosedLoop, **hypotheses: str) -> Theorem:
+    """A theorem applied to a loop; the keywords name its hypotheses, their values are the ids of claims.
+
+    The statement of each claim must contain what the hypothesis comes to for the loop; where it does not, the
+    reason says what is missing.
+    """
+    return Theorem(name, loop, tuple((key.replace("_", " "), claim) for key, claim in hypotheses.items()))

@@ -39,6 +39,7 @@ from lyapcheck.claims import (
     pi,
     positive,
     rate,
+    rate_bound,
     reals,
     theorem,
     total,
@@ -53,9 +54,20 @@ x = var("x")
 U = x * atan(x) - log(1 + x**2) / 2
 
 
+SLOPE = 1 / (1 + x**2)
+
+
 def known_of(case):
     """γ, √nγ, ρ, L and G, rounded up to decimals."""
     return FamilyBounds(case.n, gamma=pi / 2, rho=1, L=1)
+
+
+def loop_of(case):
+    """The closed loop and V that the theorem at the end is about: arctan, its derivative, U and Θ'."""
+    known = known_of(case)
+    eps, k, b_min, b_max, kv_max, beta, kc = map(var, ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc"))
+    form = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
+    return known.loop((atan(x), SLOPE, U), form)
 
 
 # One variable: inequalities on the whole line or on a part of it --------------------------------------------
@@ -66,6 +78,7 @@ FUNCTION = "The function arctan"
 @proof.claim("sign", "arctan has the sign of x", section=FUNCTION)
 def _(case):
     return all_of(
+        odd=identity(atan(-x), -atan(x)),
         right_of_0=for_all(expr(0) < atan(x), 0, open_low=True),
         left_of_0=for_all(atan(x) < 0, None, 0, open_high=True),
         product=for_all(expr(0) <= x * atan(x)),
@@ -89,9 +102,9 @@ def _(case):
 @proof.claim("steep", "0 ≤ arctan' ≤ 1", section=FUNCTION)
 def _(case):
     return all_of(
-        derivative=identity(diff(atan(x), "x"), 1 / (1 + x**2)),
-        below=for_all(expr(0) <= 1 / (1 + x**2)),
-        above=for_all(1 / (1 + x**2) <= known_of(case).rho),
+        derivative=identity(diff(atan(x), "x"), SLOPE),
+        below=for_all(expr(0) <= SLOPE),
+        above=for_all(known_of(case).rho >= SLOPE),
     )
 
 
@@ -102,6 +115,8 @@ def _(case):
 )
 def _(case):
     return all_of(
+        arctan_is_odd=identity(atan(-x), -atan(x)),
+        arctan_is_positive=for_all(expr(0) < atan(x), 0, open_low=True),
         derivative=identity(diff(U, "x"), atan(x)),
         positive_right_of_0=for_all(expr(0) < U, 0, open_low=True),
         positive_left_of_0=for_all(expr(0) < U, None, 0, open_high=True),
@@ -127,8 +142,12 @@ def _(case):
 )
 def _(case):
     r, eps0, a = map(var, ("r", "eps0", "norm_h"))
-    variables = positive("eps0") + nonnegative("r", "norm_h")
+    known, variables = known_of(case), positive("eps0") + nonnegative("r", "norm_h")
     return all_of(
+        derivative=identity(diff(atan(x), "x"), SLOPE),
+        slope_from_above=for_all(known.rho >= SLOPE),
+        slope_from_below=for_all(-known.rho <= SLOPE),
+        at_most_the_error=norm_bound(atan(x), case.n, known.L, power=1),
         differentiable=implies(variables, (a <= r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * r**2),
         gradient=implies(variables, (a <= r,), eps0 * a / (1 + r) ** 2 <= eps0 * r),
     )
@@ -139,7 +158,13 @@ def _(case):
     """U takes care of q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ."""
     y, w, a, eps, eps0, reach = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach"))
     variables = nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach")
-    return implies(variables, (w <= y + eps * a, a <= reach, eps <= eps0), w <= y + eps0 * reach)
+    return all_of(
+        odd=identity(atan(-x), -atan(x)),
+        away_from_0=for_all(expr("1/2") <= atan(x), 1),
+        bounded=for_all(atan(x) <= pi / 2),
+        rounded_up=Constant(pi / 2 <= known_of(case).gamma),
+        velocity=implies(variables, (w <= y + eps * a, a <= reach, eps <= eps0), w <= y + eps0 * reach),
+    )
 
 
 @proof.claim(
@@ -149,8 +174,11 @@ def _(case):
     s, zero = loops.loop(case.n), [expr(0)] * case.n
     still = replace(s, w=zero, hw=zero)
     z = vector("z", case.n)
-    return identity(
-        dot(z, loops.force(still)), total(z_i * k * a for z_i, k, a in zip(z, s.kp, s.h, strict=True))
+    pull = total(z_i * k * a for z_i, k, a in zip(z, s.kp, s.h, strict=True))
+    return all_of(
+        at_rest=identity(dot(z, loops.force(still)), pull),
+        odd=identity(atan(-x), -atan(x)),
+        positive=for_all(expr(0) < atan(x), 0, open_low=True),
     )
 
 
@@ -221,7 +249,10 @@ def _(case):
     squares += eps * (known.rho * beta + known.G * beta + known.reach * kc) * b**2
     mixed = eps * (b_max + known.L * kv_max) + eps**2 * (known.reach * kc + known.G * beta + known.rho * beta)
     corner, side, low = theta(eps, k, b_min, c, d)
-    return identity(squares + mixed * a * b, -(corner * a**2 + 2 * side * a * b + low * b**2))
+    return all_of(
+        sum=identity(squares + mixed * a * b, -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        from_V_for_every_n=rate_bound(loop_of(case)),
+    )
 
 
 # A parameter that may be chosen small, and the theorem ------------------------------------------------------
@@ -248,9 +279,10 @@ def _(case):
     uses=["equilibrium", "smooth", "potential", "unbounded", "form", "small"],
 )
 def _(case):
-    case.read.add("n")
+    """The checker looks into the claims named here: each must state what its hypothesis comes to."""
     return theorem(
         "Lyapunov's direct method",
+        loop_of(case),
         only_equilibrium="equilibrium",
         differentiable="smooth",
         positive_definite="potential",

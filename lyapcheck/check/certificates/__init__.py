@@ -2,7 +2,7 @@
 
 Statements and proofs are plain data that JSON carries; :func:`verify` recomputes the verdict from them alone.
 
-- ``statements``, ``every_n``, ``proofs``: the data classes; ``well_formed``, ``trees``: what makes a statement one;
+- ``statements``, ``every_n``, ``proofs``: the data; ``well_formed``, ``trees``: what makes a statement one;
 - ``rules``: one file a kind of statement, a function for each class of proofs that may decide it;
 - ``document``: a statement with its proof, verdict and digest as JSON; ``codec`` reads it strictly;
 - ``recheck``, ``files``, ``render``: many documents, what they rest on, and the outcome in print.

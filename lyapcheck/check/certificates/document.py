@@ -20,7 +20,8 @@ from typing import Any, NoReturn
 from lyapcheck.check.certificates.codec import from_json, is_text, require_keys, to_json
 from lyapcheck.check.certificates.proofs import Proof
 from lyapcheck.check.certificates.refusal import Refused, require
-from lyapcheck.check.certificates.statements import AllOf, Statement, Theorem
+from lyapcheck.check.certificates.statements import AllOf, Statement
+from lyapcheck.check.certificates.theorems import Theorem
 from lyapcheck.check.certificates.verify import Accepted, verify
 
 SCHEMA = "lyapcheck/certificate/1"

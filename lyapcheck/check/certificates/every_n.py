@@ -40,3 +40,42 @@ class EntriesWitness(Proof):
     rule = "entries"
     n: int
     point: Point
+
+
+@dataclass(frozen=True)
+class BoundEveryN(Statement):
+    """``left <= right`` for every n, from bounds of norms; ``left`` is as in :class:`EveryN`.
+
+    ``norms`` says of some letters together that the product of their norms is at most an expression, the norm
+    of a number being its size. ``least`` says that a number is at least an expression. The variables of these
+    expressions and of ``right``, and the numbers among the letters of ``left``, are >= 0.
+    """
+
+    left: Tree
+    right: Tree
+    symmetric: tuple[str, ...]
+    rates: tuple[tuple[Tree, Tree], ...]
+    given: tuple[Given, ...]
+    norms: tuple[tuple[tuple[Tree, ...], Tree], ...]
+    least: tuple[tuple[Tree, Tree], ...]
+
+    @property
+    def terms(self) -> EveryN:
+        """``left = 0`` with the same letters."""
+        return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
+
+
+@dataclass(frozen=True)
+class Cover:
+    """How one term is bounded: which ``norms`` cover its letters, or which ``least`` is its one word."""
+
+    norms: tuple[int, ...]
+    least: int | None = None
+
+
+@dataclass(frozen=True)
+class CoveredTerms(Proof):
+    """A cover of each term of ``left`` in words, the terms in the order of their exponents."""
+
+    rule = "covered terms"
+    covers: tuple[Cover, ...]

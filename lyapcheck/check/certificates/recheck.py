@@ -8,6 +8,7 @@ from typing import Any
 
 from lyapcheck.check.certificates.document import Certificate, judge, read, theorems_of
 from lyapcheck.check.certificates.refusal import Refused, plain
+from lyapcheck.check.certificates.rules.premises import unmet
 from lyapcheck.check.certificates.verify import weakest
 
 
@@ -59,8 +60,9 @@ def recheck(documents: Iterable[Document]) -> Outcome:
     """Judge certificates, and whether what they use was judged well too.
 
     Soundness: a certificate is accepted if its own proof is, and no certificate that it uses is known to be
-    refused, to be of another claim or to be a refutation; in a complete collection none may be missing. Uses
-    cannot go in circles: each digest is over the digests it uses.
+    refused, to be of another claim or to be a refutation, and those behind the hypotheses of a theorem state
+    what it needs; in a complete collection none may be missing. Uses cannot go in circles: each digest is
+    over the digests it uses.
     """
     own = [check_one(document) for document in documents]
     known = {one.digest: one for one in own if one.digest}
@@ -117,7 +119,18 @@ def _with_uses(one: Checked, settled: dict[str, Checked]) -> Checked:
             given.extend(used.given)
     if not one.accepted:
         return one
+    lacks = _lacking(one, {claim: settled[d] for claim, d in _uses(one).items() if d in settled})
+    if lacks is not None:
+        return replace(one, reason=plain(lacks))
     return replace(one, grade=weakest(grades), given=tuple(dict.fromkeys(given)))
+
+
+def _lacking(one: Checked, used: dict[str, Checked]) -> str | None:
+    """What the claims behind the hypotheses of its theorems fail to state."""
+    assert one.certificate is not None
+    stated = {name: its.certificate.statement for name, its in used.items() if its.certificate is not None}
+    found = (unmet(theorem, stated) for theorem in theorems_of(one.certificate.statement))
+    return next((lacks for lacks in found if lacks is not None), None)
 
 
 def _fault(one: Checked, used: Checked, claim: str) -> str | None:

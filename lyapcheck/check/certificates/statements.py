@@ -225,11 +225,3 @@ class DampingBelow(Statement):
     def below(self, factor: Fraction) -> Constant:
         """That κ λmax(K_v) < bound at one κ."""
         return Constant(Relation(("num", str(factor * max(self.kv))), "<", self.bound))
-
-
-@dataclass(frozen=True)
-class Theorem(Statement):
-    """A theorem applied: each of its hypotheses is a claim that this one uses."""
-
-    name: str
-    hypotheses: tuple[tuple[str, str], ...]

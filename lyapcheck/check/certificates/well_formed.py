@@ -9,9 +9,11 @@ from itertools import chain
 from typing import Any
 
 from lyapcheck.check.certificates import statements as kinds
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN
 from lyapcheck.check.certificates.refusal import Refused, require
+from lyapcheck.check.certificates.theorems import Theorem
 from lyapcheck.check.certificates.trees import require_expressions
+from lyapcheck.check.functions import variables
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 
 MAX_JOINTS = 100
@@ -19,6 +21,8 @@ MAX_INPUTS = 16
 MAX_ARM = 9
 MAX_POWER = 40
 MAX_LENGTH = 400
+CONSTANTS = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd", "eps0")
+"""The names in the form of a loop."""
 DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 
 
@@ -116,8 +120,14 @@ def _damping(statement: kinds.DampingBelow) -> None:
     require_expressions([statement.bound], [])
 
 
-def _theorem(statement: kinds.Theorem) -> None:
+def _theorem(statement: Theorem) -> None:
+    loop = statement.loop
     _distinct("hypotheses", [name for name, _ in statement.hypotheses])
+    _distinct("numbers", [name for name, _ in loop.numbers])
+    require(1 <= loop.n <= MAX_JOINTS, "n", loop.n, f"must be from 1 to {MAX_JOINTS}")
+    require_expressions((loop.h, loop.slope, loop.potential), ["x"])
+    require_expressions(loop.form, CONSTANTS)
+    _relations(loop.condition, list(CONSTANTS[1:]))
 
 
 def _every_n(statement: EveryN) -> None:
@@ -145,6 +155,26 @@ def _every_n(statement: EveryN) -> None:
         require(("mat", name) in used, "symmetric", name, "is not a matrix of the statement")
 
 
+def _bound_every_n(statement: BoundEveryN) -> None:
+    _every_n(statement.terms)
+    used = letters(statement.left)
+    for known, size in statement.norms:
+        for letter in known:
+            sort = next((sort for sort, kind in LETTERS.items() if letter[:1] == (kind,)), "matrix")
+            require_sort(letter, sort)
+            require(letters(letter) == {letter} or letter[0] == "diag", "norms", letter, "is not a letter")
+            used |= letters(letter)
+        require_expressions([size])
+    for number, size in statement.least:
+        require_sort(number, "number")
+        require_expressions([size])
+        used |= letters(number)
+    sizes = (statement.right, *(size for _, size in (*statement.norms, *statement.least)))
+    require_expressions(sizes)
+    used |= {("var", name) for size in sizes for name in variables(size)}
+    _distinct("letters", sorted(name for _, name in used))
+
+
 def _all_of(statement: kinds.AllOf) -> None:
     require(len(statement.parts) > 0, "parts", "none", "a conjunction needs at least one part")
 
@@ -162,9 +192,10 @@ FORMS: dict[type, Callable[[Any], None]] = {
     kinds.TrigonometricPositive: _positive,
     kinds.Decreasing: _decreasing,
     kinds.DampingBelow: _damping,
-    kinds.Theorem: _theorem,
+    Theorem: _theorem,
     kinds.AllOf: _all_of,
     EveryN: _every_n,
+    BoundEveryN: _bound_every_n,
 }
 """The kinds of statement, each with what makes one well formed."""
 

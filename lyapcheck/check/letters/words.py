@@ -35,6 +35,8 @@ class Words:
         symmetric: the names of the matrices with Aᵀ = A.
         rates: the derivatives of the letters.
         given: b for each pair (A, x) of names with A x = b; no b contains such an x.
+
+    ``seen`` lists, for the variable of each word, all words that it stands for as they came up.
     """
 
     def __init__(
@@ -44,6 +46,7 @@ class Words:
         given: Mapping[tuple[str, str], Tree],
     ) -> None:
         self.symmetric, self.rates = frozenset(symmetric), rates
+        self.seen: dict[str, set[Word]] = {}
         self.given: dict[tuple[str, str], Sum] = {}
         self.given = {pair: self.expand(tree) for pair, tree in given.items()}
 
@@ -61,7 +64,7 @@ class Words:
                 (*self.transposed(x), *y): ("mul", s, t)
                 for (x, s), (y, t) in product(left.items(), right.items())
             }
-            return _total(("mul", c, _variable(word)) for word, c in self._settled(whole))
+            return _total(("mul", c, self._variable(word)) for word, c in self._settled(whole))
         return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
 
     def expand(self, tree: Tree) -> Sum:
@@ -91,7 +94,7 @@ class Words:
         )
 
     def _settled(self, words: Sum) -> Iterator[tuple[Word, Tree]]:
-        """The words in normal form, after what is given has been put in."""
+        """The words after what is given has been put in."""
         waiting = list(words.items())
         while waiting:
             word, c = waiting.pop()
@@ -101,7 +104,14 @@ class Words:
                     waiting += [((*turned[:-2], *tail), ("mul", c, d)) for tail, d in value.items()]
                     break
             else:
-                yield min(_in_order(word), _in_order(self.transposed(word))), c
+                yield word, c
+
+    def _variable(self, word: Word) -> Tree:
+        """The variable of a word, the same for words that are equal by the laws; ``seen`` keeps them."""
+        first = min(_in_order(word), _in_order(self.transposed(word)))
+        name = " ".join(f"{kind}({name})" for kind, name in first)
+        self.seen.setdefault(name, set()).add(word)
+        return ("var", name)
 
 
 def _in_order(word: Word) -> Word:
@@ -111,10 +121,6 @@ def _in_order(word: Word) -> Word:
         kinds, names = zip(*run, strict=True)
         found += zip(kinds, sorted(names) if entrywise else names, strict=True)
     return tuple(found)
-
-
-def _variable(word: Word) -> Tree:
-    return ("var", " ".join(f"{kind}({name})" for kind, name in word))
 
 
 def _collected(pairs: Iterable[tuple[Word, Tree]]) -> Sum:

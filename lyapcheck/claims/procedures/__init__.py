@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN
 from lyapcheck.check.certificates.proofs import Application
 from lyapcheck.check.certificates.rules.theorem import THEOREMS
 from lyapcheck.claims import state_statements as state_kinds
@@ -18,6 +18,7 @@ from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
+from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
 from lyapcheck.claims.procedures.printed import find_agrees
@@ -80,6 +81,7 @@ def _missing(statement: kinds.Missing) -> Finding:
 PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Identity: find_identity,
     EveryN: find_every_n,
+    BoundEveryN: find_bound_every_n,
     kinds.ForAll: find_for_all,
     kinds.Constant: find_constant,
     kinds.NormBound: find_norm_bound,

@@ -17,7 +17,7 @@ Equation = tuple[Tree, Tree]
 
 
 @rule(EveryN, NormalForm)
-def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
+def bywords_of(statement: EveryN, proof: NormalForm) -> Accepted:
     """Soundness: see :meth:`Words.number`; a zero normal form in words is zero whatever the words are."""
     require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
     require(is_zero(in_words(statement)), "normal form", "", "that of the difference is not zero")
@@ -38,13 +38,13 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
 
 def in_words(statement: EveryN) -> Tree:
     """The difference of both sides as an expression in words."""
-    words = _words(statement)
+    words = words_of(statement)
     return ("add", words.number(statement.right), ("neg", words.number(statement.left)))
 
 
 def rates_fit(statement: EveryN) -> bool:
     """Whether the derivative of each symmetric matrix is symmetric, word by word."""
-    words = _words(statement)
+    words = words_of(statement)
     changes = [value for (_, name), value in statement.rates if name in statement.symmetric]
     skew = (words.expand(("sum", a, ("scale", ("num", "-1"), ("transpose", a)))) for a in changes)
     return all(is_zero(coefficient) for word in skew for coefficient in word.values())
@@ -69,6 +69,7 @@ def names_at(sides: Equation, given: list[Equation]) -> set[str]:
     return set().union(*(variables(tree) for pair in (sides, *given) for tree in pair))
 
 
-def _words(statement: EveryN) -> Words:
+def words_of(statement: EveryN) -> Words:
+    """The words of a statement."""
     given = {(known.matrix, known.vector): known.equals for known in statement.given}
     return Words(statement.symmetric, dict(statement.rates), given)

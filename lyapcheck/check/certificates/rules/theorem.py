@@ -1,7 +1,7 @@
 """Theorems that the checker knows, and the hypotheses each of them must be given.
 
-What a theorem says is taken from the literature; that the named claims are its hypotheses is for a reader to
-see, which is why each hypothesis has a name and certificates list them.
+What a theorem says is taken from the literature. What each hypothesis comes to for a loop, and that the claim
+behind it states this, is judged in ``premises`` where the claims that are used are at hand.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from lyapcheck.check.certificates.proofs import Application
 from lyapcheck.check.certificates.refusal import Refused, require
-from lyapcheck.check.certificates.statements import Theorem
+from lyapcheck.check.certificates.theorems import ClosedLoop, Theorem
 from lyapcheck.check.certificates.verify import Accepted, rule
 
 
@@ -43,6 +43,7 @@ THEOREMS = {
             {
                 "equilibrium",
                 "differentiable",
+                "positive definite",
                 "bounded below by a positive definite function",
                 "bounded above by a positive definite function",
                 "radially unbounded",
@@ -59,7 +60,7 @@ THEOREMS = {
 
 @rule(Theorem, Application)
 def by_application(statement: Theorem, proof: Application) -> Accepted:
-    """Soundness: the step itself; that each hypothesis is proved is checked where ``uses`` is."""
+    """Soundness: the step itself; that each hypothesis is shown is judged where ``uses`` is."""
     known = THEOREMS.get(statement.name)
     if known is None:
         raise Refused("theorem", statement.name, "is not one that the checker knows")
@@ -67,4 +68,21 @@ def by_application(statement: Theorem, proof: Application) -> Accepted:
     shown = ", ".join(labels)
     require(len(set(labels)) == len(labels), "hypotheses", shown, "one is given twice")
     require(set(labels) == known.hypotheses, "hypotheses", shown, "are not those of the theorem")
+    _require_bounds(statement.loop)
     return Accepted("proved", "exact")
+
+
+def _require_bounds(loop: ClosedLoop) -> None:
+    """√nγ <= reach, and min(Lr, reach)/(1 + r) <= reach·L/(reach + L) <= G, the greatest where both agree.
+
+    Raises:
+        Refused: they do not hold.
+    """
+    for name in ("gamma", "rho", "L", "reach", "G"):
+        require(getattr(loop, name) > 0, name, getattr(loop, name), "must be positive")
+    for name, value in loop.numbers:
+        require(value >= 0, name, value, "must not be negative")
+        require(value > 0 or name not in ("kp", "b_min", "eps0"), name, value, "must be positive")
+    require(loop.n * loop.gamma**2 <= loop.reach**2, "reach", loop.reach, "must be at least √nγ")
+    share = loop.reach * loop.L / (loop.reach + loop.L)
+    require(share <= loop.G, "G", loop.G, "must be at least reach·L/(reach + L)")

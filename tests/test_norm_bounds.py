@@ -1,0 +1,219 @@
+"""Upper bounds for every n: against numbers with the actual norms, with faults, and forged covers."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.certificates import Refused, verify
+from lyapcheck.check.certificates.codec import from_json, to_json
+from lyapcheck.check.certificates.every_n import BoundEveryN, Cover, CoveredTerms
+from lyapcheck.check.certificates.rules.norm_bounds import terms_in_words
+from lyapcheck.check.certificates.statements import Statement
+from lyapcheck.claims import (
+    FamilyBounds,
+    any_matrix,
+    any_vector,
+    dot,
+    expr,
+    form,
+    rate_bound,
+    scaled,
+    tanh,
+    var,
+)
+from lyapcheck.claims.procedures import decide
+
+A, S = any_matrix("A"), any_matrix("S")
+x, y, d = (any_vector(name) for name in "xyd")
+s, p, q, k, l, m = (var(name) for name in "spqklm")
+NORMS = (
+    ((x.tree,), p.tree),
+    ((y.tree,), q.tree),
+    ((A.tree,), k.tree),
+    ((("diag", "d"),), l.tree),
+    ((s.tree, y.tree), m.tree),
+)
+LEAST = ((form(x, S, x).tree, (3 * p**2).tree),)
+
+
+def bound(left, right, norms=NORMS, least=None):
+    """In x, y, d, s, A and the symmetric S with xᵀSx >= 3p², where S occurs."""
+    symmetric = ("S",) if "'S'" in str(left.tree) else ()
+    least = (LEAST if symmetric else ()) if least is None else least
+    return BoundEveryN(left.tree, expr(right).tree, symmetric, (), (), norms, least)
+
+
+TRUE = {
+    "a form": bound(form(x, A, y), p * k * q),
+    "with a minus": bound(-form(x, A, y), p * k * q),
+    "of the transpose": bound(2 * form(x, A.T, y), 2 * p * k * q),
+    "a diagonal": bound(dot(x, scaled(d, y)), p * l * q),
+    "two at once": bound(s * form(x, A, y), p * k * m),
+    "or one after the other": bound(s * form(x, A, y), s * p * k * q),
+    "a product": bound(dot(x, y) * dot(y, A @ (A @ x)), p**2 * q**2 * k**2),
+    "at least": bound(-2 * s * form(x, S, x), -6 * s * p**2),
+    "terms cancel": bound(form(x, A, y) - form(y, A.T, x), 0),
+    "room to spare": bound(form(x, A, y), 2 * p * k * q + p),
+    "several": bound(form(x, A, y) - form(x, S, x) + s * dot(x, y), p * k * q - 3 * p**2 + p * m),
+}
+OPEN = {
+    "too small": bound(form(x, A, y), p * k * q * "0.999"),
+    "another power": bound(form(x, A, y), p * k**2 * q),
+    "a norm that is not known": bound(form(x, S, y), p * q * 1000),
+    "d is no diagonal matrix there": bound(form(scaled(x, d), A, y), p * l * k * q),
+    "at least, with a plus": bound(form(x, S, x), 3 * p**2),
+    "at least, twice": bound(-form(x, S, x) * form(x, S, x), -9 * p**4),
+    "one term too many": bound(form(x, A, y) + s * s, p * k * q),
+    "signs do not cancel": bound(form(x, A, y) - form(x, A, y) * 2, 0),
+    "a quotient": bound(form(x, A, y) / s, p * k * q / s),
+    "a function": bound(form(x, A, y), p * k * q + tanh(p)),
+}
+
+
+def verdict(statement):
+    found = decide(statement)
+    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
+    if found.certificate is not None:
+        assert verify(again, found.certificate).verdict == found.verdict.value
+    return found.verdict.value
+
+
+@pytest.mark.parametrize("name", TRUE)
+def test_a_bound_by_norms_is_proved(name):
+    assert verdict(TRUE[name]) == "proved"
+
+
+@pytest.mark.parametrize("name", OPEN)
+def test_what_norms_do_not_give_stays_open(name):
+    assert verdict(OPEN[name]) == "undecided"
+
+
+FORGED = {
+    "no cover": (Cover(()), "does not cover"),
+    "one vector twice": (Cover((0, 0, 2)), "does not cover"),
+    "too much": (Cover((0, 1, 2, 2)), "does not cover"),
+    "a norm that does not exist": (Cover((0, 1, 9)), "does not exist"),
+    "a norm from behind": (Cover((0, 1, -3)), "does not exist"),
+    "a least that is another word": (Cover((), 0), "minus"),
+    "a least that does not exist": (Cover((), 4), "minus"),
+}
+
+
+@pytest.mark.parametrize("name", FORGED)
+def test_a_forged_cover_is_refused(name):
+    cover, reason = FORGED[name]
+    statement = bound(form(x, A, y), p * k * q)
+    assert verify(statement, CoveredTerms((Cover((0, 1, 2)),))).verdict == "proved"
+    with pytest.raises(Refused, match=reason):
+        verify(statement, CoveredTerms((cover,)))
+    with pytest.raises(Refused, match="one a term"):
+        verify(statement, CoveredTerms((cover, cover)))
+
+
+def test_a_forged_least_is_refused():
+    statement = bound(-form(x, A, x), -3 * p**2, least=((form(x, A.T, y).tree, p.tree),))
+    with pytest.raises(Refused, match="not the word"):
+        verify(statement, CoveredTerms((Cover((), 0),)))
+    with pytest.raises(Refused, match="does not exist"):
+        verify(statement, CoveredTerms((Cover((), 1),)))
+
+
+def test_one_name_means_one_thing():
+    for faulty in (
+        bound(form(x, A, y), var("x") * k * q),
+        bound(form(x, A, y), p, norms=(((x.tree, ("dot", x.tree, y.tree)), p.tree),)),
+        bound(form(x, A, y), p, least=((x.tree, p.tree),)),
+    ):
+        with pytest.raises(Refused):
+            verify(faulty, CoveredTerms((Cover((0, 1, 2)),)))
+        assert verdict(faulty) == "undecided"
+
+
+# dV/dt ------------------------------------------------------------------------------------------------------
+
+KNOWN = FamilyBounds(3, gamma=1, rho=1, L=1)
+NAMES = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
+EPS, KP, B_MIN, B_MAX, KV_MAX, BETA, KC, VD = map(var, NAMES)
+C, D = KNOWN.drift(BETA, KC), KNOWN.cross(B_MAX, KV_MAX)
+REGULATOR = (EPS * KP, -EPS / 2 * (D + EPS * C), B_MIN - EPS * C)
+TRACKING = (EPS * (KP - EPS * KC * VD), -EPS / 2 * (D + KC * VD + EPS * C), B_MIN - EPS * C)
+X = var("x")
+
+
+def rate_of(theta, desired=False):
+    return rate_bound(KNOWN.loop((tanh(X), 1 - tanh(X) ** 2, tanh(X)), theta, desired=desired))
+
+
+@pytest.mark.parametrize(("theta", "desired", "terms"), [(REGULATOR, False, 11), (TRACKING, True, 13)])
+def test_the_rate_of_v_has_the_form_and_no_better_one(theta, desired, terms):
+    """Eleven terms as in (15), two more with the desired velocity; every entry of Θ is needed as it is."""
+    statement = rate_of(theta, desired)
+    assert len(terms_in_words(statement)[0]) == terms
+    assert verdict(statement) == "proved"
+    corner, side, low = theta
+    assert verdict(rate_of((corner, side * "1.001", low), desired)) == "proved"
+    for better in (
+        (corner * "1.001", side, low),
+        (corner, side * "0.999", low),
+        (corner, side, low * "1.001"),
+        (corner + EPS, side, low),
+        (corner, side, low + EPS),
+    ):
+        assert verdict(rate_of(better, desired)) == "undecided"
+
+
+def test_without_any_one_of_the_norms_nothing_is_shown():
+    statement = rate_of(TRACKING, True)
+    for index in range(len(statement.norms)):
+        rest = statement.norms[:index] + statement.norms[index + 1 :]
+        assert verdict(replace(statement, norms=rest)) == "undecided", statement.norms[index]
+    for index in range(len(statement.least)):
+        rest = statement.least[:index] + statement.least[index + 1 :]
+        assert verdict(replace(statement, least=rest)) == "undecided", statement.least[index]
+
+
+def test_the_norms_for_tracking_do_not_do_without_the_desired_velocity():
+    assert verdict(rate_of(REGULATOR, True)) == "undecided"
+    assert verdict(rate_of(TRACKING, False)) in ("proved", "undecided")
+
+
+@pytest.mark.parametrize("n", [1, 3, 6])
+def test_the_form_bounds_a_derivative_of_v_taken_in_floating_point(n):
+    """Random letters, V at t ± δ, and the norms of just these letters as the constants."""
+    rng = np.random.default_rng(n)
+    for _ in range(200):
+        size = 10 ** rng.uniform(-2, 2, 3)
+        e, w = rng.normal(size=(2, n)) * size[:2, None]
+        root, c = rng.normal(size=(2, n, n))
+        c *= np.linalg.norm(w) * size[2]
+        inertia = root @ root.T + 0.1 * np.eye(n)
+        kp, kv, friction = rng.uniform(0.1, 3, (3, n))
+        h, hw, slope, eps0 = np.tanh(e), np.tanh(w), 1 - np.tanh(e) ** 2, rng.uniform(0.01, 2)
+        push = kp * h - kv * hw - friction * w - c @ w
+        acceleration = np.linalg.solve(inertia, push)
+        r = np.linalg.norm(e)
+        eps = eps0 / (1 + r)
+        eps_rate = eps / (1 + r) * (e @ w) / r
+        y = w - eps * h
+        y_rate = acceleration - eps_rate * h + eps * slope * w
+        rate = y @ inertia @ y_rate + y @ (c + c.T) @ y / 2 - kp @ (h * w)
+        at = {
+            "kp": kp.min(),
+            "b_min": friction.min(),
+            "b_max": friction.max(),
+            "kv_max": kv.max(),
+            "beta": np.linalg.norm(inertia, 2),
+            "kc": np.linalg.norm(c, 2) / np.linalg.norm(w),
+            "vd": 0.0,
+        }
+        known = FamilyBounds(n, gamma=1, rho=1, L=1)
+        drift = float(known.rho + known.G) * at["beta"] + float(known.reach) * at["kc"]
+        cross = at["b_max"] + at["kv_max"]
+        a, b = np.linalg.norm(h), np.linalg.norm(w)
+        form_value = (
+            eps * at["kp"] * a**2 - eps * (cross + eps * drift) * a * b + (at["b_min"] - eps * drift) * b**2
+        )
+        scale = abs(rate) + abs(form_value)
+        assert rate <= -form_value + 1e-9 * scale
