@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
 MOST_RUNS = 100_000
-"""Runs of one command: the paper's arm takes about ten seconds for each of them at this number."""
+"""Runs of one gain set; so many of the paper's arm take about ten seconds."""
 
 SHARES = (0.0, 0.05, 0.5, 0.95, 1.0)
 """The quantiles that are told."""
