@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -18,7 +20,7 @@ from lyapcheck import load_robot, robot_names
 from lyapcheck.cli import gate_run
 from lyapcheck.cli import main as cli
 from lyapcheck.cli.gate_options import GateCall, quick_call
-from lyapcheck.control import known_arms, known_arms_data, paper_gain_file
+from lyapcheck.control import gate, known_arms, known_arms_data, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.control.model_limits import model_limits
 from lyapcheck.control.plain import read_plain
@@ -140,6 +142,16 @@ def test_what_is_read_quickly_is_what_toml_says(tmp_path: Path, text: str, end: 
         assert quick.document is not None
         assert slow.document is not None
         assert quick.document.place(("robot",)) == slow.document.place(("robot",))
+
+
+def test_results_are_equal_where_what_they_say_is() -> None:
+    """Judged twice, and sent to another process and back."""
+    gain_file = read_plain(str(paper_gain_file()))
+    assert gain_file is not None
+    results = gate(gain_file)
+    assert gate(read_gain_file(paper_gain_file())) == results == pickle.loads(pickle.dumps(results))
+    assert gate(gain_file, gamma="printed") != results
+    assert len({*gain_file.gains, *copy.deepcopy(gain_file.gains)}) == 3
 
 
 @pytest.mark.parametrize("name", ["table2", "table2_pd", "table2_shoulder_elbow"])

@@ -38,6 +38,12 @@ class Lines:
         self.lines, self.heads, self.keys = lines, heads, keys
         self._last: tuple[int, list[Place]] = (-1, [])
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Lines) and self.lines == other.lines
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.lines))
+
     def place(self, path: KeyPath) -> Place | None:
         """Line and column of a key or number of a gain set, or of the set; ``None`` for anything else."""
         if len(path) < 2 or path[0] != "gains":
