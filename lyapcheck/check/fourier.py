@@ -101,6 +101,18 @@ def fourier_sum(tree: Tree) -> Fourier:
     return result
 
 
+def is_bounded(tree: Tree) -> bool:
+    """Whether an expression is plainly a polynomial in sines and cosines of angles: then it is bounded."""
+    kind, *rest = tree
+    if kind in ("add", "mul", "neg"):
+        return all(map(is_bounded, rest))
+    if kind == "pow":
+        return int(rest[1]) >= 0 and is_bounded(rest[0])
+    if kind == "div":
+        return is_bounded(rest[0]) and rest[1][0] == "num" and Fraction(rest[1][1]) != 0
+    return kind == "num" or (kind in ("sin", "cos") and rest[0][0] == "var")
+
+
 def _sum(k: Frequency, j: Frequency) -> Frequency:
     total = dict(k)
     for angle, multiple in j:

@@ -89,14 +89,32 @@ def evaluate(tree: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
     Raises:
         Unsupported: for a node that is not in the list above or that the algebra cannot express.
     """
-    kind, *rest = tree
-    if kind in LEAVES:
-        return _leaf(kind, rest, values, algebra)
-    if kind in FAMILY:
-        return evaluate(family_formula(kind, *rest), values, algebra)
-    if kind == "pow":
-        return power(evaluate(rest[0], values, algebra), rest[1], algebra)
-    return _combine(kind, [evaluate(part, values, algebra) for part in rest], algebra)
+    return _Evaluation(values, algebra).of(tree)
+
+
+class _Evaluation:
+    """One evaluation: a node that stands in several places of an expression is worked out once."""
+
+    def __init__(self, values: Mapping[str, Any], algebra: Algebra) -> None:
+        self.values = values
+        self.algebra = algebra
+        # the node is kept beside its value, so that its id stays its own
+        self.known: dict[int, tuple[Tree, Any]] = {}
+
+    def of(self, tree: Tree) -> Any:
+        kind, *rest = tree
+        if kind in LEAVES:
+            return _leaf(kind, rest, self.values, self.algebra)
+        if id(tree) not in self.known:
+            self.known[id(tree)] = tree, self._worked_out(kind, rest)
+        return self.known[id(tree)][1]
+
+    def _worked_out(self, kind: str, rest: list[Any]) -> Any:
+        if kind in FAMILY:
+            return self.of(family_formula(kind, *rest))
+        if kind == "pow":
+            return power(self.of(rest[0]), rest[1], self.algebra)
+        return _combine(kind, [self.of(part) for part in rest], self.algebra)
 
 
 def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 from flint import Ordering, arb, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -31,6 +30,7 @@ from lyapcheck.check.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
 ODD = ("atan", "asin", "tan")
+WITH_GENERATORS = frozenset((*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential"))
 
 
 @dataclass(frozen=True)
@@ -157,6 +157,8 @@ class RationalAlgebra(Algebra):
 
     def _generator(self, name: str, argument: str) -> Ratio:
         index = self.uses.setdefault((name, argument), len(self.names) + len(self.uses))
+        if index >= len(self.names) + self.slots:
+            raise Unsupported("exp of a sum of so many terms")
         return Ratio(self.ring.gen(index), self.one)
 
     def constants(self) -> dict[int, arb]:
@@ -208,7 +210,7 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
         Unsupported: where the expression has no such form.
     """
     names = sorted(variables(tree))
-    algebra = RationalAlgebra(names, 2 * functions_in(tree) + 4)
+    algebra = RationalAlgebra(names, room_for(tree))
     ratio = evaluate(tree, {name: algebra.variable(name) for name in names}, algebra)
     return Ratio(algebra.reduced(ratio.top), algebra.reduced(ratio.bottom)), algebra
 
@@ -223,9 +225,13 @@ def is_zero(tree: Tree) -> bool:
     return bool(normal_form(tree)[0].top == 0)
 
 
-def functions_in(tree: Any) -> int:
-    """How many function nodes an expression has: a bound on the generators it needs beside its variables."""
-    if not isinstance(tree, (tuple, list)):
-        return 0
-    own = 1 if tree[0] in (*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential") else 0
-    return own + sum(functions_in(part) for part in tree[1:])
+def room_for(*trees: Tree) -> int:
+    """Generators that expressions need beside their variables: two for each function of each argument."""
+    found: set[Tree] = set()
+    waiting = list(trees)
+    while waiting:
+        node = waiting.pop()
+        waiting += [part for part in node[1:] if isinstance(part, tuple)]
+        if node[0] in WITH_GENERATORS:
+            found.add(node)
+    return 2 * len(found) + 4

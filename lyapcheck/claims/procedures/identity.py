@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from itertools import islice
 
 from lyapcheck.check.certificates.proofs import NormalForm
 from lyapcheck.check.certificates.rules.identity import gap_of
@@ -17,23 +18,31 @@ from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 
 METHOD = "identity"
-TRIES = 12
+TRIES, FIRST = 12, 2
 
 
 def find_identity(statement: Identity) -> Finding:
-    """Try points where both sides may differ, then the normal forms."""
-    found = first_refutation((statement.left, "=", statement.right), points(statement))
-    if found is not None:
-        return broken(witness_of(found), f"{METHOD}: a point where the sides differ", witness_data(found))
+    """Try a few points where both sides may differ, then the normal forms, then more points."""
+    places = points(statement)
+    refuted = _refuted(statement, islice(places, FIRST))
+    if refuted is not None:
+        return refuted
     try:
         if is_zero(gap_of(statement)):
             return shown(NormalForm(), f"{METHOD}: equal normal forms over the rationals")
+        advice = (
+            "the normal forms differ but no point tells the sides apart; apply laws of log or atan by hand"
+        )
     except Unsupported as problem:
-        return still_open(f"{problem}; rewrite both sides in polynomials, exp, sinh, cosh, sin, cos", METHOD)
-    return still_open(
-        "the normal forms differ but no point tells the sides apart; apply the laws of log or atan by hand",
-        METHOD,
-    )
+        advice = f"{problem}; rewrite both sides in polynomials, exp, sinh, cosh, sin, cos"
+    return _refuted(statement, places) or still_open(advice, METHOD)
+
+
+def _refuted(statement: Identity, places: Iterator[Point]) -> Finding | None:
+    found = first_refutation((statement.left, "=", statement.right), places)
+    if found is None:
+        return None
+    return broken(witness_of(found), f"{METHOD}: a point where the sides differ", witness_data(found))
 
 
 def points(statement: Identity) -> Iterator[Point]:

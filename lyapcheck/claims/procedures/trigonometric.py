@@ -18,6 +18,7 @@ from lyapcheck.check.certificates.statements import (
     TrigonometricBound,
     TrigonometricPositive,
 )
+from lyapcheck.check.fourier import is_bounded
 from lyapcheck.check.functions import Tree, Unsupported, variables
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.implication import counterexample, sampled
@@ -35,8 +36,12 @@ def find_bounds(statement: TrigonometricBound) -> Finding:
 
     def doubt(entry: tuple[Tree, Fraction | None]) -> Doubt | None:
         tree, bound = entry
+        if bound is None:
+            if is_bounded(tree):
+                return None
+            raise Unsupported("a variable outside sin and cos has no bound")
         reached = largest(tree)
-        if bound is None or reached <= bound:
+        if reached <= bound:
             return None
         above, below = within(tree, bound)
         return f"{reached} is above {bound}", [(False, above), (True, below)]

@@ -17,7 +17,7 @@ from lyapcheck.check.certificates.refusal import require
 from lyapcheck.check.certificates.statements import Implies, Relation
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.functions import Unsupported, evaluate, variables
-from lyapcheck.check.normal_form import RationalAlgebra, functions_in
+from lyapcheck.check.normal_form import RationalAlgebra, room_for
 from lyapcheck.check.polynomials import rational
 
 BITS = 64
@@ -37,8 +37,7 @@ class Signs:
         relations = (*statement.hypotheses, statement.conclusion)
         self.known = {v.name: v for v in statement.variables}
         names = sorted({name for r in relations for name in variables(r.gap)})
-        slots = sum(2 * functions_in(r.gap) for r in relations) + 4
-        self.algebra = RationalAlgebra(names, slots)
+        self.algebra = RationalAlgebra(names, room_for(*(r.gap for r in relations)))
         self.ring: fmpq_mpoly_ctx = self.algebra.ring
         with ctx.workprec(BITS):
             self.conclusion = self._polynomial(statement.conclusion)

@@ -12,7 +12,7 @@ from lyapcheck.check.certificates.refusal import Refused, require
 from lyapcheck.check.certificates.rules.replay import coordinates, require_failure
 from lyapcheck.check.certificates.statements import Relation, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.certificates.verify import Accepted, rule
-from lyapcheck.check.fourier import fourier_sum
+from lyapcheck.check.fourier import fourier_sum, is_bounded
 from lyapcheck.check.functions import Tree, variables
 
 ZERO: Tree = ("num", "0")
@@ -20,10 +20,13 @@ ZERO: Tree = ("num", "0")
 
 @rule(TrigonometricBound, FourierBounds)
 def by_bounds(statement: TrigonometricBound, proof: FourierBounds) -> Accepted:
-    """Soundness: a Fourier sum lies within the sum of its amplitudes of its mean."""
+    """Soundness: a Fourier sum lies within the sum of its amplitudes of its mean, and so has some bound."""
     for k, (tree, bound) in enumerate(statement.entries):
-        reached = largest(tree)
-        if bound is not None and reached > bound:
+        if bound is None:
+            require(
+                is_bounded(tree), f"entry {k + 1}", "", "must be a polynomial in sines and cosines of angles"
+            )
+        elif (reached := largest(tree)) > bound:
             raise Refused(f"entry {k + 1}", reached, f"is all that the Fourier sum gives, not {bound}")
     return Accepted("proved", "exact")
 
