@@ -293,3 +293,24 @@ def test_impossible_requests_are_refused_by_name(change, keys):
     with pytest.raises(InputError) as refused:
         run_of(**change)
     assert [problem.key for problem in refused.value.problems] == keys
+
+
+def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
+    """The proof that a promise broke is about the same dV/dt and τ as the samples show."""
+    from lyapcheck.check.balls import precision
+    from lyapcheck.check.states import State, rate
+    from lyapcheck.simulate.confirm import Sample, exceeds, rises, torques, turning
+
+    run, setting = run_of(eps0=0.3, points=21, stop=False), Setting(TABLE2[0], robots.load("buap3"))
+    m = run.motion
+    for i in (0, 3, 11, 20):
+        at = Sample(*(tuple(x[i].tolist()) for x in (m.q, m.e, m.w, m.speed, m.push)))
+        state = State(*(tuple(map(Fraction, part)) for part in (at.q, at.e, at.w)))
+        with precision(128):
+            found = rate(setting.arm, setting.controller, Fraction(0.3), state) + turning(setting, 0.3, at)
+            np.testing.assert_allclose([float(x) for x in torques(setting, at)], m.tau[i], rtol=1e-10)
+        assert float(found) == pytest.approx(run.dV[i], rel=1e-9)
+        assert rises(setting, 0.3, at) == (run.dV[i] > 0)
+        size = Fraction(abs(m.tau[i, 1]))
+        assert exceeds(setting, 1, size * Fraction(999, 1000), at)
+        assert not exceeds(setting, 1, size * Fraction(1001, 1000), at)

@@ -48,7 +48,7 @@ def rises(setting: Setting, eps0: float, at: Sample) -> bool:
     exact = Fraction(eps0)
     state = State(_exact(at.q), _exact(at.e), _exact(at.w))
     return _proved(
-        lambda bits: rate(setting.arm, setting.controller, exact, state, bits) + _turn(setting, eps0, at)
+        lambda bits: rate(setting.arm, setting.controller, exact, state, bits) + turning(setting, eps0, at)
     )
 
 
@@ -79,8 +79,8 @@ def torques(setting: Setting, at: Sample) -> list[arb]:
     return found
 
 
-def _turn(setting: Setting, eps0: float, at: Sample) -> arb:
-    """−ε (w − εh)ᵀ C(q, q̇_d) h."""
+def turning(setting: Setting, eps0: float, at: Sample) -> arb:
+    """−ε (w − εh)ᵀ C(q, q̇_d) h in a ball, W: what a moving goal adds to dV/dt of (11)."""
     if not any(at.speed):
         return arb(0)
     e, w = _balls(at.e), _balls(at.w)
