@@ -97,11 +97,13 @@ def test_help_and_mistakes_are_left_to_typer(words: list[str]) -> None:
 LINES = st.sampled_from(
     [
         'robot = "buap3"', "robot = 'buap3'", 'robot = "arm.toml"', "[[gains]]", "[[gains]]  ",
+        "[[gains]]]", "[gains]",
         " [[gains]] # c", 'name = "a"', 'name = "b"', '\tname = "λ 关节" # c',
         'name = "a\\n"', 'name = ""', 'name = """a"""',
         "m = 2", "m = 2 # two", "m = 02", "m = 2.0", "m = 0", "m = 1_0", "m = true", "m = 100001",
         'family = "tanh"', 'family = "sinc"', 'angle = "deg"', 'family = "linear"',
         "kp = [1, 2]", "kp = [1.50, 2]", "kp = [ 1 ,\t2.000 ] # c ]", "kp = [1, 0]", "kp = [1]",
+        "name = 'a\\n'", "name = '''a'''",
         "kp = [-1, 2]", "kp = [1e3, 2]", "kp = [1, 2,]", "kp = []",
         "kp = [1, 2] 3", "kp = 1", "kp = [01, 2]", "kp = [.5, 1]",
         "kv = [0.1, 0.2]", "kv = [0.1, 0.2]#", "  kv=[0.1,0.20]", "kv = [1., 2]", "kv = [٣, 1]", "kv = [0.1",

@@ -46,6 +46,12 @@ def test_conditions_choose_what_must_hold():
     assert len(assert_accepted(paper_gain_file(), conditions=("10", "10p"))) == 3
 
 
+def test_a_certificate_can_take_the_place_of_19():
+    assert len(assert_accepted(paper_gain_file(), conditions=("10p", "scalar"))) == 3
+    with pytest.raises(AssertionError, match=r"undecided: \(global\) all: h is unbounded"):
+        assert_accepted(paper_gain_file("table2_pd"), conditions=("global",))
+
+
 @pytest.mark.parametrize("conditions", [(), ("11",), ("10p", "all")])
 def test_unknown_conditions_are_refused(conditions):
     with pytest.raises(InputError):

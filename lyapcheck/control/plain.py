@@ -92,9 +92,9 @@ def read_plain(path: str) -> GainFile | None:
         return None
 
 
-def _read(path: str, text: str) -> GainFile:
-    _require(_CONTROL.isdisjoint(text))
-    lines = text.split("\n")
+def _read(path: str, content: str) -> GainFile:
+    _require(_CONTROL.isdisjoint(content))
+    lines = content.split("\n")
     top: dict[str, Any] = {}
     bounds: dict[str, Any] | None = None
     sets: list[dict[str, Any]] = []
@@ -102,20 +102,25 @@ def _read(path: str, text: str) -> GainFile:
     keys: list[dict[str, int]] = []
     known, table, where, numbers = _KEYS["top"], top, dict[str, int](), dict[str, Fraction]()
     for number, line in enumerate(lines):
-        key, equals, value = line.partition("=")
-        key = key.strip(" \t")
-        if equals and key in known and key not in table:
-            table[key], where[key] = _value(value.strip(" \t"), known[key], numbers), number
-        elif key == "[[gains]]" and not equals:
-            known, table, where = _KEYS["gains"], {}, {}
+        text = line.strip(" \t")
+        if not text or text[0] == "#":
+            continue
+        if text[0] == "[":
+            head = text.partition("#")[0].rstrip(" \t")
+            _require(head == "[[gains]]" or (head == "[bounds]" and bounds is None))
+            table, where = {}, {}
+            if head == "[bounds]":
+                known, bounds = _KEYS["bounds"], table
+                continue
+            known = _KEYS["gains"]
             sets.append(table)
             heads.append(number)
             keys.append(where)
-        elif key == "[bounds]" and not equals and bounds is None:
-            known, table, where = _KEYS["bounds"], {}, {}
-            bounds = table
         else:
-            _require(key.startswith("#") or not (key or equals))
+            key, equals, value = text.partition("=")
+            key = key.rstrip(" \t")
+            _require(bool(equals) and key in known and key not in table)
+            table[key], where[key] = _value(value.lstrip(" \t"), known[key], numbers), number
     gains = tuple([_gain_set(table, index) for index, table in enumerate(sets)])
     _require(bool(gains) and len({gain_set.name for gain_set in gains}) == len(gains))
     n = gains[0].n
@@ -131,9 +136,10 @@ def _require(plain: bool) -> None:
 def _value(text: str, form: type, numbers: dict[str, Fraction]) -> object:
     """The value of the wanted form, with nothing but a comment after it."""
     if form is str:
-        _require(text.startswith('"'))
-        found, quote, rest = text[1:].partition('"')
-        _require(bool(quote) and "\\" not in found and _nothing(rest))
+        quote = text[:1]
+        _require(quote in ('"', "'"))
+        found, end, rest = text[1:].partition(quote)
+        _require(bool(end) and (quote == "'" or "\\" not in found) and _nothing(rest))
         return found
     if form is tuple:
         inner, bracket, rest = text.partition("]")
