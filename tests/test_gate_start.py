@@ -111,17 +111,35 @@ LINES = st.sampled_from(
         "# a comment = 1", "#\x0c", "", "   ", "other = 1", "\x00", "kp.x = 1", '"kp" = [1, 2]', "= 1",
     ]
 )  # fmt: skip
-PLAIN_SET = '[[gains]]\nname = "{}"\nm = 3\nkp = [1.50, 2]\nkv = [0.1, 0.2]'
-TEXTS = st.one_of(
-    st.lists(LINES, max_size=12).map("\n".join),
-    st.tuples(st.lists(LINES, max_size=3), st.lists(LINES, max_size=3)).map(
-        lambda ends: "\n".join([*ends[0], PLAIN_SET.format("x"), *ends[1], PLAIN_SET.format("y")])
-    ),
-)
+USUAL = {
+    "name": ['name = "{}"', "name = '{}' # c", '\tname="λ {} 关节"', 'name  =  "{} # ]"'],
+    "m": ["m = 2", "m = 3 # three", " m=1", "m = 100000"],
+    "kp": ["kp = [1, 2]", "kp = [1.50,2]", "kp = [ 1 ,\t2.000 ] # c ]", "kp = [0.5, 120.25] "],
+    "kv": ["kv = [0.1, 0.2]", "kv = [0.1, 0.20]#", "  kv=[3,0.2]", "\tkv = [0.100,\t0.001]"],
+}
+
+
+@st.composite
+def usual(draw: st.DrawFn) -> str:
+    """Sets as people write them, their keys in any order, with a line among them now and then that is odd."""
+    top = draw(st.sampled_from(["", 'robot = "buap3"', "# c\nrobot = 'buap3' # c", 'robot = "arms/a.toml"']))
+    lines = [top]
+    for name in draw(st.lists(st.sampled_from("abcd"), min_size=1, max_size=3, unique=True)):
+        lines.append(draw(st.sampled_from(["[[gains]]", "  [[gains]] # c", "[[gains]]\t"])))
+        keys = [draw(st.sampled_from(variants)).format(name) for variants in USUAL.values()]
+        lines += draw(st.permutations([*keys, draw(st.sampled_from(["", "# c = [", "   "]))]))
+    if draw(st.booleans()):
+        lines += ["[bounds]", "viscous_min = 0.40", "torque = [50, 60.5]", "gravity = [0, 1.0]"]
+    if draw(st.integers(0, 2)) == 0:
+        lines.insert(draw(st.integers(0, len(lines))), draw(LINES))
+    return "\n".join(lines)
+
+
+TEXTS = st.one_of(usual(), usual(), st.lists(LINES, max_size=12).map("\n".join))
 ENDS = st.sampled_from(["\n", "\r\n", "\n\n"])
 
 
-@settings(QUICK, max_examples=400)
+@settings(QUICK, max_examples=300)
 @given(TEXTS, ENDS, st.booleans())
 def test_what_is_read_quickly_is_what_toml_says(tmp_path: Path, text: str, end: str, mark: bool) -> None:
     """Numbers with the digits written, places, bounds and arm; what is a mistake is never read quickly."""
