@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.errors import InputError
@@ -98,6 +98,7 @@ def test_a_spline_goes_through_its_samples_and_gives_polynomials_back():
         np.testing.assert_allclose(motion.at(fine)[:, 2, 0], truth.deriv(2)(fine), rtol=1e-7, atol=1e-8)
 
 
+@example(values=[0.0] * 6 + [2.2e-311], gaps=[1.0] * 12)
 @settings(max_examples=30, deadline=None)
 @given(
     values=st.lists(st.floats(-3, 3), min_size=7, max_size=12),

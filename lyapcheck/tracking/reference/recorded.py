@@ -105,5 +105,5 @@ def _halved(points: Array) -> Array:
 
 
 def _up(value: float) -> Fraction:
-    """The double next but a few above, exactly."""
-    return Fraction(value * (1.0 + 2.0**-40))
+    """A little above, exactly: more than the last roundings do, and than squares that underflow in a norm."""
+    return Fraction(value * (1.0 + 2.0**-40) + 2.0**-500)
