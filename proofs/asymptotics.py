@@ -8,35 +8,13 @@ p = 2m u + 2m − 1. There u > 1 and ln u = ln p/m = ln(4m)/m + O(1/m²): the pe
     γ_m = √2 (1 − (1 + ln 4m)/(4m) + O((ln m/m)²)),    ρ_m = m − 1/2 + 9/(16m) + O(1/m²),
     L_m = √2/asinh 1 (1 − κ (1 + ln(m/κ))/m + O((ln m/m)²)),    κ = (1 + √2/asinh 1)/4.
 
-Each claim A is decided for the m that is asked for: ``lyapcheck check asymptotics.py --m 1:1000``. The claims
-E are about all m ≥ 2 at once. Together they give
-
-    3/32 (ln 4m/m)² < γ_m/√2 − (1 − (1 + ln 4m)/(4m)) < 1/6 (ln 4m/m)²    for every m ≥ 2.
-
-From below, because γ_m is at least the value of h_m anywhere. From above, because p = 2m u + 2m − 1 has one
-positive root, left of which p is smaller, and because p/(1 + p) = 1 − 1/(2m(1 + u)) there.
+Each claim is decided for the m that is asked for: ``lyapcheck check asymptotics.py --m 1:1000``. What is
+known of all m at once is in ``every_m.py``.
 """
 
 from fractions import Fraction
 
-from lyapcheck.claims import (
-    Constant,
-    Proof,
-    all_of,
-    dh,
-    exp,
-    expr,
-    for_all,
-    gamma,
-    identity,
-    implies,
-    log,
-    positive,
-    rho,
-    secant_bound,
-    sqrt,
-    var,
-)
+from lyapcheck.claims import Constant, Proof, all_of, dh, expr, gamma, identity, log, rho, secant_bound, sqrt
 
 proof = Proof(
     "asymptotics", "The constants of the hyperbolic family for large m", reference="reyes2019family"
@@ -44,7 +22,6 @@ proof = Proof(
 
 LIMITS = "Limits"
 RATES = "Rates"
-EVERY = "Every m at once"
 
 ROOT2 = sqrt(2)
 ASINH1 = log(1 + ROOT2)
@@ -120,73 +97,3 @@ def _(case):
     return all_of(
         above=Constant(square * Fraction(1, 5) < rest), below=Constant(rest < square * Fraction(1, 3))
     )
-
-
-# The remaining claims are about all real m at once; no member of the family is singled out.
-
-M = var("m")
-FOUR_M = var("x")
-"""4m: in this variable ln 4m is a plain logarithm."""
-
-STEP = 4 * log(FOUR_M) / FOUR_M
-TERMS = 1 - (1 + log(FOUR_M)) / FOUR_M
-U = exp(STEP)
-"""(4m)^(1/m), where u^m = 4m."""
-
-
-def leading(share):
-    """1 − (1 + ln 4m)/(4m) and a share of (ln 4m/m)², squared."""
-    return (TERMS + STEP**2 * share) ** 2
-
-
-@proof.claim(
-    "E.gamma.value",
-    "h_m²/2 at sinh^(2m) x = 4m is more than (1 − (1 + ln 4m)/(4m) + 3/32 (ln 4m/m)²)² for every real m ≥ 2",
-    section=EVERY,
-)
-def _(case):
-    value = (1 + 1 / U) / 2 * (FOUR_M / (FOUR_M + 1)) ** 2
-    return for_all(leading(Fraction(3, 32)) < value, 8)
-
-
-@proof.claim(
-    "E.gamma.left",
-    "u^m < 2m u + 2m − 1 at u = (4m)^(1/m), so that the peak of h_m lies to the right, for every real m ≥ 2",
-    section=EVERY,
-)
-def _(case):
-    return for_all(FOUR_M < FOUR_M / 2 * (U + 1) - 1, 8)
-
-
-@proof.claim(
-    "E.gamma.falls",
-    "(1 + 1/u) (1 − 1/(2m(1 + u)))², which h_m² is at its peak, falls in u > 1 for every m ≥ 1",
-    section=EVERY,
-)
-def _(case):
-    u = var("u")
-    factor = 1 - 1 / (2 * M * (1 + u))
-    slope = -(factor**2) / u**2 + (1 + 1 / u) * 2 * factor / (2 * M * (1 + u) ** 2)
-    return implies(positive("m", "u"), (expr(1) <= M, expr(1) < u), slope < 0)
-
-
-@proof.claim(
-    "E.gamma.bound",
-    "half of that at u = (4m)^(1/m) is below (1 − (1 + ln 4m)/(4m) + 1/6 (ln 4m/m)²)² for every real m ≥ 2",
-    section=EVERY,
-    uses=["E.gamma.left", "E.gamma.falls"],
-)
-def _(case):
-    value = (1 + 1 / U) / 2 * (1 - 2 / (FOUR_M * (1 + U))) ** 2
-    return for_all(value < leading(Fraction(1, 6)), 8)
-
-
-@proof.claim(
-    "E.rho.value",
-    "h_m' at sinh^(2m) x = e^(−3/(2m)) is more than m − 1/2 + 9/(16m) − 3/(4m²) for every real m ≥ 1",
-    section=EVERY,
-)
-def _(case):
-    p, q = exp(Fraction(-3, 2) / M), exp(Fraction(3, 2) / M**2)
-    slope = p * (2 * M + q * (2 * M - 1 - p)) / (1 + p) ** 2
-    return for_all(M - Fraction(1, 2) + Fraction(9, 16) / M - Fraction(3, 4) / M**2 < slope, 1, variable="m")

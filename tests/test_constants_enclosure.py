@@ -154,3 +154,10 @@ def test_precision_is_put_back_after_an_error():
     with pytest.raises(RuntimeError):
         fail_inside()
     assert ctx.prec == before
+
+
+@pytest.mark.parametrize("power", [10**6, -(10**6), 10**15])
+def test_numbers_that_would_fill_the_memory_are_refused(power):
+    """2^(10^15) is a ball of a few bytes, and a rational of a hundred terabytes."""
+    with pytest.raises(ValueError, match="too large or too small to write down"):
+        Enclosure.from_arb(arb(2) ** power)

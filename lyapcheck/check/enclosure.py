@@ -9,6 +9,9 @@ from typing import NoReturn
 
 from flint import arb, fmpq
 
+MOST_BITS = 1 << 18
+"""Balls reach e^(e^x); exact rationals of that size would fill the memory."""
+
 
 @dataclass(frozen=True)
 class Enclosure:
@@ -31,7 +34,7 @@ class Enclosure:
 
     @classmethod
     def from_arb(cls, ball: arb) -> Enclosure:
-        """The ends of a finite ball, exactly; raises ``ValueError`` on an infinite or undefined one."""
+        """The ends of a finite ball, exactly; raises ``ValueError`` where they cannot be written."""
         if not ball.is_finite():
             raise ValueError(f"a ball without finite ends encloses nothing useful: {ball}")
         return cls(dyadic(ball.lower()), dyadic(ball.upper()))
@@ -104,8 +107,14 @@ class Enclosure:
 
 
 def dyadic(point: arb) -> Fraction:
-    """The exact rational value of a ball of radius zero."""
+    """The exact rational value of a ball of radius zero.
+
+    Raises:
+        ValueError: it would take more than ``MOST_BITS`` binary places to write it down.
+    """
     mantissa, exponent = (int(part) for part in point.man_exp())
+    if abs(exponent) > MOST_BITS:
+        raise ValueError(f"a number of about 2^{exponent} is too large or too small to write down")
     return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
 
 

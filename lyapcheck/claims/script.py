@@ -11,7 +11,7 @@ from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.errors import InputError, Problem
 
-SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py")
+SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
 """The proof scripts that come with lyapcheck."""
 
 MOST_NEAR = 8

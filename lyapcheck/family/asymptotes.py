@@ -7,7 +7,7 @@
 In t = ln sinh^(2m) x the logarithm of h(x)/x is ln(√2/asinh 1) − κ t/m − e^(−t) but for terms of second
 order: largest at t = ln(m/κ). Likewise that of h(x), with 1/4 in place of κ.
 
-References: ``proofs/asymptotics.py`` proves bounds of the three rests.
+References: ``proofs/asymptotics.py`` and ``proofs/every_m.py`` prove bounds of the three rests.
 """
 
 from __future__ import annotations

@@ -7,10 +7,13 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.certificates import proofs
+from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.check.functions import Unsupported
 from lyapcheck.check.witness import Comparison, Sides, refutation
 
 BITS = 192
+LARGEST = 4096
+"""The binary exponent of the largest number in a witness, and of the inverse of the smallest."""
 
 Point = dict[str, Fraction]
 Failure = tuple[Comparison, Point, Sides]
@@ -25,9 +28,15 @@ def first_refutation(
             sides = refutation(claim, point, tuple(hypotheses), BITS)
         except (Unsupported, ValueError, ZeroDivisionError):
             continue
-        if sides is not None:
+        if sides is not None and all(map(_can_be_written, (sides.left, sides.right))):
             return claim, point, sides
     return None
+
+
+def _can_be_written(side: Enclosure) -> bool:
+    """Whether a reader could be shown the number: e^(e^x) soon has more digits than a page."""
+    size = max(abs(side.lower), abs(side.upper))
+    return size == 0 or abs(size.numerator.bit_length() - size.denominator.bit_length()) <= LARGEST
 
 
 def witness_of(failure: Failure) -> proofs.Witness:

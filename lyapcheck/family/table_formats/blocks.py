@@ -13,7 +13,7 @@ REST_DIGITS = 6
 
 LIMITS = (
     "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
-    "lyapcheck check asymptotics.py --m … proves how fast."
+    "lyapcheck check every_m.py proves it for all m, asymptotics.py --m … how fast for each."
 )
 LEADING = (
     "Leading terms for m → ∞: γ ~ √2 (1 − (1 + ln 4m)/(4m)), ρ ~ m − 1/2 + 9/(16m), "
@@ -21,8 +21,9 @@ LEADING = (
 )
 
 RESTS = (
-    "Proved for all m ≥ 2 at once: 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6. Proved m by m, by the same "
-    "command: −3/4 < (ρ − leading) m² < 0 and 1/5 < (L − leading) asinh 1 m²/(√2 ln² 4m) < 1/3."
+    "Proved by every_m.py: 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6 for all m ≥ 2, −3/4 < (ρ − leading) m² "
+    "< 0 for all m ≥ 12; by asymptotics.py for each m: both, and 1/5 < (L − leading) asinh 1 m²/(√2 ln² 4m) "
+    "< 1/3."
 )
 
 
