@@ -10,7 +10,9 @@ from functools import cache
 import mpmath
 
 from lyapcheck.check.certificates import statements
+from lyapcheck.check.certificates.every_n import EveryN
 from lyapcheck.check.functions import variables
+from tests.refutations.every_n_oracle import every_n_is_false
 
 POINTS = 40
 SLACK = mpmath.mpf(10) ** -25
@@ -240,6 +242,7 @@ AGAINST_TRUTH = {
     statements.TrigonometricBound: _bound_fails,
     statements.TrigonometricPositive: _positivity_fails,
     statements.Agrees: lambda s: not _rounds_alike(s),
+    EveryN: every_n_is_false,
 }
 AGAINST_FALSEHOOD = {
     statements.Identity: _identity_holds,
@@ -248,4 +251,5 @@ AGAINST_FALSEHOOD = {
     statements.Implies: _implication_holds,
     statements.NormBound: lambda s, at: not _norm_fails(s, at, strict=False),
     statements.Agrees: _agrees_exactly,
+    EveryN: lambda s, at: not every_n_is_false(s),
 }

@@ -7,6 +7,7 @@ from flint import arb, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lyapcheck.check.certificates.every_n import BoundEveryN
 from lyapcheck.check.fourier import fourier_sum
 from lyapcheck.check.functions import ball, derivative, taylor
 from lyapcheck.check.inequality import positive_from, positive_near_zero
@@ -14,20 +15,26 @@ from lyapcheck.check.normal_form import is_zero
 from lyapcheck.check.polynomials import count_roots, nonnegative_on, positive_on
 from lyapcheck.check.witness import refutation
 from lyapcheck.claims import (
+    AnyMatrix,
     Constant,
     ForSmall,
     agrees,
     all_of,
     always_positive,
+    any_matrix,
+    any_vector,
     atan,
     bounded,
     cos,
     cosh,
     dh,
     diff,
+    dot,
+    every_n,
     exp,
     expr,
     for_all,
+    form,
     gamma,
     h,
     identity,
@@ -39,6 +46,7 @@ from lyapcheck.claims import (
     norm_chain,
     positive,
     potential,
+    rate,
     reals,
     rho,
     sin,
@@ -52,7 +60,15 @@ from lyapcheck.claims.procedures import decide
 from lyapcheck.verdicts import Grade, Verdict
 
 x, y, a, b, c = map(var, "xyabc")
+V, W, A = any_vector("V"), any_vector("W"), any_matrix("A")
 MITRINOVIC = (3 + x**2 / 11) * sinh(x) < x * (2 + cosh(x) + x**2 / 11)  # mitrinovic1970analytic, 3.6.12
+
+
+def norms_for_every_n(left, right):
+    """‖V‖ ≤ a, ‖A‖ ≤ b, ‖W‖ ≤ c."""
+    norms = (((V.tree,), a.tree), ((A.tree,), b.tree), ((W.tree,), c.tree))
+    return BoundEveryN(left.tree, right.tree, (), (), (), norms, ())
+
 
 PROVED = {
     "Mitrinović 3.6.12 on its interval": for_all(MITRINOVIC, "0.01", "5.1785"),
@@ -86,10 +102,20 @@ PROVED = {
     "amplitudes": bounded([sin(x) * cos(y) + cos(x) * sin(y)], [1]),
     "mean above amplitude": always_positive([2 + cos(x) * cos(y) + sin(x) * sin(y)]),
     "norms": norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1)),
+    "a symmetric part for every n": every_n(form(V, A + A.T, V) / 2, form(V, A, V)),
+    "a derivative for every n": every_n(
+        rate(a * form(V, A, V)),
+        3 * a * form(V, A + A.T, W) + b * form(V, A, V),
+        rates=[(V, W.times(3)), (a, b), (A, AnyMatrix(("sum",)))],
+    ),
+    "what is given, for every n": every_n(form(W, A, V), 2 * dot(W, W), given=[(A, V, W.times(2))]),
+    "norms for every n": norms_for_every_n(form(V, A, W), a * b * c),
     "ε ≤ ε₀": norm_chain([(majorant(eps=2),)], majorant(eps=1, eps0=1), (("eps", "eps0"),)),
 }
 
 REFUTED = {
+    "no symmetry for every n": every_n(form(V, A, W), form(W, A, V)),
+    "a derivative without a factor": every_n(rate(dot(V, V)), dot(V, W), rates=[(V, W)]),
     "Mitrinović 3.6.12 too far": for_all(MITRINOVIC, "0.01", "5.2"),
     "tanh x ≤ x left of 0": for_all(tanh(x) <= x),
     "tanh x < x at 0": for_all(tanh(x) < x, 0),
@@ -117,6 +143,7 @@ REFUTED = {
 }
 
 UNDECIDED = {
+    "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
     "norms too large": norm_chain([(majorant(2, w=1),)], majorant("1.9", w=1)),
     "other symbols": norm_chain([(majorant(w=1),)], majorant(e=1)),
     "larger ε": norm_chain([(majorant(eps=1, eps0=1),)], majorant(eps=2), (("eps", "eps0"),)),
