@@ -179,6 +179,7 @@ def test_certificates_of_a_theorem_are_accepted_and_the_theorem_named(folder):
         [sys.executable, "-m", "lyapcheck.check", str(folder)], capture_output=True, text=True, check=True
     )
     assert "1 claim rests on Lyapunov's direct method (kelly2005control, chapter 2): P.json" in run.stdout
+    assert "taken for granted: the robot has Properties 2.1 to 2.7" in run.stdout
 
 
 @pytest.mark.parametrize("claim", CLAIMS)

@@ -47,8 +47,10 @@ def _line(one: Checked) -> str:
 
 
 def _theorem(name: str, files: tuple[str, ...]) -> str:
-    claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
-    return f"{claims} on {name} ({THEOREMS[name].reference}): {', '.join(files)}"
+    """Which files rest on a theorem, and what no certificate shows of it."""
+    claims, known = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest", THEOREMS[name]
+    where = f"{claims} on {name} ({known.reference}): {', '.join(files)}"
+    return f"{where}\n  taken for granted: {known.granted}"
 
 
 def _tally(outcome: Outcome) -> str:

@@ -16,10 +16,11 @@ from lyapcheck.check.certificates.verify import Accepted, rule
 
 @dataclass(frozen=True)
 class Known:
-    """A theorem: its hypotheses by name, what it concludes, and where it is proved."""
+    """A theorem: its hypotheses by name, what it concludes and takes for granted, and where it is proved."""
 
     hypotheses: frozenset[str]
     conclusion: str
+    granted: str
     reference: str
 
 
@@ -36,6 +37,7 @@ THEOREMS = {
             }
         ),
         "the equilibrium is globally asymptotically stable",
+        "the robot has Properties 2.1 to 2.7 with the constants of the form, and the loop is (11)",
         "kelly2005control, chapter 2",
     ),
     "Lyapunov's direct method, time-varying": Known(
@@ -52,6 +54,7 @@ THEOREMS = {
             }
         ),
         "the equilibrium is globally uniformly asymptotically stable",
+        "the robot has Properties 2.1 to 2.7 with the constants of the form, and the loop is that of (21)",
         "khalil2002nonlinear, theorem 4.9",
     ),
 }
