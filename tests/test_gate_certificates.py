@@ -205,6 +205,19 @@ def test_the_theorem_is_not_stretched_to_other_functions(tmp_path: Path) -> None
     assert "proved stable without it" in remarks(proved)[0]
 
 
+def test_without_friction_nothing_is_promised(tmp_path: Path) -> None:
+    """(19) fails for every gain, and no proof here does without friction: then no hope is raised."""
+    path = gain_file(tmp_path / "g.toml", "", "[" + ", ".join(["0.1"] * 6) + "]")
+    path.write_text(path.read_text().replace("[1, 1]", "[" + ", ".join(["1"] * 6) + "]"))
+    ur5 = str(Path(__file__).parent / "arms" / "ur5.urdf")
+    for deciding in (("10p", "19"), ("19", "scalar", "global")):
+        (result,) = gate(read_gain_file(path), ur5, deciding)
+        assert result.verdict_of(("19",)) == "rejected"
+        assert (stability(result), remarks(result)) == (None, [])
+    assert [check.verdict for check in result.checks[-2:]] == ["undecided", "undecided"]
+    assert all("no viscous friction" in check.reason for check in result.checks[-2:])
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_every_format_tells_the_value_or_the_reason(name: str, everywhere: dict[str, GateResult]) -> None:
     results = list(everywhere.values())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -20,7 +21,7 @@ from lyapcheck import load_robot, robot_names
 from lyapcheck.cli import gate_run
 from lyapcheck.cli import main as cli
 from lyapcheck.cli.gate_options import GateCall, quick_call
-from lyapcheck.control import gate, known_arms, known_arms_data, paper_gain_file, read_gain_file
+from lyapcheck.control import gate, known_arms, known_arms_data, limits, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.control.model_limits import model_limits
 from lyapcheck.control.plain import read_plain
@@ -206,6 +207,23 @@ def test_an_arm_whose_file_has_changed_is_not_known(monkeypatch: pytest.MonkeyPa
     for text, known in ((source, True), (source.replace("\n", "\r\n"), True), (source + "#", False)):
         (tmp_path / "buap3.toml").write_bytes(text.encode())
         assert (known_arms.known_arm("buap3") is not None) == known
+
+
+def test_an_arm_is_read_once_for_many_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """And only for one call: an arm file that has changed since is read again."""
+    arm = tmp_path / "arm.toml"
+    shutil.copy(Path(known_arms._ROBOTS, "pendulum1.toml"), arm)
+    text = 'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [0.1]\nkv = [0.05]\n'
+    files = [tmp_path / f"g{i}.toml" for i in range(3)]
+    for file in files:
+        file.write_text(text)
+    reads: list[str] = []
+    monkeypatch.setattr(limits, "arm_limits", lambda name: (reads.append(name), arm_limits(name))[1])
+    call = GateCall(tuple(map(str, files)))
+    assert gate_run.run(call) == Exit.PROVED
+    assert reads == [str(arm)]
+    arm.write_text(arm.read_text().replace("low = 0.1", "low = 0.01"))
+    assert gate_run.run(call) == Exit.REFUTED
 
 
 # --- the process -------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from lyapcheck.verdicts import Exit
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from lyapcheck.cli.gate_options import GateCall
+    from lyapcheck.control.known_arms import ArmLimits
 
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
@@ -32,10 +33,12 @@ def run(call: GateCall) -> Exit:
     """
     results: list[GateResult] = []
     problems: list[Problem] = []
+    arms: dict[str, ArmLimits] = {}
+    conditions = call.conditions or DECIDING
     for file in call.files:
         try:
             gain_file = read_gain_file(file)
-            results += gate(gain_file, call.robot, call.conditions or DECIDING, call.gamma, call.strict)
+            results += gate(gain_file, call.robot, conditions, call.gamma, call.strict, arms)
         except InputError as error:
             problems += error.problems
     if results:

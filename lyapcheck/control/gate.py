@@ -5,6 +5,7 @@ from __future__ import annotations
 from lyapcheck.control.bound import gamma_of
 from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED, UNDECIDED, Check, Conditions
 from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.control.known_arms import ArmLimits
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
 from lyapcheck.records import Record
@@ -103,6 +104,7 @@ def gate(
     deciding: Sequence[str] = DECIDING,
     gamma: str = "true",
     strict: bool = False,
+    arms: dict[str, ArmLimits] | None = None,
 ) -> GateResults:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -112,6 +114,7 @@ def gate(
         deciding: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
         strict: whether what is undecided counts as a failure.
+        arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -127,7 +130,7 @@ def gate(
         ['accepted', 'rejected', 'rejected']
     """
     _require_known(deciding)
-    limits = limits_for(gain_file, robot)
+    limits = limits_for(gain_file, robot, arms)
     conditions: dict[tuple[str, int | None], Conditions] = {}
     proved, rests_on = _certificates(gain_file, limits, deciding)
     if rests_on:

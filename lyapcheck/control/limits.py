@@ -45,12 +45,15 @@ class Limits(Record):
         return Limits(self.torque, self.gravity, self.viscous_min, self.joints, assumptions, self.robot)
 
 
-def limits_for(gain_file: GainFile, robot: str | None = None) -> Limits:
+def limits_for(
+    gain_file: GainFile, robot: str | None = None, arms: dict[str, ArmLimits] | None = None
+) -> Limits:
     """The limits that a gain file is judged by: its own ``[bounds]`` first, the arm for the rest.
 
     Args:
         gain_file: the gains.
         robot: an arm that replaces the one the file names.
+        arms: arms that need not be read again, by name; those that are read now are added.
 
     Raises:
         InputError: no arm and no bounds, an unknown arm, or another number of joints.
@@ -61,7 +64,10 @@ def limits_for(gain_file: GainFile, robot: str | None = None) -> Limits:
         if None in (bounds.torque, bounds.gravity, bounds.viscous_min):
             raise _without_arm(gain_file)
         return Limits(bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n))
-    arm = arm_limits(name) if robot else _named_arm(gain_file, name)
+    known = {} if arms is None else arms
+    if name not in known:
+        known[name] = arm_limits(name) if robot else _named_arm(gain_file, name)
+    arm = known[name]
     if arm.n != n:
         raise _wrong_arm(gain_file, arm.name, arm.n)
     notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))

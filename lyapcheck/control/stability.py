@@ -51,7 +51,7 @@ def remarks(result: GateResult) -> list[str]:
     """What the conditions say about each other, a sentence each; nothing where they agree."""
     known, damping = stability(result), result.verdict_of(("19",))
     missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
-    found = [_without_19(known, result)] if damping == REJECTED else []
+    found = [_without_19(known, result)] if damping == REJECTED and result.limits.viscous_min else []
     if missing and result.verdict_of(("10p", "19")) == ACCEPTED:
         found += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
     told = known is not None and (damping == REJECTED or known.by != THEOREM)
@@ -61,16 +61,18 @@ def remarks(result: GateResult) -> list[str]:
 
 
 def _without_19(known: Stability | None, result: GateResult) -> str:
+    asked = set(CERTIFICATES) & set(result.deciding)
     if known is None:
-        return "(19) fails, but it is only sufficient; --condition scalar looks for a proof without it"
+        hint = "" if asked else "; --condition scalar looks for a proof without it"
+        return f"(19) fails, but it is only sufficient{hint}"
     if known.eps0 is not None:
         return (
             f"(19) fails, yet the gains are proved stable without it: {known.by} certificate, "
             f"dV/dt < 0 with ε₀ = {decimal_text(known.eps0)}"
         )
+    hint = "" if asked else "; --condition scalar proves an ε₀"
     given = f", given that {known.assumes[0]}" if known.assumes else ""
-    more = "" if set(CERTIFICATES) & set(result.deciding) else "; --condition scalar proves an ε₀"
     return (
         "(19) fails, yet it is not needed: positive gains and friction in each joint make the origin "
-        f"globally asymptotically stable{given} ({_CLAIM}){more}"
+        f"globally asymptotically stable{given} ({_CLAIM}){hint}"
     )
