@@ -76,19 +76,21 @@ def main() -> None:
 
 def _quick_gate(words: list[str]) -> None:
     """Run the gate and leave, without Typer, if the words are plain: in a hook the start is what counts."""
-    from lyapcheck.cli.gate_options import quick_call
+    gc.disable()  # neither modules nor results hold cycles worth looking for in so short a run
+    try:
+        from lyapcheck.cli.gate_options import quick_call
 
-    call = quick_call(words)
-    if call is not None:
+        call = quick_call(words)
+        if call is None:
+            return
         from lyapcheck.cli.gate_run import run
 
-        gc.disable()  # results hold no cycles, and looking for some among thousands takes its time
-        try:
-            code = run(call)
-        finally:
-            gc.enable()
+        code = run(call)
         sys.stdout.flush()
-        sys.exit(int(code))
+        gc.freeze()  # nor is there anything to be found by the collection that Python ends with
+    finally:
+        gc.enable()
+    sys.exit(int(code))
 
 
 def _same_bytes_everywhere() -> None:
