@@ -30,8 +30,10 @@ from lyapcheck.claims import (
     var,
     zero_vector,
 )
+from lyapcheck.claims.explain import explain
 from lyapcheck.claims.procedures import decide
 from lyapcheck.claims.script import find_script
+from lyapcheck.claims.statement_text import statement_text
 
 A, B, S = (any_matrix(name) for name in "ABS")
 x, y, z, d = (any_vector(name) for name in "xyzd")
@@ -287,3 +289,17 @@ def test_a_proof_by_words_of_something_false_is_refused():
     for statement in FALSE.values():
         with pytest.raises(Refused, match="not zero"):
             verify(statement, NormalForm())
+
+
+def test_it_is_written_out_for_readers():
+    assert statement_text(every_n(form(x, S, y), form(y, S, x), [S])) == (
+        "xᵀ·S·y = yᵀ·S·x for every n, with Sᵀ = S"
+    )
+    assert statement_text(TRUE["what is given, transposed"]) == (
+        "(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n, with A·x = 2·z"
+    )
+    moving = every_n(rate(s * dot(x, x + d)), expr(0), rates=[(x, -y), (d, zero_vector()), (s, t)])
+    assert statement_text(moving) == (
+        "d/dt(s·xᵀ·(x + d)) = 0 for every n, with d/dt(x) = (−1)·y, d/dt(d) = 0, d/dt(s) = t"
+    )
+    assert "wᵀ·diag(kp)·h − wᵀ·diag(kp)·h = 0 for every n" in str(explain("15"))

@@ -98,6 +98,18 @@ def _power(rest: list[Any]) -> Text:
     return f"{_bracketed(rest[0], ATOM)}{str(rest[1]).translate(SUPERSCRIPTS)}", POWER
 
 
+def _vector_sum(rest: list[Any]) -> Text:
+    return _sum(rest) if rest else ("0", ATOM)
+
+
+def _dot(rest: list[Any]) -> Text:
+    return f"{_transposed(rest[:1])[0]}·{_bracketed(rest[1], PRODUCT)}", PRODUCT
+
+
+def _transposed(rest: list[Any]) -> Text:
+    return f"{_bracketed(rest[0], ATOM)}ᵀ", POWER
+
+
 def _bracketed(tree: Tree, least: int) -> str:
     text, binding = _text(tree)
     return text if binding >= least else f"({text})"
@@ -110,4 +122,13 @@ SHAPES: dict[str, Callable[[list[Any]], Text]] = {
     "neg": _negative,
     "pow": _power,
     "sqrt": _root,
+    "vec": lambda rest: (rest[0], ATOM),
+    "mat": lambda rest: (rest[0], ATOM),
+    "diag": lambda rest: (f"diag({rest[0]})", ATOM),
+    "rate": lambda rest: (f"d/dt({expression_text(rest[0])})", ATOM),
+    "sum": _vector_sum,
+    "scale": _product,
+    "apply": _product,
+    "dot": _dot,
+    "transpose": _transposed,
 }

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import Any
 
+from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN
 from lyapcheck.check.certificates.rules.theorem import THEOREMS
 from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
 from lyapcheck.claims.expression_text import expression_text, number_text
@@ -117,6 +118,29 @@ def _majorant(majorant: Majorant) -> str:
     return "·".join(([constant] if constant != "1" or not powers else []) + powers)
 
 
+def _every_n(statement: EveryN) -> str:
+    sides = f"{expression_text(statement.left)} = {expression_text(statement.right)}"
+    return f"{sides} for every n{_with(statement)}"
+
+
+def _bound_every_n(statement: BoundEveryN) -> str:
+    sides = f"{expression_text(statement.left)} ≤ {expression_text(statement.right)}"
+    norms = [
+        f"{''.join(f'‖{expression_text(letter)}‖' for letter in known)} ≤ {expression_text(size)}"
+        for known, size in statement.norms
+    ]
+    least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in statement.least]
+    return f"{sides} for every n{_with(statement.terms)}, {', '.join(norms + least)}"
+
+
+def _with(statement: EveryN) -> str:
+    """What is known of the letters."""
+    known = [f"{name}ᵀ = {name}" for name in statement.symmetric]
+    known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
+    known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
+    return f", with {', '.join(known)}" if known else ""
+
+
 def _theorem(statement: Theorem) -> str:
     known = THEOREMS.get(statement.name)
     if known is None:
@@ -177,4 +201,6 @@ WRITTEN: dict[type[Statement], Callable[[Any], str]] = {
     Decreasing: _decreasing,
     DampingBelow: _damping_below,
     Theorem: _theorem,
+    EveryN: _every_n,
+    BoundEveryN: _bound_every_n,
 }
