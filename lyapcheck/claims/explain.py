@@ -17,8 +17,8 @@ SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
 
 BY_THEOREM = (
-    "A theorem applied: the checker compares the hypotheses that are named with those of the theorem; each "
-    "of them is a claim of its own, and the conclusion is proved only where all of them are."
+    "A theorem applied: the checker compares the hypotheses that are named with those of the theorem, and "
+    "looks into the claim behind each, which must state what the hypothesis comes to for this loop."
 )
 
 
