@@ -33,7 +33,7 @@ def integrate(
     jacobian: Field,
     y0: Array,
     t: Array,
-    tolerance: float,
+    tolerance: float | Array,
     *,
     on_time: Callable[[float], None] | None = None,
     max_steps: int = MAX_STEPS,
@@ -45,7 +45,8 @@ def integrate(
         jacobian: ∂rate/∂y, (d, d).
         y0: (d,) the state at ``t[0]``.
         t: (N,) increasing times; the values between steps come from the method's own dense output.
-        tolerance: relative error allowed per step; the absolute one is a hundredth of it.
+        tolerance: relative error allowed per step, for all components or (d,) for each; the absolute one is
+            a hundredth of it.
         on_time: told now and then how far the solution has come.
         max_steps: a budget, after which the solution is cut short.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import comb
 from typing import Any
@@ -39,12 +40,12 @@ class Recorded(Reference):
         self.name, self.spline, self.samples = name, spline, t.size
         path = _spline(t - t[0], q, DEGREES[spline])
         self._parts: tuple[Any, ...] = (path, path.derivative(), path.derivative(2))
+        self._together = _stacked(self._parts)
         self.span = self.duration = float(t[-1] - t[0])
 
     def at(self, t: Array) -> Array:
         """See `Reference.at`; past its end a recording has no value, and the last one is given."""
-        inside = np.clip(t, 0.0, self.span)
-        return np.stack([part(inside) for part in self._parts], axis=-2)
+        return np.asarray(self._together(np.minimum(t, self.duration)))
 
     def suprema(self) -> Suprema:
         """See `Reference.suprema`.
@@ -70,6 +71,15 @@ def _spline(t: Array, q: Array, degree: int) -> Any:
     live = np.diff(knots) > 0  # a spline repeats its end knots
     coefficients = np.stack([joint.c[:, live] for joint in joints], axis=-1)
     return PPoly(coefficients, np.append(knots[:-1][live], knots[-1]))
+
+
+def _stacked(parts: Sequence[Any]) -> Any:
+    """Piecewise polynomials with the same knots as one, with values (len(parts), n)."""
+    from scipy.interpolate import PPoly
+
+    degree = len(parts[0].c)
+    padded = [np.concatenate((np.zeros((degree - len(p.c), *p.c.shape[1:])), p.c)) for p in parts]
+    return PPoly(np.stack(padded, axis=-2), parts[0].x)
 
 
 def _bounds(path: Any) -> tuple[tuple[Fraction, ...], Fraction]:
