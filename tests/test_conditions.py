@@ -19,7 +19,7 @@ from lyapcheck.check.critical import peak_of_h
 from lyapcheck.check.enclosure import Enclosure
 from lyapcheck.control.bound import PRINTED, GammaBound, gamma_of
 from lyapcheck.control.bracket import Bracket
-from lyapcheck.control.conditions import CHECKS, Check, check_10, check_10p, check_19
+from lyapcheck.control.conditions import Check, Conditions, check_10p, check_19
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.peak import gamma_between
@@ -49,7 +49,11 @@ def checked(
     gains: GainSet, limits: Limits, gamma: GammaBound | None = None
 ) -> dict[tuple[str, int | None], Check]:
     bound = gamma_of(gains) if gamma is None else gamma
-    return {(check.id, check.joint): check for name in CHECKS for check in CHECKS[name](gains, limits, bound)}
+    return {(check.id, check.joint): check for check in Conditions(limits, bound).all(gains)}
+
+
+def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+    return Conditions(limits, gamma).check_10(gains)
 
 
 # --- an independent computation ------------------------------------------------------------------
@@ -186,7 +190,7 @@ def test_the_largest_admissible_is_admitted_and_the_next_decimal_is_not(
         ):
             changed = with_value(gains, check, value)
             if changed is not None:
-                again = next(c for c in CHECKS[check.id](changed, limits, gamma) if c.joint == check.joint)
+                again = checked(changed, limits, gamma)[check.id, check.joint]
                 assert (again.value, again.verdict) == (value, verdict)
 
 

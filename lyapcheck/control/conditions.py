@@ -19,8 +19,6 @@ from lyapcheck.records import Record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from lyapcheck.control.bound import GammaBound
     from lyapcheck.control.bracket import Bracket
     from lyapcheck.control.gains import GainSet
@@ -132,11 +130,6 @@ def _square(vector: list[Fraction] | tuple[Fraction, ...]) -> Fraction:
     return sum((x * x for x in vector), Fraction(0))
 
 
-def check_10(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
-    """(10) for one gain set."""
-    return Conditions(limits, gamma).check_10(gains)
-
-
 def check_10p(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
     """(10p) for each joint of one gain set."""
     return Conditions(limits, gamma).check_10p(gains)
@@ -145,10 +138,3 @@ def check_10p(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
 def check_19(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
     """(19) for each joint of one gain set."""
     return Conditions(limits, gamma).check_19(gains)
-
-
-CHECKS: dict[str, Callable[[GainSet, Limits, GammaBound], list[Check]]] = {
-    "10": check_10,
-    "10p": check_10p,
-    "19": check_19,
-}
