@@ -500,6 +500,11 @@ FORGED = {
         )
         for name, value in (("reach", "9/10"), ("G", "2/5"), ("rho", "0"), ("L", "-1"))
     },
+    "a theorem about another loop": (
+        theorem("Lyapunov's direct method", replace(LOOP, desired=True), **dict.fromkeys(NAMES, "a")),
+        Application(),
+        "desired = True",
+    ),
     "a theorem without its hypotheses": (DIRECT, Application(), "those of the theorem"),
     "a part left out": (CASES["all of"], EveryPart((SeparateBalls(128),)), "one proof per part"),
     "a part that holds": (CASES["all of"], OnePart(0, SeparateBalls(128)), "must be refuted"),

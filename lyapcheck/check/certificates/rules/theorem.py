@@ -16,12 +16,16 @@ from lyapcheck.check.certificates.verify import Accepted, rule
 
 @dataclass(frozen=True)
 class Known:
-    """A theorem: its hypotheses by name, what it concludes and takes for granted, and where it is proved."""
+    """A theorem: its hypotheses by name, what it concludes and takes for granted, and where it is proved.
+
+    ``desired`` tells whether it is about loops that depend on time through a desired velocity.
+    """
 
     hypotheses: frozenset[str]
     conclusion: str
     granted: str
     reference: str
+    desired: bool = False
 
 
 THEOREMS = {
@@ -56,6 +60,7 @@ THEOREMS = {
         "the equilibrium is globally uniformly asymptotically stable",
         "the robot has Properties 2.1 to 2.7 with the constants of the form, and the loop is that of (21)",
         "khalil2002nonlinear, theorem 4.9",
+        desired=True,
     ),
 }
 """The theorems that a certificate may apply."""
@@ -71,6 +76,8 @@ def by_application(statement: Theorem, proof: Application) -> Accepted:
     shown = ", ".join(labels)
     require(len(set(labels)) == len(labels), "hypotheses", shown, "one is given twice")
     require(set(labels) == known.hypotheses, "hypotheses", shown, "are not those of the theorem")
+    desired = statement.loop.desired
+    require(desired == known.desired, "desired", desired, "is not what the theorem is about")
     _require_bounds(statement.loop)
     return Accepted("proved", "exact")
 
