@@ -16,7 +16,8 @@ from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.sensitivity.approach import approach, between
 from lyapcheck.sensitivity.assumptions import Assumption, assumptions
-from lyapcheck.sensitivity.bench_numpy import NumpyBench
+from lyapcheck.sensitivity.bench_compiled import compiled_bench
+from lyapcheck.sensitivity.bench_graph import graph_bench
 from lyapcheck.sensitivity.bench_runs import PERIOD, BenchRuns, enough_sweeps
 from lyapcheck.sensitivity.design import LEVELS, design, values
 from lyapcheck.sensitivity.json import study_json
@@ -77,15 +78,23 @@ def test_a_spring_below_the_dry_friction_moves_nothing_at_all() -> None:
     assert np.all(bench.paths(loose)[0, -1, :3] > 0.03)
 
 
-def test_arrays_do_what_compiled_code_does() -> None:
+def test_graphs_do_what_compiled_code_does() -> None:
     points = np.random.default_rng(3).uniform(size=(5, len(ASSUMED)))
-    bench = runs("tau_m2", replace(PAPER_TASK, T=0.3))
+    bench, gains = runs("tau_m2", replace(PAPER_TASK, T=0.3)), gains_for(SETS["tau_m2"], 3)
     numbers = values(ASSUMED, points)
-    plain = NumpyBench(ARM, gains_for(SETS["tau_m2"], 3).family, PERIOD, bench.substeps, enough_sweeps(ARM))
-    by_arrays = plain(
-        np.zeros((5, 6)), bench._parameters(gains_for(SETS["tau_m2"], 3), numbers), bench.periods
-    )
-    assert np.max(np.abs(by_arrays - bench.paths(numbers))) < 1e-9
+    plain = graph_bench(ARM, gains.family, PERIOD, bench.substeps, enough_sweeps(ARM))
+    by_graph = plain(np.zeros((5, 6)), bench._parameters(gains, numbers), bench.periods)
+    assert np.max(np.abs(by_graph - bench.paths(numbers))) < 1e-9
+
+
+def test_without_a_compiler_a_small_study_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("LYAPCHECK_NO_COMPILER", "1")
+    compiled_bench.cache_clear()
+    found = study([SETS["tau_pd"]], ARM, spread=9, corners=2, search=False, seed=2)
+    compiled_bench.cache_clear()
+    assert found is not None
+    assert not found.search
+    assert found.runs == found.sets[0].at_once.arms + 1 == 1 + LEVELS * len(ASSUMED) + 11 + 1
 
 
 def test_smaller_steps_change_the_index_by_less_than_is_shown() -> None:

@@ -19,6 +19,10 @@ BOXES = 100_000
 """Budget of branch and bound for one gain set: a report takes half a minute, ``epsilon`` goes further."""
 
 
+SMALL: dict[str, Any] = {"spread": 96, "corners": 32, "search": False}
+"""The study of the experiment where nothing can be compiled: a bench run then takes 50 times longer."""
+
+
 @dataclass(frozen=True)
 class RunData:
     """One simulated run: its facts as plain data, its signals as arrays for the figures."""
@@ -69,13 +73,14 @@ def sensitivity_job(sets: Sequence[tuple[str, str]], robot: str, seed: int) -> d
         robot: the arm.
         seed: of all random choices.
     """
+    from lyapcheck.compiled.compiler import compiler
     from lyapcheck.control import read_gain_file
     from lyapcheck.robots import load
     from lyapcheck.sensitivity.json import study_json
     from lyapcheck.sensitivity.study import study
 
     chosen = [one for path, name in sets for one in read_gain_file(path).gains if one.name == name]
-    found = study(chosen, load(robot), seed=seed)
+    found = study(chosen, load(robot), seed=seed, **({} if compiler() else SMALL))
     return None if found is None else study_json(found)
 
 

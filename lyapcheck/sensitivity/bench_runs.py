@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from lyapcheck.sensitivity.assumptions import BAND, Assumption, numbers
 from lyapcheck.sensitivity.bench_compiled import compiled_bench
-from lyapcheck.sensitivity.bench_numpy import NumpyBench
 from lyapcheck.simulate.batch_runs import settling_times
 from lyapcheck.simulate.gains import Gains, gains_for
 
@@ -89,7 +88,10 @@ class BenchRuns:
         gains = gains_for(self.gain_set, self.model.n)
         family, sweeps = gains.family, enough_sweeps(self.model)
         run: Any = compiled_bench(self.model, family, PERIOD, self.substeps, sweeps)
-        run = run or NumpyBench(self.model, family, PERIOD, self.substeps, sweeps)
+        if run is None:
+            from lyapcheck.sensitivity.bench_graph import graph_bench
+
+            run = graph_bench(self.model, family, PERIOD, self.substeps, sweeps)
         starts = np.tile([*self.task.q0, *self.task.w0], (len(values), 1))
         return np.asarray(run(starts, self._parameters(gains, values), self.periods))
 

@@ -1,4 +1,4 @@
-"""The bench written once for arrays of runs and for recorded code: controller, and the arm with dry friction.
+"""The bench written once for recorded code and for graphs: the controller, and the arm with dry friction.
 
 References: (1), (6) and Section 4 of ``reyes2019family``.
 """
@@ -20,14 +20,14 @@ Vector = Sequence[Any]
 
 @dataclass(frozen=True, eq=False)
 class BenchStep:
-    """One run's controller and arm, or many of them as columns.
+    """One run's controller and arm.
 
     Dry friction is the set-valued law of Coulomb: f_c sign(w) while a joint moves, and whatever holds it, up
     to f_c, while it does not. A joint that should stick sticks, and no step has to be small because of it.
 
     Args:
         model: the arm.
-        code: records or computes ``call`` and ``where``.
+        code: records ``call``.
         forms: the arithmetic and the family.
         parameters: q_d, K_p, K_v, B, f_c (n each), and the uncertain parameters; see `parameter_count`.
         period: s between two readings.

@@ -18,6 +18,7 @@ def study_json(study: Study) -> dict[str, Any]:
         "seed": study.seed,
         "spread": study.spread,
         "corners": study.corners,
+        "search": study.search,
         "runs": study.runs,
         "assumed": [
             {"name": one.name, "words": one.words, "unit": one.unit}

@@ -122,6 +122,7 @@ class Study:
         joints: its joints.
         assumed: what was varied.
         spread, corners: sizes of the sample.
+        search: whether arms were looked for beyond the sample.
         runs: bench runs in all.
         seed: of all random choices.
         sets: one a gain set.
@@ -133,6 +134,7 @@ class Study:
     assumed: tuple[Assumption, ...]
     spread: int
     corners: int
+    search: bool
     runs: int
     seed: int
     sets: tuple[SetStudy, ...]

@@ -37,6 +37,7 @@ def study(
     *,
     spread: int = SPREAD,
     corners: int = CORNERS,
+    search: bool = True,
     seed: int = 0,
     on_progress: Progress | None = None,
 ) -> Study | None:
@@ -51,6 +52,7 @@ def study(
         model: the arm.
         spread: points of the Latin hypercube.
         corners: points at ends of all ranges.
+        search: whether to look for arms that do what is printed beyond the sample.
         seed: of all random choices.
         on_progress: told the fraction done.
 
@@ -68,17 +70,19 @@ def study(
     sets: list[SetStudy] = []
     for gain_set, entry in chosen:
         runs = BenchRuns(gain_set, model, PAPER_TASK, assumed)
-        found = first_trials(runs, printed_numbers(entry), plan.points).searched(seed)
-        sets.append(_set_study(gain_set, entry, found, plan, seed))
+        found = first_trials(runs, printed_numbers(entry), plan.points)
+        found = found.searched(seed) if search else found
+        sets.append(_set_study(gain_set, entry, found, plan, seed if search else None))
         trials.append(found)
         (on_progress or _silent)(len(sets) / (len(chosen) + 1), gain_set.name)
-    one_arm = all_sets(trials, len(plan.points), seed)
+    one_arm = all_sets(trials, len(plan.points), seed if search else None)
     return Study(
         robot=model.name,
         joints=model.joints,
         assumed=assumed,
         spread=spread,
         corners=corners,
+        search=search,
         runs=_count(sets, one_arm, len(plan.points)),
         seed=seed,
         sets=tuple(sets),
@@ -92,7 +96,7 @@ def _count(sets: Sequence[SetStudy], one_arm: Together | None, common: int) -> i
     return sum(one.at_once.arms + 1 for one in sets) + together
 
 
-def _set_study(gain_set: GainSet, entry: Printed, found: Trials, plan: Design, seed: int) -> SetStudy:
+def _set_study(gain_set: GainSet, entry: Printed, found: Trials, plan: Design, seed: int | None) -> SetStudy:
     numbers = tuple(number_study(number, found, plan) for number in found.printed)
     shown = _figure_gains(gain_set, entry, found, plan)
     return SetStudy(gain_set.name, gain_set.m, numbers, one_set(found, seed), shown)

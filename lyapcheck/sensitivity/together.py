@@ -19,13 +19,13 @@ CHILDREN = 12
 """Of each parent in each round of these searches: there is one goal only, and it is narrow."""
 
 
-def all_sets(trials: Sequence[Trials], common: int, seed: int) -> Together | None:
+def all_sets(trials: Sequence[Trials], common: int, seed: int | None) -> Together | None:
     """The L2 indices of all gain sets at one arm: the bench did not change between the paper's experiments.
 
     Args:
         trials: one a gain set; the first ``common`` points are the same for all.
         common: how many.
-        seed: of the search.
+        seed: of the search; none for no search.
 
     Returns:
         None for fewer than two gain sets.
@@ -42,7 +42,7 @@ def all_sets(trials: Sequence[Trials], common: int, seed: int) -> Together | Non
     return Together(best, _ordered(seen, np.array([goal.value for goal in goals])))
 
 
-def one_set(found: Trials, seed: int) -> AtOnce:
+def one_set(found: Trials, seed: int | None) -> AtOnce:
     """The L2 index and the settling times of one gain set at one arm."""
     goals = [number for number in found.printed if number.quantity in ("L2", "settling")]
 
@@ -60,7 +60,7 @@ def _search(
     seen: Array,
     goals: Sequence[PrintedNumber],
     evaluate: Callable[[Array], Array],
-    seed: int,
+    seed: int | None,
 ) -> tuple[AtOnce, Array]:
     """(the arm whose largest relative difference from the goals is least, all values seen)."""
     collected = [seen]
@@ -74,13 +74,15 @@ def _search(
         collected.append(evaluate(new))
         return differences(collected[-1])
 
-    more = approach(points, differences(seen), collect, _never, seed, children=CHILDREN)
-    everywhere, everything = np.vstack([points, more]), np.vstack(collected)
+    if seed is not None:
+        more = approach(points, differences(seen), collect, _never, seed, children=CHILDREN)
+        points = np.vstack([points, more])
+    everything = np.vstack(collected)
     worst = differences(everything)[:, 0]
     best = int(np.argmin(worst))
-    at = values(found.runs.assumed, everywhere[best : best + 1])[0]
+    at = values(found.runs.assumed, points[best : best + 1])[0]
     finite = tuple(float(x) if np.isfinite(x) else None for x in everything[best])
-    return AtOnce(finite, float(worst[best]), tuple(float(x) for x in at), len(everywhere)), everything
+    return AtOnce(finite, float(worst[best]), tuple(float(x) for x in at), len(points)), everything
 
 
 def _apart(goal: PrintedNumber, seen: Array, T: float) -> Array:
