@@ -58,8 +58,8 @@ def answer_words(number: Data) -> str:
         return "some arm in range does it"
     if answer == "no part":
         return f"no assumption has a part in it: {nearest} for every arm"
-    if answer == "jumps":
-        return f"arms in range do more and less, none does it: nearest {nearest}"
+    if answer == "between":
+        return f"arms in range do more and less, none seen does it: nearest {nearest}"
     if number["nearest"] is None:
         return f"no arm in range among {number['runs']} settles"
     return f"no arm in range among {number['runs']} does it: nearest {nearest}"
@@ -71,7 +71,7 @@ def answer_cell(number: Data) -> str:
     cells = {
         "yes": "yes",
         "no part": "no part in it",
-        "jumps": f"jumps over it: nearest {nearest}",
+        "between": f"more and less: nearest {nearest}",
         "no": f"no: nearest {nearest}",
     }
     return cells[number["answer"]]
@@ -82,7 +82,7 @@ def tally_words(study: Data) -> str:
     numbers = [number for one in study["sets"] for number in one["numbers"]]
     free = [number for number in numbers if number["answer"] != "no part"]
     parts = [f"{sum(number['answer'] == 'yes' for number in free)} are what some arm in range does"]
-    for answer, words in (("jumps", "the arms jump past"), ("no", "no arm seen does")):
+    for answer, words in (("between", "lie between what arms do"), ("no", "no arm seen does")):
         count = sum(number["answer"] == answer for number in free)
         parts += [f"{count} {words}"] if count else []
     rest = len(numbers) - len(free)

@@ -77,7 +77,7 @@ def _answer(number: PrintedNumber, seen: Array, nearest: float | None) -> Answer
         return Answer.YES if below and number.at_most else Answer.NO
     if nearest is not None and abs(nearest - number.value) <= NEAR * abs(number.value) + LEAST:
         return Answer.YES
-    return Answer.JUMPS
+    return Answer.BETWEEN
 
 
 def _nearest(

@@ -14,8 +14,8 @@ class Answer(StrEnum):
 
     YES = "yes"
     """One was seen that does it, or that meets a printed bound."""
-    JUMPS = "jumps"
-    """Arms on either side of it were seen, and the way from one to the other jumps over it."""
+    BETWEEN = "between"
+    """Arms on either side of it were seen, but none at it: where it was looked for, the way there jumps."""
     NO = "no"
     """All arms seen are on one side of it."""
     NO_PART = "no part"
