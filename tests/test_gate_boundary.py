@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from decimal import Decimal, localcontext
+from decimal import Context, Decimal, Inexact
 from fractions import Fraction
 from math import isqrt
 from pathlib import Path
@@ -20,6 +20,9 @@ from lyapcheck.control.plain import read_plain
 SETTINGS = settings(
     max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
+
+EXACT = Context(prec=200, traps=[Inexact])
+"""Decimal arithmetic that never rounds."""
 
 
 @st.composite
@@ -50,10 +53,8 @@ def of(result: GateResult, name: str, joint: int = 0) -> Check:
 
 def one_unit_more(text: str) -> str:
     """The decimal one unit larger in its last place."""
-    with localcontext() as context:
-        context.prec = 200
-        value = Decimal(text)
-        return format(value + Decimal(1).scaleb(int(value.as_tuple().exponent)), "f")
+    value = Decimal(text)
+    return format(EXACT.add(value, EXACT.scaleb(Decimal(1), int(value.as_tuple().exponent))), "f")
 
 
 @SETTINGS
@@ -100,7 +101,7 @@ def test_the_largest_k_p_passes_and_one_unit_more_does_not(
     if room.denominator != 1:  # k_v has more digits than the answer
         return
     for units, verdict in ((room, "accepted"), (room + 1, "rejected")):
-        text = format(Decimal(int(units)).scaleb(-places), "f")
+        text = format(EXACT.scaleb(Decimal(int(units)), -places), "f")
         assert of(judged(tmp_path / "g.toml", f"m = {m}", [text], [kv], bounds), "10p").verdict == verdict
 
 
@@ -109,14 +110,14 @@ def test_the_largest_k_p_passes_and_one_unit_more_does_not(
 def test_equality_is_rejected_by_19_and_10p(tmp_path: Path, n: int, limit: str, top: str) -> None:
     """γ = 1 and √n whole: the border is a decimal, and (19) and (10p) are strict."""
     border = Fraction(limit)
-    budget = format(Decimal(limit) * isqrt(n), "f")
+    budget = format(EXACT.multiply(Decimal(limit), Decimal(isqrt(n))), "f")
     result = judged(tmp_path / "g.toml", top, ["1"] * n, [limit] * n, arm(budget, ["9e90"] * n, ["0"] * n))
     check = of(result, "19")
     assert (check.verdict, check.margin, check.limit) == ("rejected", 0, Bracket.exact(border))
     assert check.largest_admissible is not None
     assert check.largest_admissible < border
     if "." in limit:
-        half = format(Decimal(limit) / 2, "f")
+        half = format(EXACT.divide(Decimal(limit), Decimal(2)), "f")
         result = judged(
             tmp_path / "g.toml", top, [half] * n, [half] * n, arm("9e90", [budget] * n, ["0"] * n)
         )
