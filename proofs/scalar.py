@@ -39,6 +39,7 @@ from lyapcheck.claims import (
     lacking,
     largest_with,
     leading_minors,
+    loop_closed,
     loops,
     majorant,
     mass_matrix,
@@ -233,7 +234,7 @@ def _(case):
     s, z = loops.loop(case.n), vector("z", case.n)
     still = replace(s, w=[expr(0)] * case.n, hw=[h(case.m, 0)] * case.n)
     at_rest = identity(dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h)))
-    return all_of(at_rest=at_rest, **sign_of(case))
+    return all_of(from_the_controller=loop_closed(loop_of(case)), at_rest=at_rest, **sign_of(case))
 
 
 # dV/dt -----------------------------------------------------------------------------------------------------

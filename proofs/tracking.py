@@ -43,6 +43,7 @@ from lyapcheck.claims import (
     lacking,
     largest_with,
     leading_minors,
+    loop_closed,
     loops,
     majorant,
     mass_matrix,
@@ -108,7 +109,10 @@ def _(case):
     entries = loop_of_21(loops.loop(n), [vector(name, n) for name in names], zero, identity)
     letters = [any_vector(name) for name in names]
     return all_of(
-        **sign_of(case), **entries, every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n))
+        **sign_of(case),
+        **entries,
+        every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n)),
+        with_the_letters_of_the_theorem=loop_closed(loop_of(case)),
     )
 
 

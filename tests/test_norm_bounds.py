@@ -18,6 +18,7 @@ from lyapcheck.claims import (
     dot,
     expr,
     form,
+    loop_closed,
     rate_bound,
     scaled,
     tanh,
@@ -217,3 +218,21 @@ def test_the_form_bounds_a_derivative_of_v_taken_in_floating_point(n):
         )
         scale = abs(rate) + abs(form_value)
         assert rate <= -form_value + 1e-9 * scale
+
+
+@pytest.mark.parametrize("desired", [False, True])
+def test_the_controller_closes_the_loop_and_another_does_not(desired):
+    """(6) or (21) minus the left side of (1), for every n; any letter exchanged on one side refutes it."""
+    theta = TRACKING if desired else REGULATOR
+    statement = loop_closed(KNOWN.loop((tanh(X), 1 - tanh(X) ** 2, tanh(X)), theta, desired=desired))
+    assert verdict(statement) == "proved"
+    for old, new in (("Kv", "B"), ("Kp", "Kv"), ("hw", "w"), ("dw", "h"), ("C", "M"), ("g", "h")):
+        assert verdict(replace(statement, left=exchanged(statement.left, old, new))) == (
+            "proved" if old == "g" else "refuted"
+        ), old
+
+
+def exchanged(tree, old, new):
+    if not isinstance(tree, tuple):
+        return new if tree == old else tree
+    return tuple(exchanged(part, old, new) for part in tree)

@@ -30,7 +30,9 @@ variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc"
 corner, side, low = theta(var("eps0") * var("share"), b_min + var("more"))
 odd, positive_right = identity(tanh(-x), -T), for_all(expr(0) < T, 0, open_low=True)
 
-proof.add("rest", "at rest only at 0", all_of(odd=odd, right=positive_right))
+proof.add("rest", "at rest only at 0", all_of(
+    odd=odd, right=positive_right, closed=loop_closed(loop)
+))
 proof.add("smooth", "V is differentiable", all_of(
     slope=identity(diff(T, "x"), SLOPE),
     above=for_all(SLOPE <= 1),
@@ -179,7 +181,7 @@ def test_certificates_of_a_theorem_are_accepted_and_the_theorem_named(folder):
         [sys.executable, "-m", "lyapcheck.check", str(folder)], capture_output=True, text=True, check=True
     )
     assert "1 claim rests on Lyapunov's direct method (kelly2005control, chapter 2): P.json" in run.stdout
-    assert "taken for granted: the robot has Properties 2.1 to 2.7" in run.stdout
+    assert "taken for granted: the robot is (1) with Properties 2.1 to 2.7" in run.stdout
 
 
 @pytest.mark.parametrize("claim", CLAIMS)

@@ -4,7 +4,7 @@ A proof script needs nothing but the names below.
 """
 
 from lyapcheck.check.certificates.every_n import EveryN
-from lyapcheck.check.certificates.rules.loop_rate import rate_bound
+from lyapcheck.check.certificates.rules.loop_rate import loop_closed, rate_bound
 from lyapcheck.check.certificates.statements import Relation
 from lyapcheck.check.certificates.theorems import ClosedLoop
 from lyapcheck.claims.arms import (
@@ -166,6 +166,7 @@ __all__ = [
     "largest_with",
     "leading_minors",
     "log",
+    "loop_closed",
     "majorant",
     "mass_matrix",
     "matrix",

@@ -31,6 +31,7 @@ from lyapcheck.claims import (
     identity,
     implies,
     log,
+    loop_closed,
     loops,
     majorant,
     nonnegative,
@@ -176,6 +177,7 @@ def _(case):
     z = vector("z", case.n)
     pull = total(z_i * k * a for z_i, k, a in zip(z, s.kp, s.h, strict=True))
     return all_of(
+        from_the_controller=loop_closed(loop_of(case)),
         at_rest=identity(dot(z, loops.force(still)), pull),
         odd=identity(atan(-x), -atan(x)),
         positive=for_all(expr(0) < atan(x), 0, open_low=True),

@@ -1,15 +1,15 @@
-"""dV/dt of a closed loop against its quadratic form, for every n: the statement that the theorem needs.
+"""A closed loop for every n: that the controller closes it, and dV/dt against its quadratic form.
 
 With u = e/‖e‖ and s = 1/(1 + ‖e‖) the rate of ε = ε₀s is ε s uᵀw. H' = diag(dh), K_p = diag(Kp), and so on.
 
-References: ``reyes2019family`` (11), (13), (15), (21).
+References: ``reyes2019family`` (1), (6), (11), (13), (15), (21).
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.check.certificates.every_n import BoundEveryN, Given
+from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN, Given
 from lyapcheck.check.certificates.theorems import ClosedLoop
 from lyapcheck.check.functions import Tree
 
@@ -20,10 +20,38 @@ M, C, D = (("mat", name) for name in "MCD")
 KP: Tree = ("vec", "Kp")
 
 
+def loop_closed(loop: ClosedLoop) -> EveryN:
+    """Torque less the left side of (1) is K_p h − K_v h(w) − Bw − Cw − Mẇ: both vanish together.
+
+    The torque is (6), or (21) with q̇ = q̇_d + w, q̈ = q̈_d + ẇ; there h(ė) = −h(w), as h is odd.
+    """
+    turning, weight, test = _turning(loop), ("vec", "g"), ("vec", "z")
+    speed, acceleration = (("vec", "vd"), ("vec", "ad")) if loop.desired else (("sum",), ("sum",))
+    torque = ("sum", _scaled("Kp", H), _minus(_scaled("Kv", DAMPING)), *_needed(speed, acceleration, turning))
+    needed = _needed(("sum", speed, W), ("sum", acceleration, ACCELERATION), turning)
+    left = ("sum", torque, weight, _minus(("sum", *needed, weight)))
+    right = ("sum", _push(turning), _minus(("apply", M, ACCELERATION)))
+    return EveryN(("dot", test, left), ("dot", test, right))
+
+
+def _needed(speed: Tree, acceleration: Tree, turning: Tree) -> tuple[Tree, ...]:
+    """The left side of (1) without gravity."""
+    return ("apply", M, acceleration), ("apply", turning, speed), _scaled("B", speed)
+
+
+def _turning(loop: ClosedLoop) -> Tree:
+    return ("sum", C, D) if loop.desired else C
+
+
+def _push(turning: Tree) -> Tree:
+    """What Mẇ equals in the loop."""
+    damping, friction = _scaled("Kv", DAMPING), _scaled("B", W)
+    return ("sum", _scaled("Kp", H), _minus(damping), _minus(friction), _minus(("apply", turning, W)))
+
+
 def rate_bound(loop: ClosedLoop) -> BoundEveryN:
     """dV/dt <= −[a b] Θ [a b]ᵀ for every n, from the norms of the letters."""
-    turning: Tree = ("sum", C, D) if loop.desired else C
-    push = ("sum", _scaled("Kp", H), _minus(_scaled("Kv", DAMPING)), _minus(_scaled("B", W)))
+    turning = _turning(loop)
     y: Tree = ("sum", W, ("scale", ("neg", EPS), H))
     energy: Tree = ("add", ("div", _form(y, M, y), ("num", "2")), ("dot", KP, U))
     rates = (
@@ -34,7 +62,7 @@ def rate_bound(loop: ClosedLoop) -> BoundEveryN:
         (M, ("sum", turning, ("transpose", turning))),
         (EPS, ("mul", EPS, S, ("dot", UNIT, W))),
     )
-    motion = Given("M", "dw", ("sum", push, _minus(("apply", turning, W))))
+    motion = Given("M", "dw", _push(turning))
     corner, side, low = loop.form
     form = ("add", ("mul", corner, A, A), ("mul", ("num", "2"), side, A, B), ("mul", low, B, B))
     return BoundEveryN(("rate", energy), ("neg", form), ("M",), rates, (motion,), _norms(loop), _least())

@@ -5,8 +5,8 @@ x and |h| <= γ make it radially unbounded; ‖h(e)‖ <= L‖e‖ and a bounded
 where ‖e‖ is not; at rest Mẇ = K_p h(e) vanishes with e alone. ``loop_rate`` is the bound of dV/dt, in which
 a = ‖h(e)‖ and b = ‖w‖ vanish together at the origin alone.
 
-Not judged here: Properties 2.1–2.7 of the robot, that a loop has the form (11), and that numbers given for
-its constants are those of the robot; claims of their own are about these.
+Not judged here: that the robot is (1) with Properties 2.1–2.7, and that numbers given for its constants are
+those of the robot; claims of their own are about these.
 
 References: ``kelly2005control``, chapter 2; ``khalil2002nonlinear``, theorem 4.9; ``reyes2019family``.
 """
@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
 from lyapcheck.check.certificates.rules.definiteness import shows_positive
-from lyapcheck.check.certificates.rules.loop_rate import rate_bound
+from lyapcheck.check.certificates.rules.loop_rate import loop_closed, rate_bound
 from lyapcheck.check.certificates.statements import (
     AllOf,
     Constant,
@@ -71,6 +71,11 @@ def _sign(loop: ClosedLoop) -> list[Needed]:
         ("h(−x) = −h(x)", Identity(mirrored, ("neg", loop.h))),
         ("0 < h(x) for x > 0", ForAll(Relation(ZERO, "<", loop.h), Fraction(0), None, open_low=True)),
     ]
+
+
+def _at_rest(loop: ClosedLoop) -> list[Needed]:
+    controller = "(21)" if loop.desired else "(6)"
+    return [*_sign(loop), (f"the loop that {controller} closes, for every n", loop_closed(loop))]
 
 
 def _positive(loop: ClosedLoop) -> list[Needed]:
@@ -133,8 +138,8 @@ def _num(value: Fraction) -> Tree:
 
 
 PREMISES: dict[str, Premise] = {
-    "only equilibrium": _needs(_sign),
-    "equilibrium": _needs(_sign),
+    "only equilibrium": _needs(_at_rest),
+    "equilibrium": _needs(_at_rest),
     "differentiable": _needs(_smooth),
     "positive definite": _needs(_positive),
     "bounded below by a positive definite function": _needs(_inertia(below=True)),

@@ -28,6 +28,7 @@ class Known:
     desired: bool = False
 
 
+GRANTED = "the robot is (1) with Properties 2.1 to 2.7, and the constants of the form are those of the robot"
 THEOREMS = {
     "Lyapunov's direct method": Known(
         frozenset(
@@ -41,7 +42,7 @@ THEOREMS = {
             }
         ),
         "the equilibrium is globally asymptotically stable",
-        "the robot has Properties 2.1 to 2.7 with the constants of the form, and the loop is (11)",
+        GRANTED,
         "kelly2005control, chapter 2",
     ),
     "Lyapunov's direct method, time-varying": Known(
@@ -58,7 +59,7 @@ THEOREMS = {
             }
         ),
         "the equilibrium is globally uniformly asymptotically stable",
-        "the robot has Properties 2.1 to 2.7 with the constants of the form, and the loop is that of (21)",
+        GRANTED,
         "khalil2002nonlinear, theorem 4.9",
         desired=True,
     ),
