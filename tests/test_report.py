@@ -168,7 +168,7 @@ def claim(claim_id: str, m: int | None, verdict: str) -> dict[str, Any]:
 
 def test_refuted_claims_become_one_finding_for_all_their_members() -> None:
     rows = [claim("a", 1, "refuted"), claim("a", 2, "refuted"), claim("b", 1, "proved")]
-    found = findings(rows, [], [], [])
+    found = findings(rows, [], [])
     assert [(item.subject, item.ms) for item in found] == [("claim a", (1, 2))]
     assert "1 is not ≤ 0 at x = 3/2" in found[0].text
 
@@ -188,13 +188,7 @@ def epsilon_row(**numbers: str | None) -> dict[str, Any]:
     ],
 )
 def test_published_epsilons_are_held_against_the_others(row: dict[str, Any], kinds: list[str]) -> None:
-    assert [item.kind for item in findings([], [], [row], [])] == kinds
-
-
-@pytest.mark.parametrize(("simulated", "count"), [(25.0, 0), (25.4, 0), (31.0, 1), (None, 0)])
-def test_simulated_indices_are_held_against_the_printed(simulated: float | None, count: int) -> None:
-    run = {"name": "a", "m": 1, "L2": simulated, "printed": {"L2": 25.0}}
-    assert len(findings([], [], [], [run])) == count
+    assert [item.kind for item in findings([], [], [row])] == kinds
 
 
 @pytest.mark.parametrize(

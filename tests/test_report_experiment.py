@@ -48,7 +48,7 @@ def files(found: dict[str, Any]) -> dict[str, str | bytes]:
     empty: dict[str, Any] = dict.fromkeys(
         ("table", "gate", "epsilon", "claims", "instead", "runs", "findings"), ()
     )
-    found_out = findings((), (), (), (), found)
+    found_out = findings((), (), (), found)
     report = Report(
         robot=robot,
         ms=(1,),
@@ -115,7 +115,7 @@ def test_indices_stand_beside_the_bench(found: dict[str, Any]) -> None:
 
 
 def test_findings_follow_the_answers(found: dict[str, Any]) -> None:
-    subjects = [item.subject for item in findings((), (), (), (), found)]
+    subjects = [item.subject for item in findings((), (), (), found)]
     assert subjects[0] == "L2 index of tau_m1"
     assert "indices of all gains" in subjects
     changed = deepcopy(found)
@@ -123,7 +123,14 @@ def test_findings_follow_the_answers(found: dict[str, Any]) -> None:
         for entry in one["numbers"]:
             entry.update(answer="yes", nominal=entry["printed"])
     changed["together"].update(worst=0.0)
-    assert findings((), (), (), (), changed) == ()
+    assert findings((), (), (), changed) == ()
+
+
+@pytest.mark.parametrize(("nominal", "count"), [(25.4, 0), (25.8, 0), (31.0, 1), (20.0, 1)])
+def test_indices_near_the_print_are_no_finding(found: dict[str, Any], nominal: float, count: int) -> None:
+    index = {**found["sets"][0]["numbers"][0], "nominal": nominal}
+    alone = {**found, "sets": [{**found["sets"][0], "numbers": [index]}], "together": None}
+    assert len(findings((), (), (), alone)) == count
 
 
 @pytest.mark.parametrize(

@@ -9,18 +9,17 @@ from lyapcheck.report.text import witness_words
 from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
 SAME = 0.02
-"""A simulated index this close to the printed one, relatively, counts as confirmed."""
+"""An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
 
 
 def findings(
     claims: Sequence[Data],
     gate: Sequence[Data],
     epsilon: Sequence[Data],
-    runs: Sequence[Data],
     sensitivity: Data | None = None,
 ) -> tuple[Finding, ...]:
     """All findings: refuted claims first, then rejected gains, ε₀, and the experiment."""
-    experiment = _indices(runs) if sensitivity is None else _experiment(sensitivity)
+    experiment = () if sensitivity is None else _experiment(sensitivity)
     return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *experiment)
 
 
@@ -61,22 +60,6 @@ def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
                 f"ε₀ = {float(falsified):.4g}"
             )
             yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "refuted")
-
-
-def _indices(runs: Sequence[Data]) -> Iterator[Finding]:
-    for run in runs:
-        printed = run.get("printed")
-        if not printed or not run["L2"]:
-            continue
-        ratio = run["L2"] / printed["L2"]
-        if abs(ratio - 1) > SAME:
-            text = (
-                f"simulated L2 index {run['L2']:.2f}°, measured {printed['L2']:.2f}° "
-                f"({100 * (ratio - 1):+.0f} %); the simulation has no dry friction and rests on assumed "
-                "inertia and friction"
-            )
-            ms = () if run["m"] is None else (run["m"],)
-            yield Finding(f"index of {run['name']}", ms, text, "differs")
 
 
 def _experiment(study: Data) -> Iterator[Finding]:
