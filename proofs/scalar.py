@@ -21,7 +21,6 @@ from lyapcheck.claims import (
     ForSmall,
     Proof,
     all_of,
-    always_positive,
     bounded,
     coriolis_matrix,
     decreasing,
@@ -38,7 +37,6 @@ from lyapcheck.claims import (
     implies,
     lacking,
     largest_with,
-    leading_minors,
     loop_closed,
     loops,
     majorant,
@@ -48,6 +46,7 @@ from lyapcheck.claims import (
     norm_chain,
     plus,
     positive,
+    positive_definite,
     potential,
     rate,
     rate_bound,
@@ -537,7 +536,7 @@ def _(case):
     mass, turning = mass_matrix(robot), coriolis_matrix(robot, w)
     return all_of(
         symmetric=identity(form(u, mass, v), form(v, mass, u)),
-        positive_definite=always_positive(leading_minors(mass)),
+        positive_definite=positive_definite(robot),
         rate=identity(form(u, rate_of(mass, w), v), form(u, plus(turning, transpose(turning)), v)),
     )
 

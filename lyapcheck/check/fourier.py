@@ -9,36 +9,37 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import isqrt
 from typing import Any
+
+from flint import fmpq
 
 from lyapcheck.check.functions import Algebra, Tree, Unsupported, evaluate, variables
 
 Frequency = tuple[tuple[str, int], ...]
+ZERO = fmpq(0)
 
 
 @dataclass(frozen=True)
 class Fourier:
     """A Fourier sum: frequency (angle, multiple ≠ 0) … to the real and imaginary parts of its coefficient."""
 
-    terms: dict[Frequency, tuple[Fraction, Fraction]]
+    terms: dict[Frequency, tuple[fmpq, fmpq]]
 
     def __add__(self, other: Fourier) -> Fourier:
         terms = dict(self.terms)
-        for k, (re, im) in other.terms.items():
-            a, b = terms.get(k, (Fraction(0), Fraction(0)))
-            terms[k] = (a + re, b + im)
+        _add(terms, other.terms)
         return Fourier(terms)
 
     def __neg__(self) -> Fourier:
         return Fourier({k: (-re, -im) for k, (re, im) in self.terms.items()})
 
     def __mul__(self, other: Fourier) -> Fourier:
-        result = Fourier({})
+        terms: dict[Frequency, tuple[fmpq, fmpq]] = {}
         for k, (a, b) in self.terms.items():
-            shifted = {_sum(k, j): (a * c - b * d, a * d + b * c) for j, (c, d) in other.terms.items()}
-            result = result + Fourier(shifted)
-        return result
+            _add(terms, {_sum(k, j): (a * c - b * d, a * d + b * c) for j, (c, d) in other.terms.items()})
+        return Fourier(terms)
 
     def __truediv__(self, other: Fourier) -> Fourier:
         if set(other.terms) != {()} or other.terms[()][0] == 0:
@@ -49,12 +50,12 @@ class Fourier:
     @property
     def mean(self) -> Fraction:
         """The coefficient of frequency 0."""
-        return self.terms.get((), (Fraction(0), Fraction(0)))[0]
+        return _fraction(self.terms.get((), (ZERO, ZERO))[0])
 
     @property
     def swing(self) -> Fraction:
         """An upper bound of Σ_{k≠0} |c_k|, exact where every c_k is real or imaginary."""
-        return sum((_modulus(re, im) for k, (re, im) in self.terms.items() if k), Fraction(0))
+        return sum((_modulus(*map(_fraction, ab)) for k, ab in self.terms.items() if k), Fraction(0))
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ class _FourierAlgebra(Algebra):
     """Angles are names; only sin and cos of an angle are functions."""
 
     def number(self, value: Fraction) -> Fourier:
-        return Fourier({(): (value, Fraction(0))})
+        return Fourier({(): (fmpq(value.numerator, value.denominator), ZERO)})
 
     def constant(self, name: str, m: int) -> Fourier:
         raise Unsupported(f"{name} is not rational")
@@ -79,11 +80,11 @@ class _FourierAlgebra(Algebra):
     def function(self, name: str, value: Any) -> Fourier:
         if name not in ("sin", "cos") or not isinstance(value, _Angle):
             raise Unsupported("not a polynomial in sines and cosines of single angles")
-        half, zero = Fraction(1, 2), Fraction(0)
+        half = fmpq(1, 2)
         up, down = ((value.name, 1),), ((value.name, -1),)
         if name == "cos":
-            return Fourier({up: (half, zero), down: (half, zero)})
-        return Fourier({up: (zero, -half), down: (zero, half)})
+            return Fourier({up: (half, ZERO), down: (half, ZERO)})
+        return Fourier({up: (ZERO, -half), down: (ZERO, half)})
 
 
 def fourier_sum(tree: Tree) -> Fourier:
@@ -113,11 +114,22 @@ def is_bounded(tree: Tree) -> bool:
     return kind == "num" or (kind in ("sin", "cos") and rest[0][0] == "var")
 
 
+@lru_cache(maxsize=65536)
 def _sum(k: Frequency, j: Frequency) -> Frequency:
     total = dict(k)
     for angle, multiple in j:
         total[angle] = total.get(angle, 0) + multiple
     return tuple(sorted((angle, multiple) for angle, multiple in total.items() if multiple))
+
+
+def _add(terms: dict[Frequency, tuple[fmpq, fmpq]], more: dict[Frequency, tuple[fmpq, fmpq]]) -> None:
+    for k, (re, im) in more.items():
+        a, b = terms.get(k, (ZERO, ZERO))
+        terms[k] = (a + re, b + im)
+
+
+def _fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
 
 
 def _modulus(re: Fraction, im: Fraction) -> Fraction:

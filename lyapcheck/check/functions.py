@@ -15,7 +15,7 @@ References: ``reyes2019family`` (6), (8), (12).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -255,6 +255,16 @@ def substitute(tree: Tree, values: Mapping[str, Tree]) -> Tree:
 
 def variables(tree: Sequence[Any]) -> set[str]:
     """The names of the variables of an expression."""
-    if tree[0] == "var":
-        return {tree[1]}
-    return set().union(*(variables(part) for part in tree[1:] if isinstance(part, (tuple, list))))
+    return {node[1] for node in nodes(tree) if node[0] == "var"}
+
+
+def nodes(*trees: Sequence[Any]) -> Iterator[Sequence[Any]]:
+    """All nodes of expressions; one that stands in several places, as the same object, comes once."""
+    waiting, seen = list(trees), set(map(id, trees))
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for part in node[1:]:
+            if isinstance(part, (tuple, list)) and id(part) not in seen:
+                seen.add(id(part))
+                waiting.append(part)

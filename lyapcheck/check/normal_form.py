@@ -24,6 +24,7 @@ from lyapcheck.check.functions import (
     Unsupported,
     evaluate,
     family_constant,
+    nodes,
     variables,
 )
 from lyapcheck.check.polynomials import rational
@@ -227,11 +228,5 @@ def is_zero(tree: Tree) -> bool:
 
 def room_for(*trees: Tree) -> int:
     """Generators that expressions need beside their variables: two for each function of each argument."""
-    found: set[Tree] = set()
-    waiting = list(trees)
-    while waiting:
-        node = waiting.pop()
-        waiting += [part for part in node[1:] if isinstance(part, tuple)]
-        if node[0] in WITH_GENERATORS:
-            found.add(node)
+    found = {node for node in nodes(*trees) if node[0] in WITH_GENERATORS}
     return 2 * len(found) + 4

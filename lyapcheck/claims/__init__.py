@@ -15,6 +15,7 @@ from lyapcheck.claims.arms import (
     mass_matrix,
     rate_of,
 )
+from lyapcheck.claims.bodies import Body, bodies, positive_definite
 from lyapcheck.claims.bounds import (
     ArmBounds,
     FamilyBounds,
@@ -103,6 +104,7 @@ __all__ = [
     "AnyMatrix",
     "AnyVector",
     "ArmBounds",
+    "Body",
     "Case",
     "Claim",
     "ClaimResult",
@@ -139,6 +141,7 @@ __all__ = [
     "apply",
     "atan",
     "below",
+    "bodies",
     "bounded",
     "combined",
     "coriolis_matrix",
@@ -176,6 +179,7 @@ __all__ = [
     "pi",
     "plus",
     "positive",
+    "positive_definite",
     "potential",
     "rate",
     "rate_bound",

@@ -6,11 +6,15 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.claims.case import lacking
 from lyapcheck.claims.expressions import Expr, cos, diff, expr, sin, total, var
 from lyapcheck.claims.products import Matrix, Vector, vector
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
+
+
+MOST_ROWS = 4
 
 
 def determinant(a: Matrix) -> Expr:
@@ -22,7 +26,13 @@ def determinant(a: Matrix) -> Expr:
 
 
 def leading_minors(a: Matrix) -> Vector:
-    """The leading principal minors: a symmetric A is positive definite where all are positive (Sylvester)."""
+    """The leading principal minors: a symmetric A is positive definite where all are positive (Sylvester).
+
+    Raises:
+        Lacking: for more rows than determinants can be written out for.
+    """
+    if len(a) > MOST_ROWS:
+        raise lacking(f"the determinants of {len(a)} rows are too large to be written out")
     return [determinant([row[:k] for row in a[:k]]) for k in range(1, len(a) + 1)]
 
 

@@ -32,8 +32,13 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
                 raise Refused("variable", name, "is not declared by the statement")
 
 
-def require_tree(tree: Any, depth: int) -> None:
+def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> None:
     """Refuse an expression with an unknown operation, a wrong number of parts or too many levels.
+
+    Args:
+        tree: the expression.
+        depth: how many levels it may have.
+        seen: nodes that were looked at, by id, with the levels that were left to them.
 
     Raises:
         Refused: at the first node that is wrong.
@@ -41,6 +46,10 @@ def require_tree(tree: Any, depth: int) -> None:
     require(
         isinstance(tree, tuple) and len(tree) > 0, "expression", tree, "is not an operation with its parts"
     )
+    seen = {} if seen is None else seen
+    if seen.get(id(tree), 0) >= depth > 0:
+        return
+    seen[id(tree)] = depth
     operation, *parts = tree
     require(depth > 0, "expression", operation, f"is nested deeper than {MAX_DEPTH} levels")
     shape = SHAPES.get(operation) if isinstance(operation, str) else None
@@ -49,7 +58,7 @@ def require_tree(tree: Any, depth: int) -> None:
     )
     for part in parts:
         if isinstance(part, tuple):
-            require_tree(part, depth - 1)
+            require_tree(part, depth - 1, seen)
 
 
 def is_rational_text(value: Any) -> bool:

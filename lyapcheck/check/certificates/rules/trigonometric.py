@@ -6,6 +6,7 @@ References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 
 from lyapcheck.check.certificates.proofs import EntryWitness, FourierBounds
 from lyapcheck.check.certificates.refusal import Refused, require
@@ -70,6 +71,7 @@ def above_zero(tree: Tree) -> Relation:
     return Relation(ZERO, "<", tree)
 
 
+@lru_cache(maxsize=4096)
 def largest(tree: Tree) -> Fraction:
     """An upper bound of |f|."""
     f = fourier_sum(tree)
