@@ -64,7 +64,7 @@ def arm_constants(
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
         tell(0.0, "sampling")
-        found.append(makers[name](arm).solve(max_boxes, enough, tell, outside(model, name)))
+        found.append(makers[name](arm).solve(max_boxes, enough, tell, outside(model, name, max_boxes)))
     return tuple(found)
 
 

@@ -10,15 +10,19 @@ from lyapcheck.robots import RobotModel
 
 FEW = 3
 """Up to so many joints boxes alone are close and fast; for more, storage forms are asked as well."""
+_THOROUGH = 150_000
 
 
-def outside(model: RobotModel, name: str) -> Fraction | None:
+def outside(model: RobotModel, name: str, max_boxes: int) -> Fraction | None:
     """A lower bound of λmin(M) or an upper bound of another constant; ``None`` where none is known.
 
-    The better of what masses and distances say and of what storage forms along the chain prove.
+    The better of what masses and distances say and of what storage forms along the chain prove; those of k_c
+    take a minute and are asked for where the budget of boxes would take one as well.
     """
     sign = -1 if name == "lambda_min" else 1
-    found = [bound for bound in (_of_distances(model, name), _of_forms(model, name)) if bound is not None]
+    asked = name != "k_c" or max_boxes * model.n**2 >= _THOROUGH
+    forms = _of_forms(model, name) if asked else None
+    found = [bound for bound in (_of_distances(model, name), forms) if bound is not None]
     return sign * min(sign * bound for bound in found) if found else None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from lyapcheck.constants.storage.kinetic import kinetic
 from lyapcheck.constants.storage.problem import Problem
 from lyapcheck.constants.storage.program import Proposal, propose
 from lyapcheck.constants.storage.weight import weight
+from lyapcheck.constants.storage.whirl import whirl_bound
 from lyapcheck.robots.chain import Chain
 
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
@@ -33,16 +35,20 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
     """
     bodies, fall = hinges(chain)
     makers: dict[str, Callable[[], Problem]] = {
-        "lambda_min": lambda: kinetic(bodies, -1),
-        "lambda_max": lambda: kinetic(bodies, 1),
-        "k_g": lambda: weight(bodies, fall, range(len(bodies))),
+        "lambda_min": partial(kinetic, bodies, -1),
+        "lambda_max": partial(kinetic, bodies, 1),
+        "k_g": partial(weight, bodies, fall, range(len(bodies))),
     }
     for i in range(len(bodies)):
-        makers[f"k_g{i + 1}"] = lambda i=i: weight(bodies, fall, [i])  # type: ignore[misc]
-    return {name: lambda make=make: _bound(make()) for name, make in makers.items()}  # type: ignore[misc]
+        makers[f"k_g{i + 1}"] = partial(weight, bodies, fall, [i])
+    found: dict[str, Callable[[], Fraction | None]] = {
+        name: partial(_bound, make) for name, make in makers.items()
+    }
+    return found | {"k_c": partial(whirl_bound, bodies)}
 
 
-def _bound(problem: Problem) -> Fraction | None:
+def _bound(make: Callable[[], Problem]) -> Fraction | None:
+    problem = make()
     proposal = proved(problem)
     return None if proposal is None else problem.sign * Fraction(proposal.kappa)
 
