@@ -24,7 +24,7 @@ from lyapcheck.robots import RobotModel
 Progress = Callable[[float, str], None]
 
 GAP = 1e-3
-GAP_OF_MANY = 1e-2
+GAP_OF_MANY = 2e-2
 MAX_BOXES = 60_000
 
 
@@ -41,8 +41,8 @@ def arm_constants(
         model: the arm, of any number of joints.
         max_boxes: how many boxes each constant may take; k_c of n joints, whose boxes cost more, an nth of
             that.
-        gap: relative width of an enclosure that is good enough; by default a thousandth, and a hundredth
-            for more than three joints.
+        gap: relative width of an enclosure that is good enough; by default a thousandth, and two
+            hundredths for more than three joints.
         on_progress: told the share of the work done.
         names: of the constants wanted; by default all.
 
