@@ -18,7 +18,7 @@ from flint import fmpq
 from lyapcheck.check.functions import Algebra, Tree, Unsupported, evaluate, variables
 
 Frequency = tuple[tuple[str, int], ...]
-ZERO = fmpq(0)
+ZERO, HALF = fmpq(0), fmpq(1, 2)
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class _FourierAlgebra(Algebra):
     """Angles are names; only sin and cos of an angle are functions."""
 
     def number(self, value: Fraction) -> Fourier:
-        return Fourier({(): (fmpq(value.numerator, value.denominator), ZERO)})
+        return constant(value)
 
     def constant(self, name: str, m: int) -> Fourier:
         raise Unsupported(f"{name} is not rational")
@@ -80,11 +80,27 @@ class _FourierAlgebra(Algebra):
     def function(self, name: str, value: Any) -> Fourier:
         if name not in ("sin", "cos") or not isinstance(value, _Angle):
             raise Unsupported("not a polynomial in sines and cosines of single angles")
-        half = fmpq(1, 2)
-        up, down = ((value.name, 1),), ((value.name, -1),)
-        if name == "cos":
-            return Fourier({up: (half, ZERO), down: (half, ZERO)})
-        return Fourier({up: (ZERO, -half), down: (ZERO, half)})
+        return sine(value.name) if name == "sin" else cosine(value.name)
+
+
+def constant(value: Fraction) -> Fourier:
+    """A number."""
+    return Fourier({(): (fmpq(value.numerator, value.denominator), ZERO)})
+
+
+def sine(angle: str) -> Fourier:
+    """The sine of an angle."""
+    return Fourier({((angle, 1),): (ZERO, -HALF), ((angle, -1),): (ZERO, HALF)})
+
+
+def cosine(angle: str) -> Fourier:
+    """The cosine of an angle."""
+    return Fourier({((angle, 1),): (HALF, ZERO), ((angle, -1),): (HALF, ZERO)})
+
+
+def size(value: Fourier) -> Fraction:
+    """An upper bound of |f|."""
+    return abs(value.mean) + value.swing
 
 
 def fourier_sum(tree: Tree) -> Fourier:

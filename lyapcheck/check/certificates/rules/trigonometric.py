@@ -13,7 +13,7 @@ from lyapcheck.check.certificates.refusal import Refused, require
 from lyapcheck.check.certificates.rules.replay import coordinates, require_failure
 from lyapcheck.check.certificates.statements import Relation, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.certificates.verify import Accepted, rule
-from lyapcheck.check.fourier import fourier_sum, is_bounded
+from lyapcheck.check.fourier import fourier_sum, is_bounded, size
 from lyapcheck.check.functions import Tree, variables
 
 ZERO: Tree = ("num", "0")
@@ -74,8 +74,7 @@ def above_zero(tree: Tree) -> Relation:
 @lru_cache(maxsize=4096)
 def largest(tree: Tree) -> Fraction:
     """An upper bound of |f|."""
-    f = fourier_sum(tree)
-    return abs(f.mean) + f.swing
+    return size(fourier_sum(tree))
 
 
 def lowest(tree: Tree) -> Fraction:
