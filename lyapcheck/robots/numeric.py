@@ -15,6 +15,8 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.model import RobotModel
 
 Array = NDArray[np.float64]
+_SPARSE = 50_000
+"""Entries from which on a coefficient matrix is kept without its zeros."""
 _BLOCK = 4096
 """States evaluated together: the monomials of a small arm then stay in the cache."""
 
@@ -89,9 +91,10 @@ class _Table:
         self._steps: list[tuple[int, int]] = []
         self._rows: dict[tuple[int, ...], int] = {(0,) * (2 * n): 0}
         terms = [(i, self._row(powers), c) for i, poly in enumerate(distinct) for powers, c in poly]
-        self._coefficients = np.zeros((len(distinct), len(self._rows)))
+        dense = np.zeros((len(distinct), len(self._rows)))
         for i, row, coefficient in terms:
-            self._coefficients[i, row] = float(coefficient)
+            dense[i, row] = float(coefficient)
+        self._coefficients: Any = dense if dense.size < _SPARSE else _sparse(dense)
 
     def values(self, q: Array) -> Array:
         """The distinct polynomials, (count, states), at (states, n) angles."""
@@ -112,6 +115,13 @@ class _Table:
             self._rows[key] = len(self._rows)
             self._steps.append((parent, last))
         return self._rows[key]
+
+
+def _sparse(dense: Array) -> Any:
+    """The same matrix without its zeros: of six and seven joints nearly all of it."""
+    from scipy.sparse import csr_array
+
+    return csr_array(dense)
 
 
 def _blocks(count: int) -> list[slice]:

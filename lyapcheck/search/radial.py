@@ -11,9 +11,14 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.balls import precision
 from lyapcheck.check.certificates.proofs import RadialBounds
+from lyapcheck.check.harmonics import Harmonic, Harmonics
 from lyapcheck.check.stability import Closure
+from lyapcheck.check.stability.boxes import Box
 from lyapcheck.check.stability.closure import PI_ABOVE
 from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, Table, proves_radially
+from lyapcheck.intervals import Interval
+from lyapcheck.intervals.definite import positive_definite
+from lyapcheck.intervals.functions import cosine, sine
 from lyapcheck.search.certified import Proof
 from lyapcheck.search.cover import cover
 from lyapcheck.search.setting import Setting
@@ -81,21 +86,40 @@ def holds_radially(closure: Closure, data: Radial) -> bool:
 def radial_data(setting: Setting) -> Radial | None:
     """Weights, μ, ν and the tree behind them: the tightest that the checker accepts within the budget."""
     closure = setting.closure(Fraction(1))
-    weights = tuple(_root_below(low) for low, _ in closure.friction)
-    # μ and ν do not matter yet
-    blank = Radial(weights, Fraction(1), Fraction(1), _leading_angles(closure), ".", CUTS)
-    parts = Parts(closure, blank)
-    largest = Fraction(_largest(parts))
+    # where boxes of the leading angles are too many, all angles are bounded by the sizes of their harmonics
+    for angles in (_leading_angles(closure), ()):
+        found = _Attempts(closure, angles).tightest()
+        if found is not None:
+            return found
+    return None
 
-    def tried(share: Fraction, margin: Fraction) -> Radial | None:
-        mu = _short(largest * margin + parts.far)
-        data = replace(blank, inertia=mu, lowest=min(_short(largest * share + parts.far), mu))
-        tree = _tree(closure, data)
+
+class _Attempts:
+    """Trees of boxes of some angles for ever tighter μ."""
+
+    def __init__(self, closure: Closure, angles: tuple[int, ...]) -> None:
+        weights = tuple(_root_below(low) for low, _ in closure.friction)
+        self.closure = closure
+        # μ and ν do not matter yet
+        self.blank = Radial(weights, Fraction(1), Fraction(1), angles, ".", CUTS)
+        self.parts = Parts(closure, self.blank)
+        self.largest = Fraction(_largest(self.parts))
+
+    def tightest(self) -> Radial | None:
+        """What resists a small ν resists it beside any μ, so the loosest μ shows first which ν can be had."""
+        loosest = LOWEST[-1]
+        if self.tried(loosest, MARGINS[-1]) is None:
+            return None
+        share = next((share for share in LOWEST[:-1] if self.tried(share, MARGINS[-1])), loosest)
+        return next(filter(None, (self.tried(share, margin) for margin in MARGINS)), None)
+
+    def tried(self, share: Fraction, margin: Fraction) -> Radial | None:
+        """The data with a tree, if one was found within the budget."""
+        mu = _short(self.largest * margin + self.parts.far)
+        lowest = min(_short(self.largest * share + self.parts.far), mu)
+        data = replace(self.blank, inertia=mu, lowest=lowest)
+        tree = _tree(self.closure, data)
         return None if tree is None else replace(data, tree=tree)
-
-    # what resists a small ν resists it beside any μ, so the loosest μ shows which ν can be had
-    share = next((share for share in LOWEST if tried(share, MARGINS[-1])), LOWEST[-1])
-    return next(filter(None, (tried(share, margin) for margin in MARGINS)), None)
 
 
 def _tree(closure: Closure, data: Radial) -> str | None:
@@ -104,12 +128,47 @@ def _tree(closure: Closure, data: Radial) -> str | None:
         parts = Parts(closure, data)
 
         def prove(boxes: Array) -> NDArray[np.bool_]:
-            sides = [tuple(zip(box[0].tolist(), box[1].tolist(), strict=True)) for box in boxes]
-            return np.array([parts.shown_over(side) for side in sides])
+            proved = _between(parts, boxes)
+            # balls are wider than intervals: what the checker would refuse is halved once more
+            proved[proved] = [parts.shown_over(_sides(box)) for box in boxes[proved]]
+            return proved
 
+        if not data.angles:
+            return "." if parts.shown_over(()) else None
         count = len(data.angles)
         start = np.stack([np.full(count, -PI_ABOVE), np.full(count, PI_ABOVE)])[None]
         return cover(start, prove, _widest, MAX_BOXES).tree or None
+
+
+def _sides(box: Array) -> Box:
+    return tuple(zip(box[0].tolist(), box[1].tolist(), strict=True))
+
+
+def _between(parts: Parts, boxes: Array) -> NDArray[np.bool_]:
+    """Where −ν < M̃ < μ over boxes of the chosen angles, as ``Parts.shown_over`` finds it box by box."""
+    q = [Interval.exact(0.0)] * parts.closure.n
+    for column, joint in enumerate(parts.radial.angles):
+        q[joint] = Interval(boxes[:, 0, column], boxes[:, 1, column])
+    waves = {k: _wave(k, q) for k in {k for row in parts.near for entry in row for k in entry}}
+    M = [[_sum_of(entry, waves) for entry in row[: i + 1]] for i, row in enumerate(parts.near)]
+    limits = (Interval.of(x - parts.far) for x in (parts.radial.inertia, parts.radial.lowest))
+    above, below = (
+        [[sign * x + limit if i == j else sign * x for j, x in enumerate(row)] for i, row in enumerate(M)]
+        for sign, limit in zip((-1.0, 1.0), limits, strict=True)
+    )
+    return np.asarray(positive_definite(above) & positive_definite(below))
+
+
+def _wave(k: Harmonic, q: list[Interval]) -> tuple[Interval, Interval]:
+    angle = sum((x * float(factor) for factor, x in zip(k, q, strict=True) if factor), Interval.exact(0.0))
+    return cosine(angle), sine(angle)
+
+
+def _sum_of(terms: Harmonics, waves: dict[Harmonic, tuple[Interval, Interval]]) -> Interval:
+    total = Interval.exact(0.0)
+    for k, (a, b) in terms.items():
+        total = total + waves[k][0] * Interval.of(a) + waves[k][1] * Interval.of(b)
+    return total
 
 
 def _widest(boxes: Array) -> NDArray[np.intp]:
