@@ -26,12 +26,13 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
-from flint import arb
+from flint import arb, fmpq, fmpq_mat
 
 from lyapcheck.check.balls import precision, to_arb
 from lyapcheck.check.harmonics import Harmonic, Harmonics
 from lyapcheck.check.matrices import balls_positive_definite
 from lyapcheck.check.members import Member
+from lyapcheck.check.polynomials import rational
 from lyapcheck.check.stability.boxes import Box, leaves
 from lyapcheck.check.stability.closure import PI_ABOVE, Closure, root_above
 from lyapcheck.check.stability.pull import pull_up
@@ -222,13 +223,14 @@ def sizes_of(table: Table) -> dict[Harmonic, Fraction]:
 
 def _gram_bound(table: Table, k: Harmonic) -> Fraction:
     """A bound of λmax(AᵀA + BᵀB)."""
-    zero = Fraction(0)
-    rows = [[terms.get(k, (zero, zero)) for terms in row] for row in table]
-    joints = range(len(rows))
-    gram = [
-        [sum((r[i][0] * r[j][0] + r[i][1] * r[j][1] for r in rows), zero) for j in joints] for i in joints
-    ]
-    return min(sum((gram[i][i] for i in joints), zero), max(sum(map(abs, row), zero) for row in gram))
+    zero, n = Fraction(0), len(table)
+    entries = [terms.get(k, (zero, zero)) for row in table for terms in row]
+    A, B = (fmpq_mat(n, n, [rational(entry[part]) for entry in entries]) for part in (0, 1))
+    rows = (A.transpose() * A + B.transpose() * B).tolist()
+    trace = sum((rows[i][i] for i in range(n)), fmpq(0))
+    largest = max(sum(map(abs, row), fmpq(0)) for row in rows)
+    bound = min(trace, largest)
+    return Fraction(int(bound.p), int(bound.q))
 
 
 def min_of(a: arb, b: arb) -> arb:
