@@ -97,7 +97,7 @@ BAD = [
     ("robot pelican2 --tip hand", ["tip = hand: pelican2 is no URDF file"]),
     ("simulate", ["Missing argument 'FILE'"]),
     ("simulate none.toml", ["none.toml: file: cannot be read"]),
-    ("simulate TABLE2 --time 0", ["--time = 0.0: must be more than 0"]),
+    ("simulate TABLE2 --time 0", ["--time = 0.0: must be from 1e-06 to 3600 s"]),
     (
         "simulate TABLE2 --time nan --eps0 -1 --target 1,2 --start a,b,c",
         ["--time = nan", "--eps0 = -1.0", "--target = 1,2: has 2 angles", "--start = a,b,c: every angle"],
