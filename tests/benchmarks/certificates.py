@@ -6,12 +6,16 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
+from lyapcheck.admissible.certificates import statement
+from lyapcheck.check.certificates import verify
 from lyapcheck.check.stability import proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.falsify import falsify
+from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
@@ -20,6 +24,8 @@ from .results import CertificateResult, Cost
 T = TypeVar("T")
 
 ARMS = ("pendulum1", "reyes-kelly2", "buap3")
+MANY = ("ur5",)
+EXAMPLES = Path(__file__).parents[2] / "examples"
 MEMBERS = (1, 2, 3, 4, 5)
 SHARES = tuple(Fraction(n, 1000) for n in (900, 950, 980, 990, 995))
 MAX_BOXES = 600_000
@@ -43,6 +49,30 @@ def benchmark(
                 raise RuntimeError(f"no state refutes any ε₀ on {arm}, m = {m}")
             costs = tuple(_cost(setting, witness.eps0, share, max_boxes) for share in shares)
             yield CertificateResult(arm, model.n, m, float(witness.eps0), costs)
+
+
+def many_joints(
+    arms: tuple[str, ...] = MANY, members: tuple[int, ...] = (1, 2, 3)
+) -> Iterator[CertificateResult]:
+    """Arms of six joints: the one ε₀ that bounds in ‖e‖ alone can prove."""
+    for arm in arms:
+        file = read_gain_file(EXAMPLES / f"{arm}_gains.toml")
+        model = load_robot(str(EXAMPLES / f"{arm}.toml"))
+        for item in file.gains:
+            if item.m in members:
+                yield _many(arm, Setting(item, model))
+
+
+def _many(arm: str, setting: Setting) -> CertificateResult:
+    witness = falsify(setting)
+    proof, searched = _timed(lambda: radial_epsilon(setting))
+    if witness is None or proof is None or setting.gains.m is None:
+        raise RuntimeError(f"nothing was proved, or nothing refuted, on {arm}")
+    verdict, checked = _timed(lambda: verify(statement(proof.closure), proof.by))
+    if verdict.verdict != "proved":
+        raise RuntimeError(f"the checker refused ε₀ = {float(proof.closure.eps0):.6g} on {arm}")
+    cost = Cost(float(proof.closure.eps0 / witness.eps0), proof.boxes, searched, checked)
+    return CertificateResult(arm, setting.n, setting.gains.m, float(witness.eps0), (cost,))
 
 
 def gains(arm: str, m: int) -> GainSet:

@@ -37,17 +37,23 @@ A dash: not proved with so many boxes. A user's own way, a million random states
 `epsilon` above.
 """
 
+MANY_JOINTS = """
+With more joints boxes of (q, e) are too many: from n = 1 to 2 to 3 their number grows tenfold or more each
+time. There the parts of dV/dt are bounded in ‖e‖ alone, which gives one ε₀, by boxes of four angles.
+"""
+
 
 def markdown(
     machine: Sequence[str],
     commands: Sequence[CommandResult],
     rates: Sequence[RateResult],
     certificates: Sequence[CertificateResult],
+    many: Sequence[CertificateResult],
 ) -> str:
     """The whole document."""
     parts = [HEAD.format(machine="\n".join(f"- {line}" for line in machine))]
     parts += _commands(commands)
-    parts += [CERTIFICATES, *_certificates(certificates)]
+    parts += [CERTIFICATES, *_certificates(certificates), MANY_JOINTS, *_many_joints(many)]
     parts += [RATES, *_rates(rates)]
     return "\n".join(parts) + "\n"
 
@@ -92,6 +98,21 @@ def _certificates(results: Sequence[CertificateResult]) -> list[str]:
         for result in results
     ]
     return _table(["arm", "m", "falsified ε₀", *shares], rows)
+
+
+def _many_joints(results: Sequence[CertificateResult]) -> list[str]:
+    rows = [
+        [
+            f"{result.arm} (n = {result.joints})",
+            str(result.m),
+            f"{result.falsified:.6g}",
+            f"{cost.share:.1%}",
+            _cost(cost),
+        ]
+        for result in results
+        for cost in result.costs
+    ]
+    return _table(["arm", "m", "falsified ε₀", "proved", "boxes / search / check"], rows)
 
 
 def _cost(cost: Cost) -> str:

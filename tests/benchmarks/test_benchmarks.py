@@ -27,6 +27,7 @@ RATES = [RateResult("V", "buap3", 3, {"lyapcheck": 2e7, "CasADi": 1e6}, 3e-16)]
 PROOFS = [
     CertificateResult("buap3", 3, 2, 0.1665327, (Cost(0.9, 4019, 0.25, 0.5), Cost(0.995, 6000, 3.5, None)))
 ]
+MANY = [CertificateResult("ur5", 6, 1, 1.25, (Cost(0.774, 5, 4.0, 3.0),))]
 
 
 def cells(text, first):
@@ -35,7 +36,7 @@ def cells(text, first):
 
 
 def test_a_row_has_the_times_and_their_ratio():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
     assert "- a machine" in text
     assert cells(text, "`lyapcheck table`")[1:] == ["0.25 s", "5", "0.50 s", "2.00", "mpmath", "equal"]
     assert cells(text, "`lyapcheck explain")[1:] == ["0.20 s", "3", "—", "—", "nothing compares", "—"]
@@ -43,9 +44,14 @@ def test_a_row_has_the_times_and_their_ratio():
 
 
 def test_a_certificate_has_its_boxes_and_seconds_or_a_dash():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
-    assert cells(text, "arm | m | falsified")[3:] == ["90.0%", "99.5%"]
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, [])
+    assert cells(text, "arm | m | falsified ε₀ | 90")[3:] == ["90.0%", "99.5%"]
     assert cells(text, "buap3 (n = 3) | 2")[2:] == ["0.166533", "4019 / 0.25 s / 0.50 s", "— (6000)"]
+
+
+def test_an_arm_of_many_joints_has_one_share():
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
+    assert cells(text, "ur5 (n = 6)")[1:] == ["1", "1.25", "77.4%", "5 / 4.00 s / 3.00 s"]
 
 
 def test_certificates_are_measured_on_the_joints_an_arm_has():
@@ -63,7 +69,7 @@ def test_a_share_that_is_not_proved_has_no_time_of_the_checker():
 
 
 def test_every_table_row_is_as_wide_as_its_head():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
     for block in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         assert len({line.count("|") for line in block.splitlines()}) == 1
 
@@ -108,7 +114,7 @@ def test_the_start_is_measured_beside_that_of_python():
 
 
 def test_short_times_are_told_in_milliseconds():
-    text = markdown(["a machine"], [CommandResult("lyapcheck gate", 0.0312, 5, "python", 0.0118)], [], [])
+    text = markdown(["a machine"], [CommandResult("lyapcheck gate", 0.0312, 5, "python", 0.0118)], [], [], [])
     assert cells(text, "`lyapcheck gate`")[1:5] == ["31 ms", "5", "12 ms", "0.38"]
 
 
@@ -161,6 +167,13 @@ def test_states_per_second_counts_states_and_not_calls():
 @pytest.mark.slow
 def test_the_motion_by_hand_is_the_simulated_one():
     assert "L2 indices agree" in simulate.benchmark(runs=1).agreement
+
+
+@pytest.mark.slow
+def test_an_arm_of_six_joints_is_proved_for_half_of_what_is_refuted():
+    (result,) = certificates.many_joints(members=(2,))
+    assert result.joints == 6
+    assert 0.5 < result.costs[0].share < 1
 
 
 @pytest.mark.slow
