@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from lyapcheck.claims.run import run_proof
     from lyapcheck.constants.bounds import RobotConstants, robot_constants
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
-    from lyapcheck.control.gate import GateResult, gate
     from lyapcheck.control.limits import Limits, limits_for
     from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.family.base import Family
     from lyapcheck.family.registry import named as named_family
     from lyapcheck.family.table import Table, build_table
+    from lyapcheck.gating.gate import GateResult, gate
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
@@ -117,7 +117,7 @@ _HOMES = {
     "Family": "family.base",
     "GainFile": "control.gains",
     "GainSet": "control.gains",
-    "GateResult": "control.gate",
+    "GateResult": "gating.gate",
     "Grade": "verdicts",
     "InputError": "errors",
     "Limits": "control.limits",
@@ -141,7 +141,7 @@ _HOMES = {
     "epsilon": "admissible",
     "explain": "claims.explain",
     "gamma_less_than": "check.constants",
-    "gate": "control.gate",
+    "gate": "gating.gate",
     "hyperbolic_constants": "check.constants",
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GateResult
+    from lyapcheck.gating import GateResult
 
 
 class AcceptedGains(Protocol):
@@ -48,8 +48,9 @@ def assert_accepted(
     Soundness: that of the gate, which decides exactly.
     """
     __tracebackhide__ = True
-    from lyapcheck.control import gate, read_gain_file
+    from lyapcheck.control import read_gain_file
     from lyapcheck.errors import argument_error
+    from lyapcheck.gating import gate
 
     if not conditions:
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
@@ -76,7 +77,7 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
 
 def _complaints(result: GateResult) -> list[str]:
     """A line a failed check, with the place of the gain."""
-    from lyapcheck.control.gate_formats.words import KEYS, advice
+    from lyapcheck.gating.formats.words import KEYS, advice
 
     lines = []
     for check in result.failures:

@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.cli import main as cli
-from lyapcheck.control import GateResult, gate, gate_exit, paper_gain_file, read_gain_file
+from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
+from lyapcheck.gating import GateResult, gate, gate_exit
 from lyapcheck.verdicts import Exit
 
 HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "scipy", "sympy")

@@ -11,11 +11,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.control import GateResult, gate, read_gain_file
+from lyapcheck.control import read_gain_file
 from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.peak import gamma_between
 from lyapcheck.control.plain import read_plain
+from lyapcheck.gating import GateResult, gate
 
 SETTINGS = settings(
     max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]

@@ -14,10 +14,11 @@ import pytest
 from lyapcheck import load_robot, named_family
 from lyapcheck.check.stability import proves
 from lyapcheck.cli import main as cli
-from lyapcheck.control import GateResult, gate, gate_exit, paper_gain_file, read_gain_file
-from lyapcheck.control.gate_formats import FORMATS, renderer
-from lyapcheck.control.stability import Stability, remarks, stability
+from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
+from lyapcheck.gating import GateResult, gate, gate_exit
+from lyapcheck.gating.formats import FORMATS, renderer
+from lyapcheck.gating.stability import Stability, remarks, stability
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
 from lyapcheck.verdicts import Exit
@@ -105,7 +106,7 @@ def test_the_global_value_is_proved_and_below_what_a_state_refutes(everywhere: d
 
 def test_what_the_checker_refuses_is_not_accepted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
-    import lyapcheck.control.certificates as room
+    import lyapcheck.gating.certificates as room
     import lyapcheck.search.certified as search
 
     monkeypatch.setattr(search, "proves", lambda *_: False)

@@ -20,10 +20,11 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
-from lyapcheck.control import GateResult, gate, paper_gain_file, read_gain_file
-from lyapcheck.control.gate_formats import FORMATS, renderer
-from lyapcheck.control.gate_formats.words import significant_down
+from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.files import printable
+from lyapcheck.gating import GateResult, gate
+from lyapcheck.gating.formats import FORMATS, renderer
+from lyapcheck.gating.formats.words import significant_down
 
 NASTY = [
     "<b>&amp;\"'</b>",

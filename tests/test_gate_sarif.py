@@ -10,8 +10,9 @@ from typing import Any
 import pytest
 from json_schema import faults
 
-from lyapcheck.control import gate, paper_gain_file, read_gain_file
-from lyapcheck.control.gate_formats import renderer
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.gating import gate
+from lyapcheck.gating.formats import renderer
 
 SCHEMA = json.loads(
     (Path(__file__).parent / "schemas" / "sarif-2.1.0-rtm.5.json").read_text(encoding="utf-8")

@@ -21,13 +21,14 @@ from lyapcheck import load_robot, robot_names
 from lyapcheck.cli import gate_run
 from lyapcheck.cli import main as cli
 from lyapcheck.cli.gate_options import GateCall, quick_call
-from lyapcheck.control import gate, known_arms, known_arms_data, limits, paper_gain_file, read_gain_file
+from lyapcheck.control import known_arms, known_arms_data, limits, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.control.model_limits import model_limits
 from lyapcheck.control.plain import read_plain
 from lyapcheck.control.reading import read_toml
 from lyapcheck.control.write_known_arms import data_text
 from lyapcheck.errors import InputError
+from lyapcheck.gating import gate
 from lyapcheck.verdicts import Exit
 
 QUICK = settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])

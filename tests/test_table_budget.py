@@ -13,9 +13,10 @@ from typer.testing import CliRunner
 
 from lyapcheck.check.balls import precision
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import gate, paper_gain_file, read_gain_file
+from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family.table_formats.blocks import LIMITS
+from lyapcheck.gating import gate
 
 
 def run(*arguments):

@@ -17,9 +17,10 @@ from typer.testing import CliRunner
 
 from lyapcheck.cli.decimals import parse_decimals
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import Bounds, gate, paper_gain_file, read_gain_file
+from lyapcheck.control import Bounds, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files import decimal_text
+from lyapcheck.gating import gate
 from lyapcheck.robots import load
 from lyapcheck.tune import Targets, tune
 from lyapcheck.tune.damping import damping_of

@@ -14,7 +14,8 @@ import pytest
 from typer.testing import CliRunner
 
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import Bounds, gate, paper_gain_file, read_gain_file
+from lyapcheck.control import Bounds, paper_gain_file, read_gain_file
+from lyapcheck.gating import gate
 from lyapcheck.tune import Targets, tune
 from lyapcheck.tune.formats import FORMATS, renderer
 

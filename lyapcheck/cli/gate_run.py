@@ -6,9 +6,9 @@ import os
 import sys
 
 from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.gate import DECIDING, GateResult, gate, gate_exit
-from lyapcheck.control.gate_formats import renderer
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.gating.formats import renderer
+from lyapcheck.gating.gate import DECIDING, GateResult, gate, gate_exit
 from lyapcheck.verdicts import Exit
 
 TYPE_CHECKING = False

@@ -80,8 +80,8 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
 
 def _gate(subject: Subject) -> list[Data]:
-    from lyapcheck.control.gate import gate
-    from lyapcheck.control.gate_formats.json import result_json
+    from lyapcheck.gating.formats.json import result_json
+    from lyapcheck.gating.gate import gate
 
     results = [result for file in subject.gain_files for result in gate(file, subject.robot)]
     kept = [item for item in results if item.m is None or item.m in subject.ms]

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 from lyapcheck.control.bound import gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
-from lyapcheck.control.gate import gate
 from lyapcheck.control.limits import Limits
 from lyapcheck.files import round_down
+from lyapcheck.gating.gate import gate
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.tune.arm import arm_limits
 from lyapcheck.tune.compare import compare

@@ -10,8 +10,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
-from lyapcheck.control.gate import CERTIFICATES, GateResult
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.gating.gate import CERTIFICATES, GateResult
 from lyapcheck.records import Record
 
 THEOREM = "theorem"

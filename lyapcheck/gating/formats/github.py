@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from lyapcheck.control.gate_formats.words import KEYS, advice
-from lyapcheck.control.stability import remarks
+from lyapcheck.gating.formats.words import KEYS, advice
+from lyapcheck.gating.stability import remarks
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 
 def render(results: Sequence[GateResult]) -> str:

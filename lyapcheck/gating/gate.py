@@ -87,13 +87,13 @@ class GateResults(list[GateResult]):
 
     def __str__(self) -> str:
         """As ``lyapcheck gate`` prints them."""
-        from lyapcheck.control.gate_formats import renderer
+        from lyapcheck.gating.formats import renderer
 
         return renderer("text")(self)
 
     def _repr_html_(self) -> str:
         """The tables, for a notebook."""
-        from lyapcheck.control.gate_formats import renderer
+        from lyapcheck.gating.formats import renderer
 
         return renderer("html")(self)
 
@@ -120,7 +120,7 @@ def gate(
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
 
     Soundness: (10), (10p) and (19) exact, see ``lyapcheck.control.conditions``; a certificate is accepted
-        only with an ε₀ that has been proved, see ``lyapcheck.control.certificates``, and never rejected.
+        only with an ε₀ that has been proved, see ``lyapcheck.gating.certificates``, and never rejected.
 
     References: (10), (19) and Section 4 of reyes2019family.
 
@@ -161,7 +161,7 @@ def _certificates(
     wanted = [name for name in CERTIFICATES if name in deciding]
     if not wanted:
         return [()] * len(gain_file.gains), ()
-    from lyapcheck.control.certificates import Prover
+    from lyapcheck.gating.certificates import Prover
 
     prover = Prover(limits.robot, gain_file.bounds.viscous_min)
     checks = [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]

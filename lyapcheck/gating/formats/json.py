@@ -9,9 +9,9 @@ from __future__ import annotations
 from functools import lru_cache
 from json import JSONEncoder, loads
 
-from lyapcheck.control.gate_formats.words import KEYS, advice, joint_name, largest_text, margin_text
-from lyapcheck.control.stability import remarks, stability
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.gating.formats.words import KEYS, advice, joint_name, largest_text, margin_text
+from lyapcheck.gating.stability import remarks, stability
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from lyapcheck.control.bracket import Bracket
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 SCHEMA = "lyapcheck/gate/1"
 DIGITS = 20

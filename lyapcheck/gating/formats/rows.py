@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck.control.gate_formats.words import (
+from lyapcheck.gating.formats.words import (
     RULES,
     SYMBOLS,
     about,
@@ -13,14 +13,14 @@ from lyapcheck.control.gate_formats.words import (
     margin_text,
     value_text,
 )
-from lyapcheck.control.stability import remarks
+from lyapcheck.gating.stability import remarks
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
 

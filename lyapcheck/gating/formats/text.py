@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from lyapcheck.control.gate_formats.rows import HEADS, legend, row, sentences, summary, title
 from lyapcheck.files.printable import printable
+from lyapcheck.gating.formats.rows import HEADS, legend, row, sentences, summary, title
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 
 def render(results: Sequence[GateResult]) -> str:

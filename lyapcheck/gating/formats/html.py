@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lyapcheck.control.gate import GateResult
-from lyapcheck.control.gate_formats.rows import HEADS, legend, row, sentences, summary, title
+from lyapcheck.gating.formats.rows import HEADS, legend, row, sentences, summary, title
+from lyapcheck.gating.gate import GateResult
 from lyapcheck.notebook import html_paragraph, html_table
 
 

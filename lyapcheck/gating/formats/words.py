@@ -9,7 +9,7 @@ from lyapcheck.files.decimals import decimal_text, scaled_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 

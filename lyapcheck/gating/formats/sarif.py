@@ -7,7 +7,7 @@ import json
 from importlib.metadata import version
 from urllib.parse import quote
 
-from lyapcheck.control.gate_formats.words import KEYS, RULES, advice, joint_name
+from lyapcheck.gating.formats.words import KEYS, RULES, advice, joint_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 
 def render(results: Sequence[GateResult]) -> str:

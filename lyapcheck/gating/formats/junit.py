@@ -5,16 +5,16 @@ from __future__ import annotations
 from re import compile as pattern
 from xml.etree import ElementTree as ET
 
-from lyapcheck.control.gate_formats.words import advice, joint_name
-from lyapcheck.control.stability import remarks
 from lyapcheck.files.printable import printable
+from lyapcheck.gating.formats.words import advice, joint_name
+from lyapcheck.gating.stability import remarks
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gate import GateResult
+    from lyapcheck.gating.gate import GateResult
 
 _NOT_XML = pattern(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that no XML 1.0 document may hold, not even as a reference."""
