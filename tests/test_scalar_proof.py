@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from script_cases import rewriter, verdicts
 
 from lyapcheck.check.certificates.document import judge, parse, read
 from lyapcheck.claims import expr, run_proof
@@ -30,22 +31,10 @@ def result():
     return run_proof("scalar.py")
 
 
-def verdicts(path, only=(), ms=(2,), **options):
-    rows = run_proof(path, ms=ms, only=only, **options).claims
-    return {row.id: row.verdict.value for row in rows}
-
-
 @pytest.fixture
 def altered(tmp_path):
     """The script with something replaced."""
-
-    def write(right, wrong):
-        assert right in SOURCE
-        path = tmp_path / "altered.py"
-        path.write_text(SOURCE.replace(right, wrong), encoding="utf-8")
-        return path
-
-    return write
+    return rewriter("scalar.py", tmp_path)
 
 
 def test_every_step_is_proved_for_the_gains_of_the_paper(result):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from script_cases import rewriter, verdicts
 
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.run import paper_case
@@ -26,22 +27,10 @@ def result():
     return run_proof("tracking.py")
 
 
-def verdicts(path, only=(), ms=(2,), **options):
-    rows = run_proof(path, ms=ms, only=only, **options).claims
-    return {row.id: row.verdict.value for row in rows}
-
-
 @pytest.fixture
 def altered(tmp_path):
     """The script with something replaced."""
-
-    def write(right, wrong):
-        assert right in SOURCE
-        path = tmp_path / "altered.py"
-        path.write_text(SOURCE.replace(right, wrong), encoding="utf-8")
-        return path
-
-    return write
+    return rewriter("tracking.py", tmp_path)
 
 
 def test_every_step_is_proved_for_the_gains_of_the_paper(result):
