@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.constants import gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.constants import gamma_less_than, hyperbolic_constants
 from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import decide
 

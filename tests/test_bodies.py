@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lyapcheck.check.functions import Algebra, evaluate
+from lyapcheck.check.expressions.expression import Algebra, evaluate
 from lyapcheck.claims import Lacking, bodies, leading_minors, matrix, positive_definite, run_proof, var
 from lyapcheck.claims.procedures import decide
 from lyapcheck.robots import RobotModel, load

@@ -14,33 +14,22 @@ from hypothesis import strategies as st
 from independent_truth import contradicts
 from test_claims import PROVED, REFUTED
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.codec import from_json, to_json
-from lyapcheck.check.certificates.document import SCHEMA, About, Certificate, digest_of, judge, parse, read
-from lyapcheck.check.certificates.proofs import (
-    Application,
-    Boxes,
-    ChosenMajorants,
-    Corners,
-    EntryWitness,
-    EqualEntries,
-    EveryPart,
-    ExactNumbers,
-    FourierBounds,
-    Multiple,
-    NormalForm,
-    OnePart,
-    OutsideRounding,
-    Pieces,
-    Proof,
-    SeparateBalls,
-    SignIdentity,
-    Sturm,
-    Supremum,
-    Witness,
-)
-from lyapcheck.check.certificates.statements import Majorant, Relation, Statement
-from lyapcheck.check.functions import CONSTANTS, FAMILY, FUNCTIONS
+from lyapcheck.check.certificate import SCHEMA, About, Certificate, digest_of, judge, parse, read
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS
+from lyapcheck.check.kinds.agrees import Corners, OutsideRounding
+from lyapcheck.check.kinds.all_of import EveryPart, OnePart
+from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
+from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
+from lyapcheck.check.kinds.norm_chain import ChosenMajorants, Majorant
+from lyapcheck.check.kinds.signs import Multiple, SignIdentity
+from lyapcheck.check.kinds.theorem import Application
+from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     Constant,
     FamilyBounds,
@@ -538,13 +527,26 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         assert verify(statement, proof).verdict in ("proved", "refuted")
 
 
+class Unheard(Statement):
+    """A kind of statement that no rule decides."""
+
+    def require_well_formed(self):
+        pass
+
+    def terms(self):
+        return ()
+
+    def text(self):
+        return ""
+
+
 def test_a_statement_that_is_no_statement_is_refused():
     powers = norm_chain([(Majorant(("num", "1"), (("w", -1),)),)], majorant(1))
     assert "negative power" in refusal(powers, ChosenMajorants((0,), ExactNumbers()))
     assert "declared" in refusal(implies(positive("a"), (), a <= b), steps())
     assert "twice" in refusal(implies(positive("a", "a"), (), expr(0) <= a), steps())
     assert "at least one part" in refusal(all_of(), EveryPart(()))
-    assert "not a kind" in refusal(Statement(), NormalForm())
+    assert "is not a way to decide" in refusal(Unheard(), NormalForm())
     with pytest.raises(ValueError, match="<="):
         Relation(("num", "1"), "=", ("num", "1"))
 

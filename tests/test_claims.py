@@ -7,13 +7,13 @@ from flint import arb, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.certificates.every_n import BoundEveryN
-from lyapcheck.check.fourier import fourier_sum
-from lyapcheck.check.functions import ball, derivative, taylor
-from lyapcheck.check.inequality import positive_from, positive_near_zero
-from lyapcheck.check.normal_form import is_zero
-from lyapcheck.check.polynomials import count_roots, nonnegative_on, positive_on
-from lyapcheck.check.witness import refutation
+from lyapcheck.check.expressions.expression import ball, derivative, taylor
+from lyapcheck.check.expressions.inequality import positive_from, positive_near_zero
+from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.expressions.witness import refutation
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.numbers.fourier import fourier_sum
+from lyapcheck.check.numbers.polynomials import count_roots, nonnegative_on, positive_on
 from lyapcheck.claims import (
     AnyMatrix,
     Constant,
@@ -182,7 +182,7 @@ def test_a_derivative_that_is_off_by_a_factor_is_refuted(m, wrong):
 @given(st.integers(2, 9), st.integers(-6, 6))
 def test_bounds_just_beside_gamma_fall_on_their_sides(m, offset):
     """γ_m from the certified constants: a bound above is proved by Sturm, one below refuted by a point."""
-    from lyapcheck.check.constants import hyperbolic_constants
+    from lyapcheck.check.numbers.constants import hyperbolic_constants
 
     bound = hyperbolic_constants(m).gamma.mid + Fraction(2 * offset + 1, 500)
     expected = Verdict.PROVED if offset >= 0 else Verdict.REFUTED

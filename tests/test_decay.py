@@ -13,10 +13,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
-from lyapcheck.check.decay import Disturbance, Estimate, Margin, shown
-from lyapcheck.check.decay.least import Well
-from lyapcheck.check.members import member
+from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
+from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin, shown
+from lyapcheck.check.loop.decay.least import Well
+from lyapcheck.check.numbers.members import member
 from lyapcheck.cli.main import main
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
@@ -202,7 +202,7 @@ def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
 
 
 def test_the_least_value_of_a_well_is_below_all_samples() -> None:
-    from lyapcheck.check.balls import to_arb
+    from lyapcheck.check.numbers.balls import to_arb
 
     x = np.linspace(0.0, 6.0, 3001)
     for m, c, f, a in ((1, 1.0, 0.3, 0.4), (2, 2.0, 0.0, 0.5), (3, 1.5, 0.6, 0.05), (8, 3.0, 0.0, 1.0)):

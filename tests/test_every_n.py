@@ -8,11 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.codec import from_json, to_json
-from lyapcheck.check.certificates.every_n import EntriesWitness, EveryN
-from lyapcheck.check.certificates.proofs import NormalForm
-from lyapcheck.check.certificates.statements import Statement
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN
+from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Statement
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     any_matrix,
     any_vector,
@@ -33,7 +34,6 @@ from lyapcheck.claims import (
 from lyapcheck.claims.explain import explain
 from lyapcheck.claims.procedures import decide
 from lyapcheck.claims.script import find_script
-from lyapcheck.claims.statement_text import statement_text
 
 A, B, S = (any_matrix(name) for name in "ABS")
 x, y, z, d = (any_vector(name) for name in "xyzd")
@@ -292,14 +292,10 @@ def test_a_proof_by_words_of_something_false_is_refused():
 
 
 def test_it_is_written_out_for_readers():
-    assert statement_text(every_n(form(x, S, y), form(y, S, x), [S])) == (
-        "xᵀ·S·y = yᵀ·S·x for every n, with Sᵀ = S"
-    )
-    assert statement_text(TRUE["what is given, transposed"]) == (
-        "(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n, with A·x = 2·z"
-    )
+    assert every_n(form(x, S, y), form(y, S, x), [S]).text() == ("xᵀ·S·y = yᵀ·S·x for every n, with Sᵀ = S")
+    assert TRUE["what is given, transposed"].text() == ("(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n, with A·x = 2·z")
     moving = every_n(rate(s * dot(x, x + d)), expr(0), rates=[(x, -y), (d, zero_vector()), (s, t)])
-    assert statement_text(moving) == (
+    assert moving.text() == (
         "d/dt(s·xᵀ·(x + d)) = 0 for every n, with d/dt(x) = (−1)·y, d/dt(d) = 0, d/dt(s) = t"
     )
     assert "wᵀ·diag(kp)·h − wᵀ·diag(kp)·h = 0 for every n" in str(explain("15"))

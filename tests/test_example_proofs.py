@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from lyapcheck.check.certificates.document import judge
+from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import certificates
 from lyapcheck.claims.script import find_script

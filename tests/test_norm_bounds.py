@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.codec import from_json, to_json
-from lyapcheck.check.certificates.every_n import BoundEveryN, Cover, CoveredTerms
-from lyapcheck.check.certificates.rules.norm_bounds import terms_in_words
-from lyapcheck.check.certificates.statements import Statement
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN, Cover, CoveredTerms, terms_in_words
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Statement
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     FamilyBounds,
     any_matrix,

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.certificates.document import digest_of
-from lyapcheck.check.certificates.files import gather
-from lyapcheck.check.certificates.recheck import recheck
+from lyapcheck.check.certificate import digest_of
+from lyapcheck.check.files import gather
+from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import certificates
 

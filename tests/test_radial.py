@@ -12,13 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.admissible.certificates import statement
-from lyapcheck.check.balls import precision
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.proofs import RadialBounds
-from lyapcheck.check.stability import BrokenTree, Closure
-from lyapcheck.check.stability.closure import root_above
-from lyapcheck.check.stability.pull import pull_up
-from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, proves_radially
+from lyapcheck.check.kinds.decreasing import RadialBounds
+from lyapcheck.check.loop import BrokenTree, Closure
+from lyapcheck.check.loop.closure import root_above
+from lyapcheck.check.loop.pull import pull_up
+from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, proves_radially
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load

@@ -13,9 +13,9 @@ import flint
 import pytest
 
 import lyapcheck
-from lyapcheck.check.certificates.document import digest_of
-from lyapcheck.check.certificates.files import Unreadable, gather
-from lyapcheck.check.certificates.recheck import recheck
+from lyapcheck.check.certificate import digest_of
+from lyapcheck.check.files import Unreadable, gather
+from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import certificates, file_name
 

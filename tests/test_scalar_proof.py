@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from script_cases import rewriter, verdicts
 
-from lyapcheck.check.certificates.document import judge, parse, read
+from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.claims import expr, run_proof
 from lyapcheck.claims.certificates import certificates
 from lyapcheck.claims.run import paper_case

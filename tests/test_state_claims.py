@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.document import About, Certificate, judge, parse, read
-from lyapcheck.check.certificates.proofs import DampingAbove
+from lyapcheck.check.certificate import About, Certificate, judge, parse, read
+from lyapcheck.check.kinds.damping import DampingAbove
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.procedures import decide

@@ -11,12 +11,13 @@ import pytest
 from flint import arb
 
 from lyapcheck.admissible.certificates import statement
-from lyapcheck.check.balls import precision
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.proofs import BoxTree, StateWitness
-from lyapcheck.check.stability import proves
-from lyapcheck.check.stability.arithmetic import BALLS
-from lyapcheck.check.stability.schur import Evaluator
+from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness
+from lyapcheck.check.loop import proves
+from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load

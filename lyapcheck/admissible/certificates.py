@@ -6,14 +6,14 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from lyapcheck.check.certificates.document import About, Certificate
-from lyapcheck.check.certificates.proofs import Proof, StateWitness
-from lyapcheck.check.certificates.statements import Decreasing
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.statement import Proof
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.admissible import EpsilonResult
-    from lyapcheck.check.stability import Closure
+    from lyapcheck.check.loop import Closure
 
 PROOF = "epsilon"
 

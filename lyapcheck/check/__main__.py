@@ -8,9 +8,9 @@ from __future__ import annotations
 import argparse
 import sys
 
-from lyapcheck.check.certificates.files import Unreadable, gather
-from lyapcheck.check.certificates.recheck import recheck
-from lyapcheck.check.certificates.render import as_json, text
+from lyapcheck.check.files import Unreadable, gather
+from lyapcheck.check.recheck import recheck
+from lyapcheck.check.render import as_json, text
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -3,10 +3,10 @@
 A proof script needs nothing but the names below.
 """
 
-from lyapcheck.check.certificates.every_n import EveryN
-from lyapcheck.check.certificates.rules.loop_rate import loop_closed, rate_bound
-from lyapcheck.check.certificates.statements import Relation
-from lyapcheck.check.certificates.theorems import ClosedLoop
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.statement import Relation
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.check.theorems.rate import loop_closed, rate_bound
 from lyapcheck.claims.arms import (
     coriolis_matrix,
     determinant,

@@ -18,7 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.certificates.statements import AllOf, Constant, Statement
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.arms import leading_minors, mass_matrix
 from lyapcheck.claims.expressions import Expr, cos, expr, sin, total, var
 from lyapcheck.claims.products import Matrix, Vector, apply, dot, form, transpose, vector

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, TypeVar
 
 from flint import ctx
 
-from lyapcheck.check.certificates.rules.trigonometric import largest, lowest
-from lyapcheck.check.certificates.statements import Relation
-from lyapcheck.check.certificates.theorems import ClosedLoop
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.functions import ball
+from lyapcheck.check.expressions.expression import ball
+from lyapcheck.check.kinds.trigonometric import largest, lowest
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.statement import Relation
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.claims.arms import coriolis_matrix, mass_matrix
 from lyapcheck.claims.expressions import Expr, expr, sqrt
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from importlib.metadata import version
 from urllib.parse import quote
 
-from lyapcheck.check.certificates.document import About, Certificate
+from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.claims.result import ClaimResult, ProofResult
+from lyapcheck.claims.statements import Missing
 from lyapcheck.verdicts import Verdict
 
 Key = tuple[str, int | None]
@@ -34,7 +35,12 @@ def file_name(claim: str, m: int | None) -> str:
 def _certify(key: Key, rows: dict[Key, ClaimResult], found: dict[Key, Certificate], proof: str) -> None:
     """Make the certificate of a row, after those of what it uses."""
     row = rows[key]
-    if key in found or row.step.certificate is None or row.decision.certificate is None:
+    if (
+        key in found
+        or isinstance(row.stated, Missing)
+        or row.step.certificate is None
+        or row.decision.certificate is None
+    ):
         return
     uses: dict[str, str] = {}
     if row.verdict is Verdict.PROVED:

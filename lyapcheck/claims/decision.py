@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from lyapcheck.check.certificates.proofs import Proof
+from lyapcheck.check.statement import Proof
 from lyapcheck.verdicts import Grade, Verdict
 
 

@@ -10,7 +10,6 @@ from lyapcheck.claims.claim import Claim, Proof
 from lyapcheck.claims.procedures import PROCEDURES
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script, load_proof
-from lyapcheck.claims.statement_text import statement_text
 from lyapcheck.claims.statements import AllOf, Statement, Theorem
 
 SHOWN_MEMBER = 2
@@ -166,7 +165,7 @@ def _parts(name: str, statement: Statement) -> list[Part]:
             for inner, part in statement.parts
             for found in _parts(f"{name}, {inner}" if name else inner, part)
         ]
-    return [Part(name, type(statement).__name__, statement_text(statement))]
+    return [Part(name, type(statement).__name__, statement.text())]
 
 
 def _procedures(statement: Statement) -> list[str]:

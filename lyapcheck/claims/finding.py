@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from lyapcheck.check.certificates.proofs import EveryPart, OnePart, Proof
+from lyapcheck.check.kinds.all_of import EveryPart, OnePart
+from lyapcheck.check.statement import Proof
 from lyapcheck.verdicts import Verdict
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lyapcheck.check.certificates.every_n import EveryN, Given
-from lyapcheck.check.functions import Tree
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.every_n import EveryN, Given
 from lyapcheck.claims.expressions import Expr, expr
 
 

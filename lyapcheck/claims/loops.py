@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.claims.bounds import FamilyBounds
 from lyapcheck.claims.expressions import Expr, diff, expr, total, var
 from lyapcheck.claims.letters import (

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from lyapcheck.check.certificates.statements import Statement
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import Decision
+from lyapcheck.claims.statements import Missing
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 SCHEMA = "lyapcheck/check/1"
@@ -31,7 +32,7 @@ class ClaimResult:
     broken: tuple[str, ...]
     decision: Decision
     step: Decision
-    stated: Statement
+    stated: Statement | Missing
     seconds: float
 
     @property

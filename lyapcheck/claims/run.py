@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.certificates.document import theorems_of
-from lyapcheck.check.certificates.rules.premises import unmet
+from lyapcheck.check.certificate import theorems_of
+from lyapcheck.check.theorems.premises import unmet
 from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.decision import Decision, undecided
@@ -124,16 +124,16 @@ def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResul
 
 
 def _chained(
-    decision: Decision, statement: Statement, used: list[ClaimResult], open_uses: tuple[str, ...]
+    decision: Decision, statement: Statement | Missing, used: list[ClaimResult], open_uses: tuple[str, ...]
 ) -> Decision:
     """The decision with the weakest link of what it uses; a witness needs none of it."""
     if decision.verdict is not Verdict.PROVED:
         return decision
-    if open_uses:
+    if open_uses or isinstance(statement, Missing):
         names = ", ".join(open_uses)
         reason = f"its own step holds, but it rests on {names}; prove those, or prove it without them"
         return replace(undecided(reason, decision.method), evidence=decision.evidence)
-    stated = {result.id: result.stated for result in used}
+    stated = {r.id: r.stated for r in used if not isinstance(r.stated, Missing)}
     for theorem in theorems_of(statement):
         lacks = unmet(theorem, stated)
         if lacks is not None:
@@ -141,7 +141,7 @@ def _chained(
     return replace(decision, grade=min([decision.grade, *(result.decision.grade for result in used)]))
 
 
-def _statement(claim: Claim, case: Case, file: str) -> Statement:
+def _statement(claim: Claim, case: Case, file: str) -> Statement | Missing:
     try:
         statement = claim.statement(case)
     except Lacking as lack:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
+from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.claims.case import lacking
 from lyapcheck.claims.expressions import expr
 

@@ -1,4 +1,4 @@
-"""How a proof script writes its statements; what they are made of is in ``check.certificates.statements``."""
+"""How a proof script writes its statements; what they are made of is in ``check.kinds``."""
 
 from __future__ import annotations
 
@@ -6,24 +6,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.certificates.statements import (
-    Agrees,
-    AllOf,
-    Constant,
-    ForAll,
-    ForSmall,
-    Identity,
-    Implies,
-    Majorant,
-    NormBound,
-    NormChain,
-    Relation,
-    Statement,
-    TrigonometricBound,
-    TrigonometricPositive,
-    Variable,
-)
-from lyapcheck.check.certificates.theorems import ClosedLoop, Theorem
+from lyapcheck.check.kinds.agrees import Agrees
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.norm_chain import Majorant, NormChain
+from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.statement import Relation, Statement, Variable
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.claims.expressions import Expr, expr
 
 __all__ = [
@@ -62,7 +57,7 @@ __all__ = [
 
 
 @dataclass(frozen=True)
-class Missing(Statement):
+class Missing:
     """A statement that this case cannot give: a gain set or a robot is lacking."""
 
     reason: str

@@ -27,9 +27,9 @@ def command(
     In a directory everything that a certificate uses must be there too. Exit code 0: all accepted, 1: some
     refused, 2: a file cannot be read.
     """
-    from lyapcheck.check.certificates.files import Unreadable, gather
-    from lyapcheck.check.certificates.recheck import recheck
-    from lyapcheck.check.certificates.render import as_json, text
+    from lyapcheck.check.files import Unreadable, gather
+    from lyapcheck.check.recheck import recheck
+    from lyapcheck.check.render import as_json, text
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.verdicts import Exit
 

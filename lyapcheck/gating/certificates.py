@@ -13,7 +13,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
-from lyapcheck.check.stability import proves
+from lyapcheck.check.loop import proves
 from lyapcheck.constants import robot_bounds
 from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
 from lyapcheck.control.gains import GainSet
@@ -51,7 +51,7 @@ class Prover:
         """The check of one certificate: its value is the ε₀ proved.
 
         Soundness: the scalar form is decided in rational arithmetic, with constants that are bounds from
-            outside; global ones have been accepted by ``lyapcheck.check.stability``.
+            outside; global ones have been accepted by ``lyapcheck.check.loop``.
         """
         if not self.robot:
             return Check(name, None, UNDECIDED, None, None, None, _NO_ARM)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from time import monotonic
 
-from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
-from lyapcheck.check.stability import Closure, proves
+from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
+from lyapcheck.check.loop import Closure, proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, Progress
 from lyapcheck.search.schur import Problem
@@ -73,7 +73,7 @@ def certified_epsilon(
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
 
-    Soundness: every proof has been accepted by ``lyapcheck.check.stability``, in balls.
+    Soundness: every proof has been accepted by ``lyapcheck.check.loop``, in balls.
     """
     if not setting.family.bounded:
         return Certified(None, 0, _UNBOUNDED)

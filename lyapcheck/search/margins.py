@@ -10,10 +10,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
-from lyapcheck.check.decay import Margin, shown
-from lyapcheck.check.stability import Closure
-from lyapcheck.check.stability.radial import Radial
+from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
+from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop.decay import Margin, shown
+from lyapcheck.check.loop.radial import Radial
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.radial import holds_radially, radial_data

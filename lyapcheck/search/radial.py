@@ -9,13 +9,13 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.certificates.proofs import RadialBounds
-from lyapcheck.check.harmonics import Harmonic, Harmonics
-from lyapcheck.check.stability import Closure
-from lyapcheck.check.stability.boxes import Box
-from lyapcheck.check.stability.closure import PI_ABOVE
-from lyapcheck.check.stability.radial import BITS, Inequality, Parts, Radial, Table, proves_radially
+from lyapcheck.check.kinds.decreasing import RadialBounds
+from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.closure import PI_ABOVE
+from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, Table, proves_radially
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.functions import cosine, sine
@@ -46,7 +46,7 @@ def radial_epsilon(setting: Setting) -> Proof | None:
     Args:
         setting: gains and arm; over ranges there is no such proof yet.
 
-    Soundness: ``lyapcheck.check.stability.radial`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.loop.radial`` has accepted what is handed back.
     """
     if not setting.family.bounded or setting.ranges:
         return None

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.stability import Closure
-from lyapcheck.check.states import Arm, Controller, Functions
+from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop.states import Arm, Controller, Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
 from lyapcheck.robots import RobotModel
@@ -22,7 +22,7 @@ from lyapcheck.robots.trig import fraction
 if TYPE_CHECKING:
     from flint import fmpq_mpoly
 
-    from lyapcheck.check.states import Term
+    from lyapcheck.check.loop.states import Term
     from lyapcheck.control import GainSet
 
 Array = NDArray[np.float64]

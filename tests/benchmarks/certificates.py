@@ -11,8 +11,8 @@ from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
 from lyapcheck.admissible.certificates import statement
-from lyapcheck.check.certificates import verify
-from lyapcheck.check.stability import proves
+from lyapcheck.check.loop import proves
+from lyapcheck.check.verify import verify
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.falsify import falsify
 from lyapcheck.search.radial import radial_epsilon

@@ -8,8 +8,8 @@ from functools import cached_property
 
 from flint import fmpq
 
-from lyapcheck.check.functions import Algebra, Tree, Unsupported, derivative, evaluate, variables
-from lyapcheck.check.polynomials import rational
+from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, derivative, evaluate, variables
+from lyapcheck.check.numbers.polynomials import rational
 
 ZERO: Tree = ("num", "0")
 Vector = list[Tree]

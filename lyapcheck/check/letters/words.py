@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby, product
 
-from lyapcheck.check.functions import Tree, Unsupported
+from lyapcheck.check.expressions.expression import Tree, Unsupported
 from lyapcheck.check.letters.rates import rate
 
 Letter = tuple[str, str]

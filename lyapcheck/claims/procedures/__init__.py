@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN
-from lyapcheck.check.certificates.proofs import Application
-from lyapcheck.check.certificates.rules.theorem import THEOREMS
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.theorem import THEOREMS, Application
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
@@ -28,14 +29,14 @@ from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
 from lyapcheck.verdicts import Grade
 
 
-def decide(statement: kinds.Statement) -> Decision:
+def decide(statement: kinds.Statement | kinds.Missing) -> Decision:
     """The decision on a statement: the search of its kind proposes, the checker disposes.
 
-    Soundness: ``proved`` and ``refuted`` are the verdicts of ``check.certificates.verify``, the same that
+    Soundness: ``proved`` and ``refuted`` are the verdicts of ``check.verify``, the same that
     judges certificates read from files; no search is trusted.
     """
     finding = find(statement)
-    if finding.proof is None:
+    if finding.proof is None or isinstance(statement, kinds.Missing):
         return undecided(finding.reason, finding.method, **finding.evidence)
     try:
         accepted = verify(statement, finding.proof)
@@ -53,8 +54,10 @@ def decide(statement: kinds.Statement) -> Decision:
     return refuted(grade, method, finding.witness, finding.reason, finding.proof, **evidence)
 
 
-def find(statement: kinds.Statement) -> Finding:
+def find(statement: kinds.Statement | kinds.Missing) -> Finding:
     """What the search for the kind of a statement finds; not yet judged."""
+    if isinstance(statement, kinds.Missing):
+        return still_open(statement.reason, "not applicable")
     for kind, procedure in PROCEDURES.items():
         if isinstance(statement, kind):
             return procedure(statement)
@@ -74,10 +77,6 @@ def _apply_theorem(statement: kinds.Theorem) -> Finding:
     return shown(Application(), f"theorem: {statement.name}", hypotheses=hypotheses)
 
 
-def _missing(statement: kinds.Missing) -> Finding:
-    return still_open(statement.reason, "not applicable")
-
-
 PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Identity: find_identity,
     EveryN: find_every_n,
@@ -95,5 +94,4 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     state_kinds.DampingBelow: find_damping_below,
     kinds.Theorem: _apply_theorem,
     kinds.AllOf: _find_all,
-    kinds.Missing: _missing,
 }

@@ -10,9 +10,13 @@ from __future__ import annotations
 
 from itertools import product as combinations
 
-from lyapcheck.check.certificates.proofs import ChosenMajorants
-from lyapcheck.check.certificates.rules.chain import constant_relation, product, same_symbols
-from lyapcheck.check.certificates.statements import NormChain
+from lyapcheck.check.kinds.norm_chain import (
+    ChosenMajorants,
+    NormChain,
+    constant_relation,
+    product,
+    same_symbols,
+)
 from lyapcheck.claims.finding import Finding, shown, still_open
 from lyapcheck.claims.procedures.constants import find_relation
 

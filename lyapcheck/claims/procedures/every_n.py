@@ -10,15 +10,13 @@ from fractions import Fraction
 
 from flint import fmpq_mat
 
-from lyapcheck.check.certificates.every_n import EntriesWitness, EveryN
-from lyapcheck.check.certificates.proofs import NormalForm
-from lyapcheck.check.certificates.refusal import Refused
-from lyapcheck.check.certificates.rules.every_n import at_size, in_words, names_at, rates_fit
-from lyapcheck.check.certificates.well_formed import require_well_formed
-from lyapcheck.check.functions import Unsupported
+from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, at_size, in_words, names_at, rates_fit
+from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import Entries, exact
-from lyapcheck.check.normal_form import is_zero
-from lyapcheck.check.polynomials import rational
+from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, point_of
 
@@ -30,7 +28,7 @@ TRIES = 3
 def find_every_n(statement: EveryN) -> Finding:
     """Try the normal forms in words, then entries for n = 1, 2, 3."""
     try:
-        require_well_formed(statement)
+        statement.require_well_formed()
         if not rates_fit(statement):
             return still_open("a symmetric matrix has a derivative that is not; correct it", METHOD)
         if is_zero(in_words(statement)):

@@ -10,18 +10,19 @@ from collections.abc import Iterator
 
 from flint import fmpq
 
-from lyapcheck.check.certificates.every_n import BoundEveryN, Cover, CoveredTerms
-from lyapcheck.check.certificates.refusal import Refused
-from lyapcheck.check.certificates.rules.norm_bounds import (
+from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.kinds.bound_every_n import (
+    BoundEveryN,
+    Cover,
+    CoveredTerms,
     Term,
     bound_of,
     terms_in_words,
     terms_of,
     written_letters,
 )
-from lyapcheck.check.certificates.well_formed import require_well_formed
-from lyapcheck.check.functions import Tree, Unsupported
 from lyapcheck.check.letters.words import Words
+from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.finding import Finding, shown, still_open
 
 METHOD = "norms for every n"
@@ -31,7 +32,7 @@ Spare = dict[tuple[tuple[str, int], ...], fmpq]
 def find_bound_every_n(statement: BoundEveryN) -> Finding:
     """Choose covers term by term, going back where the bound has no room left."""
     try:
-        require_well_formed(statement)
+        statement.require_well_formed()
         found, words = terms_in_words(statement)
         spare = {_key(powers): c for c, powers in terms_of(statement.right)}
     except (Refused, Unsupported) as problem:

@@ -12,17 +12,25 @@ from fractions import Fraction
 
 from flint import ctx
 
-from lyapcheck.check.certificates.proofs import Boxes, Piece, Pieces, Sturm
-from lyapcheck.check.certificates.rules.interval import (
+from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.inequality import (
+    positive_from,
+    positive_near_zero,
+    positive_on_box,
+    sign_everywhere,
+)
+from lyapcheck.check.kinds.for_all import (
     ZERO_BOX,
+    Boxes,
     Domain,
+    ForAll,
+    Piece,
+    Pieces,
+    Sturm,
     pieces,
     zero_is_left_out,
     zero_must_be_positive,
 )
-from lyapcheck.check.certificates.statements import ForAll
-from lyapcheck.check.functions import Tree, Unsupported
-from lyapcheck.check.inequality import positive_from, positive_near_zero, positive_on_box, sign_everywhere
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
 

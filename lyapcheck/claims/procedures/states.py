@@ -12,17 +12,16 @@ from typing import TYPE_CHECKING, Any
 
 from flint import ctx
 
-from lyapcheck.check.certificates.proofs import BoxTree, DampingAbove, StateWitness
-from lyapcheck.check.certificates.rules.decreasing import closure_of
-from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.functions import ball
-from lyapcheck.check.scalar import certifies
+from lyapcheck.check.expressions.expression import ball
+from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
+from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, StateWitness, closure_of
+from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
 
 if TYPE_CHECKING:
-    from lyapcheck.check.states import State
+    from lyapcheck.check.loop.states import State
     from lyapcheck.search.setting import Setting
 
 METHOD = "every state"
@@ -87,7 +86,7 @@ def _small_enough(statement: Decreasing) -> Fraction | None:
 
 def _against(statement: Decreasing) -> Finding | None:
     """The states that refute the smallest ε₀ are tried at this one."""
-    from lyapcheck.check.states import confirms_positive
+    from lyapcheck.check.loop.states import confirms_positive
     from lyapcheck.search.falsify import falsify
 
     setting = setting_of(statement)
@@ -103,7 +102,7 @@ def _against(statement: Decreasing) -> Finding | None:
 
 
 def _witness(setting: Setting, eps0: Fraction, state: State) -> dict[str, Any]:
-    from lyapcheck.check.states import rate
+    from lyapcheck.check.loop.states import rate
 
     names = {f"{name}{i + 1}": x for name in "qew" for i, x in enumerate(getattr(state, name))}
     found = Enclosure.from_arb(rate(setting.arm, setting.controller, eps0, state, 256))

@@ -6,7 +6,7 @@ import csv
 import io
 from collections.abc import Iterator
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.table import Table, slope_at_zero
 
 

@@ -1,0 +1,188 @@
+"""Upper bounds for every n: each term in words is at most a product of norms.
+
+|xᵀ A … y| <= ‖x‖ ‖A‖ … ‖y‖ with Euclidean and spectral norms, by the Cauchy–Schwarz inequality; the spectral
+norm of Aᵀ is that of A.
+
+References: ``reyes2019family`` (15), (16).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+from flint import fmpq
+
+from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.expressions.grammar import require_expressions
+from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.every_n import EveryN, Given, known_text, rates_fit, words_of
+from lyapcheck.check.kinds.parts import require_distinct
+from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
+from lyapcheck.check.letters.words import Words
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import Accepted, rule
+
+
+@dataclass(frozen=True)
+class BoundEveryN(Statement):
+    """``left <= right`` for every n, from bounds of norms; ``left`` is as in :class:`EveryN`.
+
+    ``norms`` says of some letters together that the product of their norms is at most an expression, the norm
+    of a number being its size. ``least`` says that a number is at least an expression. The variables of these
+    expressions and of ``right``, and the numbers among the letters of ``left``, are >= 0.
+    """
+
+    left: Tree
+    right: Tree
+    symmetric: tuple[str, ...]
+    rates: tuple[tuple[Tree, Tree], ...]
+    given: tuple[Given, ...]
+    norms: tuple[tuple[tuple[Tree, ...], Tree], ...]
+    least: tuple[tuple[Tree, Tree], ...]
+
+    @property
+    def terms(self) -> EveryN:
+        """``left = 0`` with the same letters."""
+        return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        self.terms.require_well_formed()
+        used = letters(self.left)
+        for known, size in self.norms:
+            for letter in known:
+                sort = next((sort for sort, kind in LETTERS.items() if letter[:1] == (kind,)), "matrix")
+                require_sort(letter, sort)
+                require(
+                    letters(letter) == {letter} or letter[0] == "diag", "norms", letter, "is not a letter"
+                )
+                used |= letters(letter)
+            require_expressions([size])
+        for number, size in self.least:
+            require_sort(number, "number")
+            require_expressions([size])
+            used |= letters(number)
+        sizes = (self.right, *(size for _, size in (*self.norms, *self.least)))
+        require_expressions(sizes)
+        used |= {("var", name) for size in sizes for name in variables(size)}
+        require_distinct("letters", sorted(name for _, name in used))
+
+    def text(self) -> str:
+        """The statement in one line."""
+        sides = f"{expression_text(self.left)} ≤ {expression_text(self.right)}"
+        norms = [
+            f"{''.join(f'‖{expression_text(letter)}‖' for letter in known)} ≤ {expression_text(size)}"
+            for known, size in self.norms
+        ]
+        least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in self.least]
+        return f"{sides} for every n{known_text(self.terms)}, {', '.join(norms + least)}"
+
+
+@dataclass(frozen=True)
+class Cover:
+    """How one term is bounded: which ``norms`` cover its letters, or which ``least`` is its one word."""
+
+    norms: tuple[int, ...]
+    least: int | None = None
+
+
+@dataclass(frozen=True)
+class CoveredTerms(Proof):
+    """A cover of each term of ``left`` in words, the terms in the order of their exponents."""
+
+    rule = "covered terms"
+    covers: tuple[Cover, ...]
+
+
+Term = tuple[fmpq, dict[str, int]]
+"""A coefficient, and the power of each variable."""
+
+
+@rule(BoundEveryN, CoveredTerms)
+def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
+    """Soundness: ``left`` is the sum of its terms, each at most its bound; ``right`` exceeds them together.
+
+    All terms of the difference have coefficients >= 0 and variables >= 0.
+    """
+    require(rates_fit(statement.terms), "rates", "", "a symmetric matrix must have a symmetric derivative")
+    found, words = terms_in_words(statement)
+    require(len(proof.covers) == len(found), "covers", len(proof.covers), f"must be {len(found)}, one a term")
+    bounds = [bound_of(statement, words, *pair) for pair in zip(found, proof.covers, strict=True)]
+    spare = terms_of(("add", statement.right, *(("neg", bound) for bound in bounds)))
+    require(all(c >= 0 for c, _ in spare), "right", "", "is not shown to exceed the sum of the bounds")
+    return Accepted("proved", "exact")
+
+
+def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:
+    """The terms of the left side."""
+    words = words_of(statement.terms)
+    return terms_of(words.number(statement.left)), words
+
+
+def terms_of(tree: Tree) -> list[Term]:
+    """The terms of a polynomial in the order of their exponents.
+
+    Raises:
+        Refused: it is no polynomial.
+    """
+    ratio, algebra = normal_form(tree)
+    plain = not algebra.uses and ratio.bottom.is_constant()
+    require(plain, "expression", "", "is not a polynomial in its variables and words")
+    lead = ratio.bottom.leading_coefficient()
+    names = algebra.names
+    return [
+        (c / lead, {name: int(e) for name, e in zip(names, exponents, strict=False) if e})
+        for exponents, c in sorted(ratio.top.to_dict().items())
+    ]
+
+
+def bound_of(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
+    """What a term is at most, by a cover.
+
+    Raises:
+        Refused: the cover does not fit the term.
+    """
+    c, powers = term
+    if cover.least is not None:
+        return _by_least(statement, words, term, cover)
+    for index in cover.norms:
+        require(0 <= index < len(statement.norms), "cover", index, "does not exist")
+    covered = Counter(letter for index in cover.norms for letter in statement.norms[index][0])
+    left = (letters - covered for letters in written_letters(words, powers) if covered <= letters)
+    rest = next((some for some in left if all(letter[0] == "var" for letter in some)), None)
+    if rest is None:
+        raise Refused("cover", cover.norms, "does not cover the letters of its term")
+    sizes = (statement.norms[index][1] for index in cover.norms)
+    return ("mul", ("num", str(abs(c))), *sizes, *rest.elements())
+
+
+def written_letters(words: Words, powers: dict[str, int]) -> Iterator[Counter[Tree]]:
+    """The letters of a term, for each way in which its words came up."""
+    plain = Counter({("var", name): k for name, k in powers.items() if name not in words.seen})
+    written = [sorted(words.seen[name]) for name, k in powers.items() if name in words.seen for _ in range(k)]
+    for choice in product(*written):
+        yield plain + Counter(_letter(*letter) for word in choice for letter in word)
+
+
+def _letter(kind: str, name: str) -> Tree:
+    return ("mat" if kind == "transposed" else kind, name)
+
+
+def _by_least(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
+    """A negative multiple of a number that is at least something."""
+    c, powers = term
+    require(c < 0 and not cover.norms, "cover", cover.least, "is for terms with a minus")
+    index = cover.least
+    assert index is not None
+    require(0 <= index < len(statement.least), "cover", index, "does not exist")
+    number, least = statement.least[index]
+    [(factor, word)] = terms_of(words.number(number))
+    rest = Counter(powers) - Counter(word)
+    fits = factor == 1 and Counter(word) <= Counter(powers) and not set(rest) & set(words.seen)
+    require(fits, "cover", index, "is not the word of its term")
+    return ("mul", ("num", str(c)), least, *(("var", name) for name in rest.elements()))
