@@ -95,6 +95,7 @@ def every_n(
     symmetric: Iterable[AnyMatrix] = (),
     rates: Iterable[tuple[Letter, Letter]] = (),
     given: Iterable[tuple[AnyMatrix, AnyVector, AnyVector]] = (),
+    positive: Iterable[Expr] = (),
 ) -> EveryN:
     """``left = right`` for every n and all values of the letters.
 
@@ -104,6 +105,7 @@ def every_n(
         symmetric: the matrices with Aᵀ = A.
         rates: the letters that move, or stand still, each with its derivative by time.
         given: A, x and b with A x = b.
+        positive: the numbers that are > 0; the others are real.
     """
     return EveryN(
         left.tree,
@@ -111,4 +113,5 @@ def every_n(
         tuple(str(matrix.tree[1]) for matrix in symmetric),
         tuple((letter.tree, value.tree) for letter, value in rates),
         tuple(Given(a.tree[1], x.tree[1], b.tree) for a, x, b in given),
+        tuple(number.tree[1] for number in positive),
     )

@@ -63,9 +63,9 @@ class Missing:
     reason: str
 
 
-def identity(left: object, right: object) -> Identity:
-    """``left = right`` for all values of the variables."""
-    return Identity(expr(left).tree, expr(right).tree)
+def identity(left: object, right: object, variables: tuple[Variable, ...] = ()) -> Identity:
+    """``left = right`` for all values of the variables; those that ``variables`` does not name are real."""
+    return Identity(expr(left).tree, expr(right).tree, variables)
 
 
 def for_all(

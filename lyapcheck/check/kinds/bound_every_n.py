@@ -11,20 +11,23 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 
 from flint import fmpq
 
+from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.every_n import EveryN, Given, known_text, rates_fit, words_of
 from lyapcheck.check.kinds.parts import require_distinct
+from lyapcheck.check.kinds.signs import Signs
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 
@@ -46,13 +49,13 @@ class BoundEveryN(Statement):
     least: tuple[tuple[Tree, Tree], ...]
 
     @property
-    def terms(self) -> EveryN:
+    def identity(self) -> EveryN:
         """``left = 0`` with the same letters."""
         return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
 
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
-        self.terms.require_well_formed()
+        self.identity.require_well_formed()
         used = letters(self.left)
         for known, size in self.norms:
             for letter in known:
@@ -72,6 +75,25 @@ class BoundEveryN(Statement):
         used |= {("var", name) for size in sizes for name in variables(size)}
         require_distinct("letters", sorted(name for _, name in used))
 
+    def terms_with_values(self) -> Iterator[Tree]:
+        """All its expressions."""
+        yield from (tree for tree, _ in self.identity.terms())
+        yield self.right
+        for known, size in self.norms:
+            yield from (*known, size)
+        for number, size in self.least:
+            yield from (number, size)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """All its expressions, with numbers that are not negative."""
+        domain = dict.fromkeys(self.numbers, NONNEGATIVE)
+        return [(tree, domain) for tree in self.terms_with_values()]
+
+    @property
+    def numbers(self) -> set[str]:
+        """The numbers that occur, all of them >= 0."""
+        return {name for tree in self.terms_with_values() for name in variables(tree)}
+
     def text(self) -> str:
         """The statement in one line."""
         sides = f"{expression_text(self.left)} ≤ {expression_text(self.right)}"
@@ -80,7 +102,7 @@ class BoundEveryN(Statement):
             for known, size in self.norms
         ]
         least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in self.least]
-        return f"{sides} for every n{known_text(self.terms)}, {', '.join(norms + least)}"
+        return f"{sides} for every n{known_text(self.identity)}, {', '.join(norms + least)}"
 
 
 @dataclass(frozen=True)
@@ -99,6 +121,7 @@ class CoveredTerms(Proof):
     covers: tuple[Cover, ...]
 
 
+ZERO: Tree = ("num", "0")
 Term = tuple[fmpq, dict[str, int]]
 """A coefficient, and the power of each variable."""
 
@@ -107,20 +130,24 @@ Term = tuple[fmpq, dict[str, int]]
 def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
     """Soundness: ``left`` is the sum of its terms, each at most its bound; ``right`` exceeds them together.
 
-    All terms of the difference have coefficients >= 0 and variables >= 0.
+    All terms of the difference have coefficients >= 0, variables >= 0 and, with the lower bounds of numbers
+    such as γ_m put in, constants >= 0.
     """
-    require(rates_fit(statement.terms), "rates", "", "a symmetric matrix must have a symmetric derivative")
+    require(rates_fit(statement.identity), "rates", "", "a symmetric matrix must have a symmetric derivative")
     found, words = terms_in_words(statement)
     require(len(proof.covers) == len(found), "covers", len(proof.covers), f"must be {len(found)}, one a term")
     bounds = [bound_of(statement, words, *pair) for pair in zip(found, proof.covers, strict=True)]
-    spare = terms_of(("add", statement.right, *(("neg", bound) for bound in bounds)))
-    require(all(c >= 0 for c, _ in spare), "right", "", "is not shown to exceed the sum of the bounds")
+    spare = Relation(("add", ZERO, *bounds), "<=", statement.right)
+    numbers = tuple(Variable(name, Fraction(0), strict=False) for name in sorted(statement.numbers))
+    signs = Signs(numbers, (), spare)
+    shown = signs.is_nonnegative(signs.conclusion)
+    require(shown, "right", "", "is not shown to exceed the sum of the bounds")
     return Accepted("proved", "exact")
 
 
 def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:
     """The terms of the left side."""
-    words = words_of(statement.terms)
+    words = words_of(statement.identity)
     return terms_of(words.number(statement.left)), words
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
@@ -49,6 +50,10 @@ class DampingBelow(Statement):
         self.with_damping(Fraction(1), Fraction(1)).require_well_formed()
         require(all(k > 0 for k in self.kv), "kv", self.kv, "must be positive")
         require_expressions([self.bound], [])
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The bound."""
+        return [(self.bound, {})]
 
     def text(self) -> str:
         """The statement in one line."""

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.kinds.agrees import MAX_INPUTS
 from lyapcheck.check.loop import Closure, proves
@@ -57,6 +59,10 @@ class Decreasing(Statement):
         for low, high in (*self.viscous, *self.parameters):
             require(low <= high, "range", f"[{low}, {high}]", "is empty")
         require(len(self.parameters) <= MAX_INPUTS, "parameters", len(self.parameters), "are too many")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None: M, h and V have values everywhere."""
+        return []
 
     def text(self) -> str:
         """The statement in one line."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.defined import require_defined_at
+from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
@@ -31,8 +33,9 @@ class Given:
 class EveryN(Statement):
     """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
 
-    ``symmetric`` names the matrices with Aᵀ = A. The letters are functions of time with the derivatives
-    ``rates``, pairs (letter, derivative), and ``given`` holds; apart from that they are free.
+    ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The letters are
+    functions of time with the derivatives ``rates``, pairs (letter, derivative), and ``given`` holds; apart
+    from that they are free.
     """
 
     left: Tree
@@ -40,6 +43,7 @@ class EveryN(Statement):
     symmetric: tuple[str, ...] = ()
     rates: tuple[tuple[Tree, Tree], ...] = ()
     given: tuple[Given, ...] = ()
+    positive: tuple[str, ...] = ()
 
     def require_well_formed(self) -> None:
         """One name for one letter; what is given is solved for vectors that it does not contain itself."""
@@ -61,9 +65,22 @@ class EveryN(Statement):
         require_distinct("letters", sorted(name for _, name in used))
         require_distinct("rates", [letter[1] for letter, _ in self.rates])
         require_distinct("given", [f"{known.matrix} {known.vector}" for known in self.given])
+        require_distinct("positive", list(self.positive))
+        for name in self.positive:
+            require(("var", name) in used, "positive", name, "is not a number of the statement")
         require_distinct("symmetric", list(self.symmetric))
         for name in self.symmetric:
             require(("mat", name) in used, "symmetric", name, "is not a matrix of the self")
+
+    @property
+    def domain(self) -> dict[str, Interval]:
+        """The ranges of the numbers."""
+        return dict.fromkeys(self.positive, POSITIVE)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides, the derivatives and what is given."""
+        known = (*(value for _, value in self.rates), *(one.equals for one in self.given))
+        return [(tree, self.domain) for tree in (self.left, self.right, *known)]
 
     def text(self) -> str:
         """The statement in one line."""
@@ -87,7 +104,7 @@ Equation = tuple[Tree, Tree]
 
 
 @rule(EveryN, NormalForm)
-def bywords_of(statement: EveryN, proof: NormalForm) -> Accepted:
+def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
     """Soundness: see :meth:`Words.number`; a zero normal form in words is zero whatever the words are."""
     require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
     require(is_zero(in_words(statement)), "normal form", "", "that of the difference is not zero")
@@ -100,6 +117,10 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, given = at_size(statement, proof.n)
     point = coordinates(proof.point, names_at(sides, given))
+    for name in statement.positive:
+        require(point[name] > 0, name, point[name], "must be positive")
+    for tree in (side for pair in (sides, *given) for side in pair):
+        require_defined_at(tree, point)
     for left, right in given:
         require(exact(left, point) == exact(right, point), "point", proof.n, "breaks what is given")
     require(exact(sides[0], point) != exact(sides[1], point), "point", proof.n, "gives equal sides")
@@ -148,6 +169,7 @@ def words_of(statement: EveryN) -> Words:
 def known_text(statement: EveryN) -> str:
     """What is known of the letters."""
     known = [f"{name}ᵀ = {name}" for name in statement.symmetric]
+    known += [f"{name} > 0" for name in statement.positive]
     known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
     known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
     return f", with {', '.join(known)}" if known else ""

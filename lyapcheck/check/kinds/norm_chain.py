@@ -12,6 +12,7 @@ from collections import Counter
 from dataclasses import dataclass
 from itertools import chain
 
+from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
@@ -48,6 +49,10 @@ class NormChain(Statement):
             require_distinct("powers", [name for name, _ in majorant.powers])
             for name, power in majorant.powers:
                 require(power >= 0, f"power of {name}", power, "a majorant has no negative power")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The constants."""
+        return [(majorant.constant, {}) for majorant in (self.bound, *chain.from_iterable(self.factors))]
 
     def text(self) -> str:
         """The statement in one line."""

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.domain import POSITIVE, Domain
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.kinds.norm_bound import MAX_JOINTS
-from lyapcheck.check.kinds.parts import require_distinct, require_relations
+from lyapcheck.check.kinds.parts import require_distinct, require_relations, terms_of
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
@@ -38,6 +40,13 @@ class Theorem(Statement):
         require_expressions((loop.h, loop.slope, loop.potential), ["x"])
         require_expressions(loop.form, CONSTANTS)
         require_relations(loop.condition, list(CONSTANTS[1:]))
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """h, h' and U for every real x, and the form and the condition for all positive constants."""
+        loop = self.loop
+        own: list[tuple[Tree, Domain]] = [(tree, {}) for tree in (loop.h, loop.slope, loop.potential)]
+        domain = dict.fromkeys(CONSTANTS, POSITIVE)
+        return [*own, *((tree, domain) for tree in loop.form), *terms_of(loop.condition, domain)]
 
     def text(self) -> str:
         """The statement in one line."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from lyapcheck.check.expressions.defined import Undefined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
@@ -40,6 +41,8 @@ def decide(statement: kinds.Statement | kinds.Missing) -> Decision:
         return undecided(finding.reason, finding.method, **finding.evidence)
     try:
         accepted = verify(statement, finding.proof)
+    except Undefined as undefined:
+        return undecided(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
         return undecided(
             f"what the search found is refused by the checker ({refusal}); report this as a fault",
