@@ -8,24 +8,30 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from flint import fmpq
+from flint import ctx, fmpq
 
-from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
 from lyapcheck.check.kinds.bound_every_n import (
     BoundEveryN,
     Cover,
     CoveredTerms,
     Term,
+    at_size,
     bound_of,
+    drawn_entries,
     terms_in_words,
     terms_of,
     written_letters,
 )
+from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.finding import Finding, shown, still_open
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import BITS, point_of
 
 METHOD = "norms for every n"
+TRIES = 60
 Spare = dict[tuple[tuple[str, int], ...], fmpq]
 
 
@@ -39,8 +45,26 @@ def find_bound_every_n(statement: BoundEveryN) -> Finding:
         return still_open(f"{problem}; write both sides as polynomials in the letters", METHOD)
     covers = _chosen(statement, words, found, spare)
     if covers is None:
+        against = _against(statement)
+        if against is not None:
+            return against
         return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
     return shown(CoveredTerms(covers), f"{METHOD}: every term within its part of the bound")
+
+
+def _against(statement: BoundEveryN) -> Finding | None:
+    """Entries that meet all bounds of the norms and break the statement."""
+    for n, point, sign in drawn_entries(statement, TRIES):
+        if sign < 0:
+            left, right = at_size(statement, n)[0]
+            balls = {name: ball_of(x) for name, x in point.items()}
+            with ctx.workprec(BITS):
+                sides = (Enclosure.from_arb(ball(side, balls)).decimals(12) for side in (left, right))
+            data = dict(zip(("left", "right"), map(list, sides), strict=True)) | {"operator": "<="}
+            shown_at = {"n": str(n), **{name: str(x) for name, x in sorted(point.items())}}
+            proof = EntriesWitness(n, point_of(point))
+            return broken(proof, f"{METHOD}: entries that break the bound", {"point": shown_at, **data})
+    return None
 
 
 def _chosen(
