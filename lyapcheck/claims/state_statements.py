@@ -25,7 +25,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
     Raises:
         Lacking: the gains are for another number of joints, or h is unbounded.
     """
-    from lyapcheck.admissible.certificates import statement
+    from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.setting import Setting
 
     if len(gains.kp) != robot.n:
@@ -33,7 +33,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
     setting = Setting(gains, robot, ranges)
     if not setting.family.bounded:
         raise lacking("h is unbounded; give gains of a bounded family")
-    return statement(setting.closure(Fraction(expr(eps0).tree[1])))
+    return statement_of(setting.closure(Fraction(expr(eps0).tree[1])))
 
 
 def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:

@@ -87,7 +87,7 @@ def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: i
         eps0 = _short(margin.closure.eps0 * share)
         tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
         by = _data(setting, tried, max_boxes)
-        if by is not None and shown(tried, by, jobs):
+        if by is not None and shown(tried, setting.inertia_proof, by, jobs):
             return Shown(tried, by)
     return None
 
