@@ -31,6 +31,7 @@ from lyapcheck.check.numbers.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
 ODD = ("atan", "asin", "tan")
+AT_ZERO = {"sin": 0, "cos": 1, "tan": 0, "atan": 0, "asin": 0, "abs": 0}
 WITH_GENERATORS = frozenset((*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential"))
 
 
@@ -104,6 +105,10 @@ class RationalAlgebra(Algebra):
     def function(self, name: str, value: Ratio) -> Ratio:
         """A function of a quotient, in generators."""
         value = Ratio(self.reduced(value.top), self.reduced(value.bottom)).lowest()
+        if value.top == 0 and name in AT_ZERO:
+            return self.number(Fraction(AT_ZERO[name]))
+        if name == "log" and value.top == value.bottom:
+            return self.number(Fraction(0))
         if name == "exp":
             return self._exponential(value)
         if name in HYPERBOLIC:

@@ -60,6 +60,14 @@ class Decreasing(Statement):
         """None: M, h and V have values everywhere."""
         return []
 
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What ties the numbers to a robot."""
+        return (
+            "the robot is (1) with this M(q), C by Christoffel symbols, and B, whose ranges hold its numbers",
+            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+        )
+
     def text(self) -> str:
         """The statement in one line."""
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""

@@ -9,6 +9,7 @@ from lyapcheck.check.expressions.defined import Undefined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -22,6 +23,7 @@ from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
 from lyapcheck.claims.procedures.inertia import find_mass_above, find_upper
+from lyapcheck.claims.procedures.loop_property import find_loop_property
 from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
@@ -95,6 +97,7 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.NormChain: find_chain,
     kinds.TrigonometricBound: find_bounds,
     kinds.TrigonometricPositive: find_positive,
+    LoopProperty: find_loop_property,
     MassAbove: find_mass_above,
     MassBelow: find_upper,
     CoriolisBelow: find_upper,
