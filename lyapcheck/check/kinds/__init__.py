@@ -16,7 +16,6 @@ from lyapcheck.check.kinds import (
     identity,
     implies,
     norm_bound,
-    norm_chain,
     theorem,
     trigonometric,
 )
@@ -34,7 +33,6 @@ __all__ = [
     "identity",
     "implies",
     "norm_bound",
-    "norm_chain",
     "theorem",
     "trigonometric",
 ]
