@@ -675,7 +675,7 @@ def _(case):
     return all_of(
         at_rest=term_6(case),
         the_bounds_add_up=identity(total(bounds_16(c)), minus_form(theta(c))),
-        rate=loops.rate_at_most(s, minus_form(theta(of_case)), norms(case).values(), least),
+        rate_of_V=loops.rate_at_most(s, minus_form(theta(of_case)), norms(case).values(), least),
     )
 
 

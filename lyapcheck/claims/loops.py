@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
@@ -97,10 +97,9 @@ R, EPS0 = var("r"), var("eps0")
 
 def loop(n: int) -> Entries:
     """The letters for n joints; M is symmetric, C any matrix."""
-    own = {field: vector(name, n) for field, name in NAMES.items()}
-    unit = [x / R for x in own["e"]]
-    matrices = {"M": matrix("M", n, symmetric=True), "C": matrix("C", n)}
-    return Loop(**own, **matrices, u=unit, r=R, eps0=EPS0, s=1 / (1 + R), eps=EPS0 / (1 + R))
+    own: dict[str, Any] = {field: vector(name, n) for field, name in NAMES.items()}
+    own |= {"M": matrix("M", n, symmetric=True), "C": matrix("C", n), "u": [x / R for x in own["e"]]}
+    return Loop(**own, r=R, eps0=EPS0, s=1 / (1 + R), eps=EPS0 / (1 + R))
 
 
 def letters() -> Letters:
@@ -111,9 +110,9 @@ def letters() -> Letters:
 
 def short_letters() -> Letters:
     """The same with letters for e/r, 1/(1 + r) and ε, whose sizes are known."""
-    own = {field: any_vector(name) for field, name in NAMES.items()}
-    matrices = {"M": any_matrix("M"), "C": any_matrix("C")}
-    return Loop(**own, **matrices, u=any_vector("u"), r=R, eps0=EPS0, s=var("s"), eps=var("eps"))
+    own: dict[str, Any] = {field: any_vector(name) for field, name in NAMES.items()}
+    own |= {"M": any_matrix("M"), "C": any_matrix("C"), "u": any_vector("u")}
+    return Loop(**own, r=R, eps0=EPS0, s=var("s"), eps=var("eps"))
 
 
 def energy(s: Loop[V, A]) -> Expr:
