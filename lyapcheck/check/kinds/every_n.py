@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from random import Random
 
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
-from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.letters.entries import Entries, exact
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
+from lyapcheck.check.letters.points import Point as Drawn
+from lyapcheck.check.letters.points import compared, drawn, solved
 from lyapcheck.check.letters.words import Words
-from lyapcheck.check.refusal import require
+from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates
 from lyapcheck.check.statement import Point, Proof, Statement
 from lyapcheck.check.verify import Accepted, rule
@@ -98,6 +102,9 @@ class EntriesWitness(Proof):
 
 
 MAX_SIZE = 6
+DRAWN_SIZES = (1, 2, 3)
+TRIES = 12
+"""How often entries are drawn for each n: some make a matrix singular."""
 
 
 Equation = tuple[Tree, Tree]
@@ -108,6 +115,8 @@ def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
     """Soundness: see :meth:`Words.number`; a zero normal form in words is zero whatever the words are."""
     require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
     require(is_zero(in_words(statement)), "normal form", "", "that of the difference is not zero")
+    for sign in signs_at_entries(statement):
+        require(sign == 0, "entries", "", "that were drawn make both sides differ: the words are at fault")
     return Accepted("proved", "exact")
 
 
@@ -173,3 +182,35 @@ def known_text(statement: EveryN) -> str:
     known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
     known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
     return f", with {', '.join(known)}" if known else ""
+
+
+def signs_at_entries(statement: EveryN) -> Iterator[int]:
+    """The sign of right − left at random exact entries for some n, as ``letters.points`` finds them.
+
+    Raises:
+        Refused: no entries were found that meet what is supposed.
+    """
+    random = Random(repr(statement))
+    for n in DRAWN_SIZES:
+        (left, right), equations = at_size(statement, n)
+        names = names_at((left, right), equations)
+        for _ in range(TRIES):
+            try:
+                point = solved_at(statement, n, drawn(names, statement.positive, random))
+                given = all(compared(*pair, point) == 0 for pair in equations)
+                sign = compared(left, right, point) if given else None
+            except (ZeroDivisionError, Unsupported):
+                continue
+            if sign is not None:
+                yield sign
+                break
+        else:
+            raise Refused(
+                "n", n, "no entries were found at which both sides have values that can be compared"
+            )
+
+
+def solved_at(statement: EveryN, n: int, point: Drawn) -> Drawn:
+    """The point with the vectors that are given by a matrix put where that is met."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    return solved(entries, ((one.matrix, one.vector, one.equals) for one in statement.given), point)

@@ -8,29 +8,35 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from flint import arb
+from flint import arb, ctx
 
-from lyapcheck.check.expressions.defined import Undefined
-from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.kinds.bound_every_n import (
     BoundEveryN,
     Cover,
     CoveredTerms,
     Term,
+    at_size,
     bound_of,
+    drawn_entries,
     terms_in_words,
+    within,
     written_letters,
 )
+from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, shown, still_open
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import BITS, point_of
 
 METHOD = "norms for every n"
+TRIES = 60
 Sizes = dict[tuple[int, ...], arb]
 """A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""
-Option = tuple[Cover, Sizes]
+Option = tuple[Cover, Tree, Sizes]
+Choice = tuple[tuple[Cover, Tree], ...]
 
 
 def find_bound_every_n(statement: BoundEveryN) -> Finding:
@@ -43,37 +49,45 @@ def find_bound_every_n(statement: BoundEveryN) -> Finding:
         options = [list(_options(statement, words, term, names)) for term in found]
     except (Refused, Unsupported) as problem:
         return still_open(f"{problem}; write both sides as polynomials in the letters", METHOD)
-    for covers in _chosen(options, spare):
-        proof = CoveredTerms(covers)
-        if _accepted(statement, proof):
+    for chosen in _chosen(options, spare):
+        if within(statement, [bound for _, bound in chosen]):
+            proof = CoveredTerms(tuple(cover for cover, _ in chosen))
             return shown(proof, f"{METHOD}: every term within its part of the bound")
+    against = _against(statement)
+    if against is not None:
+        return against
     return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
 
 
-def _accepted(statement: BoundEveryN, proof: CoveredTerms) -> bool:
-    """Whether the checker accepts covers, whose balls leave room."""
-    try:
-        return verify(statement, proof).verdict == "proved"
-    except Undefined:
-        return True
-    except Refused:
-        return False
+def _against(statement: BoundEveryN) -> Finding | None:
+    """Entries that meet all bounds of the norms and break the statement."""
+    for n, point, sign in drawn_entries(statement, TRIES):
+        if sign < 0:
+            left, right = at_size(statement, n)[0]
+            balls = {name: ball_of(x) for name, x in point.items()}
+            with ctx.workprec(BITS):
+                sides = (Enclosure.from_arb(ball(side, balls)).decimals(12) for side in (left, right))
+            data = dict(zip(("left", "right"), map(list, sides), strict=True)) | {"operator": "<="}
+            shown_at = {"n": str(n), **{name: str(x) for name, x in sorted(point.items())}}
+            proof = EntriesWitness(n, point_of(point))
+            return broken(proof, f"{METHOD}: entries that break the bound", {"point": shown_at, **data})
+    return None
 
 
-def _chosen(options: list[list[Option]], spare: Sizes) -> Iterator[tuple[Cover, ...]]:
+def _chosen(options: list[list[Option]], spare: Sizes) -> Iterator[Choice]:
     """Covers of the terms such that no coefficient of what is left of the bound is surely negative."""
     if not options:
         if not any(c < 0 for c in spare.values()):
             yield ()
         return
-    for cover, sizes in options[0]:
+    for cover, bound, sizes in options[0]:
         left = dict(spare)
         for key, c in sizes.items():
             left[key] = left.get(key, arb(0)) - c
             if c > 0 and left[key] < 0:
                 break
         else:
-            yield from ((cover, *rest) for rest in _chosen(options[1:], left))
+            yield from (((cover, bound), *rest) for rest in _chosen(options[1:], left))
 
 
 def _options(statement: BoundEveryN, words: Words, term: Term, names: list[str]) -> Iterator[Option]:
@@ -83,7 +97,8 @@ def _options(statement: BoundEveryN, words: Words, term: Term, names: list[str])
     norms = (Cover(choice) for letters in written for choice in _norms(statement, letters))
     for cover in (*least, *dict.fromkeys(norms)):
         try:
-            yield cover, _sizes(bound_of(statement, words, term, cover), names)
+            bound = bound_of(statement, words, term, cover)
+            yield cover, bound, _sizes(bound, names)
         except (Refused, ValueError):
             continue
 
@@ -117,7 +132,7 @@ def _sizes(tree: Tree, names: list[str]) -> Sizes:
         powers = {name: int(e) for name, e in zip(algebra.names, exponents, strict=False)}
         key = tuple(powers.get(name, 0) for name in names)
         size = arb(c) / lead
-        for index, ball in constants.items():
-            size *= ball ** int(exponents[index])
+        for index, constant in constants.items():
+            size *= constant ** int(exponents[index])
         found[key] = found.get(key, arb(0)) + size
     return found
