@@ -36,18 +36,15 @@ from lyapcheck.claims import (
     largest_with,
     loop_property,
     loops,
-    majorant,
     mass_matrix,
     nonnegative,
     norm_bound,
-    norm_chain,
     plus,
     positive,
     potential,
     rate,
     rate_bound,
     rate_of,
-    reals,
     rho,
     secant_bound,
     sqrt,
@@ -212,133 +209,63 @@ RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ"
     "rate", "dV/dt along (11) is the sum of eleven terms", place="(15)", section=RATE, uses=["V.smooth"]
 )
 def _(case):
-    """By the chain rule with ẇ left open, then with Mẇ from (11); Ṁ = C + Cᵀ is Property 2.4."""
-    s, any_n = loops.loop(case.n), loops.letters()
+    """For every n, with Ṁ = C + Cᵀ by Property 2.4; the rate of r = ‖q̃‖ is what the rate of r² says."""
+    s = loops.letters()
     return all_of(
-        chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
-        terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
-        every_n=loops.along(any_n, loops.energy(any_n), total(loops.terms(any_n))),
-        rate_of_the_norm=loops.along(any_n, any_n.r**2, rate(dot(any_n.e, any_n.e))),
+        terms=loops.along(s, loops.energy(s), total(loops.terms(s))),
+        rate_of_the_norm=loops.along(s, s.r**2, rate(dot(s.e, s.e))),
     )
 
 
-@proof.claim(
-    "rate.1",
-    "term 1: −q̇ᵀK_v h(q̇) ≤ 0",
-    place="(15), term 1",
-    section=RATE,
-    uses=["rate", "h.odd"],
-)
-def _(case):
-    """Its summands are −k_vi t_i with t_i = q̇_i h(q̇_i) ≥ 0."""
-    names = [f"{kind}{i + 1}" for kind in ("kv", "t") for i in range(case.n)]
-    return implies(nonnegative(*names), (), -dot(vector("kv", case.n), vector("t", case.n)) <= 0)
-
-
-@proof.claim("rate.2", "term 2: −q̇ᵀBq̇ ≤ −λmin(B) b²", place="(15), term 2", section=RATE, uses=["rate"])
-def _(case):
-    """With b_i = λmin(B) + c_i, c_i ≥ 0."""
-    w, over, least = vector("w", case.n), vector("c", case.n), var("b_min")
-    variables = positive("b_min") + nonnegative(*(f"c{i + 1}" for i in range(case.n)))
-    power = total((least + c) * w_i**2 for c, w_i in zip(over, w, strict=True))
-    return implies(variables + reals(*(f"w{i + 1}" for i in range(case.n))), (), -power <= -least * dot(w, w))
-
-
-def chain(case, names, bound):
-    """A product of named factors whose norms are known, against a bound in a = ‖h(q̃)‖ and w = b = ‖q̇‖."""
-    norms = loops.norms(known_of(case))
-    return norm_chain([norms[name] for name in names], bound)
-
-
-@proof.claim(
-    "rate.3", "term 3: ε(h'∘q̇)ᵀMq̇ ≤ ερβ_M b²", place="(15), term 3", section=RATE, uses=["rate", "h.steep"]
-)
-def _(case):
-    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(known_of(case).rho, eps=1, beta=1, w=2))
-
-
-@proof.claim(
-    "rate.4",
-    "term 4: −ε êᵀq̇/(1+r) hᵀMq̇ ≤ εGβ_M b²",
-    place="(15), term 4",
-    section=RATE,
-    uses=["rate", "h.share"],
-)
-def _(case):
-    names = ["eps", "ê·w", "h(e)/(1+r)", "M", "w"]
-    return chain(case, names, majorant(known_of(case).G, eps=1, beta=1, w=2))
-
-
-@proof.claim(
-    "rate.5", "term 5: −ε hᵀCᵀq̇ ≤ ε√nγ k_c b²", place="(15), term 5", section=RATE, uses=["rate", "h.bound"]
-)
-def _(case):
-    return chain(case, ["eps", "h(e)", "C(q,w)", "w"], majorant(known_of(case).reach, eps=1, kc=1, w=2))
-
-
-@proof.claim(
-    "rate.6", "term 6: −ε hᵀK_p h ≤ −ελmin(K_p) a²", place="(15), term 6", section=RATE, uses=["rate"]
-)
-def _(case):
-    """With k_pi = λmin(K_p) + c_i, c_i ≥ 0."""
-    a, over, least, eps = vector("h", case.n), vector("c", case.n), var("kp_min"), var("eps")
-    variables = positive("kp_min", "eps") + nonnegative(*(f"c{i + 1}" for i in range(case.n)))
-    power = total((least + c) * a_i**2 for c, a_i in zip(over, a, strict=True))
-    return implies(
-        variables + reals(*(f"h{i + 1}" for i in range(case.n))), (), -eps * power <= -eps * least * dot(a, a)
+def bounds_of(known):
+    """The bounds of the eleven terms in a = ‖h(q̃)‖ and b = ‖q̇‖."""
+    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(
+        var, ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
     )
+    return [
+        expr(0),
+        -b_min * b**2,
+        eps * known.rho * beta * b**2,
+        eps * known.G * beta * b**2,
+        eps * known.reach * kc * b**2,
+        -eps * k * a**2,
+        eps * b_max * a * b,
+        eps * known.L * kv_max * a * b,
+        eps**2 * known.reach * kc * a * b,
+        eps**2 * known.G * beta * a * b,
+        eps**2 * known.rho * beta * a * b,
+    ]
 
 
-@proof.claim("rate.7", "term 7: ε hᵀBq̇ ≤ ελmax(B) a b", place="(15), term 7", section=RATE, uses=["rate"])
-def _(case):
-    return chain(case, ["eps", "h(e)", "B", "w"], majorant(eps=1, b_max=1, a=1, w=1))
+def minus_form(entries):
+    """−[a b] Θ' [a b]ᵀ."""
+    a, b, (corner, side, low) = var("a"), var("b"), entries
+    return -(corner * a**2 + 2 * side * a * b + low * b**2)
 
 
-@proof.claim(
-    "rate.8",
-    "term 8: ε hᵀK_v h(q̇) ≤ εLλmax(K_v) a b",
-    place="(15), term 8",
-    section=RATE,
-    uses=["rate", "h.slope"],
-)
-def _(case):
-    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], majorant(known_of(case).L, eps=1, kv_max=1, a=1, w=1))
+def term(k, says, uses, norms, least=()):
+    """A claim: term k of (15) is at most its bound for every n, by what is known of its letters."""
+    words, place = f"term {k}: {says}", f"(15), term {k}"
+
+    @proof.claim(f"rate.{k}", words, place=place, section=RATE, uses=["rate", *uses])
+    def _(case):
+        s, known = loops.short_letters(), known_of(case)
+        sizes, forms = loops.known_norms(s, known), loops.known_least(s)
+        given = [sizes[name] for name in norms], [forms[name] for name in least]
+        return loops.term_at_most(s, k, bounds_of(known)[k - 1], *given)
 
 
-@proof.claim(
-    "rate.9",
-    "term 9: ½ε² hᵀ(C+Cᵀ)h ≤ ε²√nγ k_c a b",
-    place="(15), term 9",
-    section=RATE,
-    uses=["rate", "h.bound"],
-)
-def _(case):
-    bound = majorant(known_of(case).reach, eps=2, kc=1, a=1, w=1)
-    return chain(case, ["eps", "eps", "h(e)", "C(q,w)", "h(e)"], bound)
-
-
-@proof.claim(
-    "rate.10",
-    "term 10: ε² êᵀq̇/(1+r) hᵀMh ≤ ε²Gβ_M a b",
-    place="(15), term 10",
-    section=RATE,
-    uses=["rate", "h.share"],
-)
-def _(case):
-    names = ["eps", "eps", "ê·w", "h(e)/(1+r)", "M", "h(e)"]
-    return chain(case, names, majorant(known_of(case).G, eps=2, beta=1, a=1, w=1))
-
-
-@proof.claim(
-    "rate.11",
-    "term 11: −ε²(h'∘q̇)ᵀMh ≤ ε²ρβ_M a b",
-    place="(15), term 11",
-    section=RATE,
-    uses=["rate", "h.steep"],
-)
-def _(case):
-    bound = majorant(known_of(case).rho, eps=2, beta=1, a=1, w=1)
-    return chain(case, ["eps", "eps", "h'(e)∘w", "M", "h(e)"], bound)
+term(1, "−q̇ᵀK_v h(q̇) ≤ 0", ["h.odd"], [], ["damping"])
+term(2, "−q̇ᵀBq̇ ≤ −λmin(B) b²", [], ["w"], ["friction"])
+term(3, "ε(h'∘q̇)ᵀMq̇ ≤ ερβ_M b²", ["h.steep"], ["dh", "M", "w"])
+term(4, "−ε êᵀq̇/(1+r) hᵀMq̇ ≤ εGβ_M b²", ["h.share"], ["u", "share", "M", "w"])
+term(5, "−ε hᵀCᵀq̇ ≤ ε√nγ k_c b²", ["h.bound"], ["reach", "C", "w"])
+term(6, "−ε hᵀK_p h ≤ −ελmin(K_p) a²", [], ["h"], ["gain"])
+term(7, "ε hᵀBq̇ ≤ ελmax(B) a b", [], ["h", "B", "w"])
+term(8, "ε hᵀK_v h(q̇) ≤ εLλmax(K_v) a b", ["h.slope"], ["h", "K_v", "hw"])
+term(9, "½ε² hᵀ(C+Cᵀ)h ≤ ε²√nγ k_c a b", ["h.bound"], ["h", "reach", "C"])
+term(10, "ε² êᵀq̇/(1+r) hᵀMh ≤ ε²Gβ_M a b", ["h.share"], ["u", "w", "share", "h", "M"])
+term(11, "−ε²(h'∘q̇)ᵀMh ≤ ε²ρβ_M a b", ["h.steep"], ["dh", "w", "h", "M"])
 
 
 def theta(eps, k, b_min, c, d):
@@ -356,25 +283,8 @@ def theta(eps, k, b_min, c, d):
 def _(case):
     """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
     known = known_of(case)
-    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(
-        var, ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
-    )
-    bounds = [
-        expr(0),
-        -b_min * b**2,
-        eps * known.rho * beta * b**2,
-        eps * known.G * beta * b**2,
-        eps * known.reach * kc * b**2,
-        -eps * k * a**2,
-        eps * b_max * a * b,
-        eps * known.L * kv_max * a * b,
-        eps**2 * known.reach * kc * a * b,
-        eps**2 * known.G * beta * a * b,
-        eps**2 * known.rho * beta * a * b,
-    ]
-    corner, side, low = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
     return all_of(
-        sum=identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        sum=identity(total(bounds_of(known)), minus_form(form_of(known))),
         from_V_for_every_n=rate_bound(loop_of(case)),
     )
 

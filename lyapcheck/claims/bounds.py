@@ -23,6 +23,7 @@ from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
+from lyapcheck.claims.exact import closed_value, exact_value
 from lyapcheck.claims.expressions import Expr, expr, sqrt
 from lyapcheck.robots.trig import to_terms
 
@@ -40,9 +41,13 @@ HALVINGS = 60
 
 
 def above(value: object, digits: int = DIGITS) -> Fraction:
-    """The decimal number of so many places that is at least a number, and nearest to it."""
+    """The decimal number of so many places that is at least a number, and nearest to it.
+
+    Raises:
+        ValueError: it contains variables, or has no value.
+    """
     with ctx.workprec(BITS):
-        upper = Enclosure.from_arb(ball(expr(value).tree)).upper
+        upper = Enclosure.from_arb(ball(closed_value(value))).upper
     return _ceiling(upper * 10**digits) / Fraction(10**digits)
 
 
@@ -169,7 +174,7 @@ class ArmBounds:
 
     def mass_above(self, low: object = 0) -> MassAbove:
         """M(q) − low·I is positive definite for all q."""
-        return MassAbove(self.mass, (), Fraction(expr(low).tree[1]))
+        return MassAbove(self.mass, (), exact_value(low))
 
     def mass_below(self) -> MassBelow:
         """‖M(q)‖ <= β_M for all q."""
@@ -198,7 +203,7 @@ def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fracti
     Returns:
         ``None`` where the condition is met neither by ``start`` nor by its halves.
     """
-    low = Fraction(expr(start).tree[1])
+    low = exact_value(start)
     for _ in range(HALVINGS):
         if holds(low):
             break

@@ -15,11 +15,11 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.norm_chain import Majorant, NormChain
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import Expr, expr
 
 __all__ = [
@@ -30,10 +30,8 @@ __all__ = [
     "ForSmall",
     "Identity",
     "Implies",
-    "Majorant",
     "Missing",
     "NormBound",
-    "NormChain",
     "Relation",
     "Statement",
     "Theorem",
@@ -48,10 +46,8 @@ __all__ = [
     "identity",
     "implies",
     "loop_property",
-    "majorant",
     "nonnegative",
     "norm_bound",
-    "norm_chain",
     "positive",
     "reals",
     "theorem",
@@ -119,31 +115,14 @@ def agrees(formula: Expr, printed: str, solve_for: str | None = None, **inputs: 
     return Agrees(formula.tree, tuple(sorted(inputs.items())), printed, solve_for)
 
 
-def _exact(value: object) -> Fraction:
-    """The rational value of an exact number."""
-    return Fraction(expr(value).tree[1])
-
-
 def _end(value: object | None) -> Fraction | None:
-    return None if value is None else _exact(value)
-
-
-def majorant(constant: object = 1, **powers: int) -> Majorant:
-    """``constant · Π symbol^power``."""
-    return Majorant(expr(constant).tree, tuple(sorted(powers.items())))
-
-
-def norm_chain(
-    factors: Iterable[tuple[Majorant, ...]], bound: Majorant, smaller: tuple[tuple[str, str], ...] = ()
-) -> NormChain:
-    """A product of factors is at most a bound."""
-    return NormChain(tuple(factors), bound, smaller)
+    return None if value is None else exact_value(value)
 
 
 def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> TrigonometricBound:
     """Polynomials in sines and cosines are bounded, or bounded by given numbers."""
     trees = [entry.tree for entry in entries]
-    limits = [None] * len(trees) if by is None else [_exact(b) for b in by]
+    limits = [None] * len(trees) if by is None else [exact_value(b) for b in by]
     return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
 
 

@@ -18,7 +18,6 @@ from lyapcheck.check.kinds import (
     inertia,
     loop_property,
     norm_bound,
-    norm_chain,
     theorem,
     trigonometric,
 )
@@ -38,7 +37,6 @@ __all__ = [
     "inertia",
     "loop_property",
     "norm_bound",
-    "norm_chain",
     "theorem",
     "trigonometric",
 ]

@@ -9,7 +9,7 @@ References: ``reyes2019family`` (15), (16).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice, product
@@ -159,15 +159,19 @@ def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
     found, words = terms_in_words(statement)
     require(len(proof.covers) == len(found), "covers", len(proof.covers), f"must be {len(found)}, one a term")
     bounds = [bound_of(statement, words, *pair) for pair in zip(found, proof.covers, strict=True)]
-    spare = Relation(("add", ZERO, *bounds), "<=", statement.right)
-    numbers = tuple(Variable(name, Fraction(0), strict=False) for name in sorted(statement.numbers))
-    signs = Signs(numbers, (), spare)
-    shown = signs.is_nonnegative(signs.conclusion)
-    require(shown, "right", "", "is not shown to exceed the sum of the bounds")
+    require(within(statement, bounds), "right", "", "is not shown to exceed the sum of the bounds")
     evaluated = [sign for _, _, sign in islice(drawn_entries(statement, TRIES), ENOUGH)]
     require(-1 not in evaluated, "entries", "", "that were drawn exceed the bound: the words are at fault")
     require(len(evaluated) > 0, "entries", "", "that meet the bounds of the norms were not found")
     return Accepted("proved", "exact")
+
+
+def within(statement: BoundEveryN, bounds: Iterable[Tree]) -> bool:
+    """Whether ``right`` plainly exceeds the sum of some bounds."""
+    spare = Relation(("add", ZERO, *bounds), "<=", statement.right)
+    numbers = tuple(Variable(name, Fraction(0), strict=False) for name in sorted(statement.numbers))
+    signs = Signs(numbers, (), spare)
+    return signs.is_nonnegative(signs.conclusion)
 
 
 @rule(BoundEveryN, EntriesWitness)

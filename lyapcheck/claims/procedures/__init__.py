@@ -17,7 +17,6 @@ from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
-from lyapcheck.claims.procedures.chain import find_chain
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
@@ -94,7 +93,6 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Implies: find_implies,
     kinds.ForSmall: find_for_small,
     kinds.Agrees: find_agrees,
-    kinds.NormChain: find_chain,
     kinds.TrigonometricBound: find_bounds,
     kinds.TrigonometricPositive: find_positive,
     LoopProperty: find_loop_property,

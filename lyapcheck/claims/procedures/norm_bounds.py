@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from flint import ctx, fmpq
+from flint import arb, ctx
 
 from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
+from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.kinds.bound_every_n import (
     BoundEveryN,
     Cover,
@@ -20,7 +21,7 @@ from lyapcheck.check.kinds.bound_every_n import (
     bound_of,
     drawn_entries,
     terms_in_words,
-    terms_of,
+    within,
     written_letters,
 )
 from lyapcheck.check.kinds.every_n import EntriesWitness
@@ -32,7 +33,10 @@ from lyapcheck.claims.procedures.search import BITS, point_of
 
 METHOD = "norms for every n"
 TRIES = 60
-Spare = dict[tuple[tuple[str, int], ...], fmpq]
+Sizes = dict[tuple[int, ...], arb]
+"""A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""
+Option = tuple[Cover, Tree, Sizes]
+Choice = tuple[tuple[Cover, Tree], ...]
 
 
 def find_bound_every_n(statement: BoundEveryN) -> Finding:
@@ -40,16 +44,19 @@ def find_bound_every_n(statement: BoundEveryN) -> Finding:
     try:
         statement.require_well_formed()
         found, words = terms_in_words(statement)
-        spare = {_key(powers): c for c, powers in terms_of(statement.right)}
+        names = sorted(statement.numbers)
+        spare = _sizes(statement.right, names)
+        options = [list(_options(statement, words, term, names)) for term in found]
     except (Refused, Unsupported) as problem:
         return still_open(f"{problem}; write both sides as polynomials in the letters", METHOD)
-    covers = _chosen(statement, words, found, spare)
-    if covers is None:
-        against = _against(statement)
-        if against is not None:
-            return against
-        return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
-    return shown(CoveredTerms(covers), f"{METHOD}: every term within its part of the bound")
+    for chosen in _chosen(options, spare):
+        if within(statement, [bound for _, bound in chosen]):
+            proof = CoveredTerms(tuple(cover for cover, _ in chosen))
+            return shown(proof, f"{METHOD}: every term within its part of the bound")
+    against = _against(statement)
+    if against is not None:
+        return against
+    return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
 
 
 def _against(statement: BoundEveryN) -> Finding | None:
@@ -67,49 +74,65 @@ def _against(statement: BoundEveryN) -> Finding | None:
     return None
 
 
-def _chosen(
-    statement: BoundEveryN, words: Words, terms: list[Term], spare: Spare
-) -> tuple[Cover, ...] | None:
-    """A cover of each term, such that what is left of the bound has no negative coefficient."""
-    if not terms:
-        return () if all(c >= 0 for c in spare.values()) else None
-    for cover, bound in _covers(statement, words, terms[0]):
+def _chosen(options: list[list[Option]], spare: Sizes) -> Iterator[Choice]:
+    """Covers of the terms such that no coefficient of what is left of the bound is surely negative."""
+    if not options:
+        if not any(c < 0 for c in spare.values()):
+            yield ()
+        return
+    for cover, bound, sizes in options[0]:
         left = dict(spare)
-        for c, powers in terms_of(bound):
-            left[_key(powers)] = left.get(_key(powers), fmpq(0)) - c
-            if c > 0 and left[_key(powers)] < 0:
+        for key, c in sizes.items():
+            left[key] = left.get(key, arb(0)) - c
+            if c > 0 and left[key] < 0:
                 break
         else:
-            rest = _chosen(statement, words, terms[1:], left)
-            if rest is not None:
-                return (cover, *rest)
-    return None
+            yield from (((cover, bound), *rest) for rest in _chosen(options[1:], left))
 
 
-def _covers(statement: BoundEveryN, words: Words, term: Term) -> Iterator[tuple[Cover, Tree]]:
+def _options(statement: BoundEveryN, words: Words, term: Term, names: list[str]) -> Iterator[Option]:
     """The covers of a term, each with the bound that it gives."""
     least = (Cover((), k) for k in range(len(statement.least)))
     written = written_letters(words, term[1])
     norms = (Cover(choice) for letters in written for choice in _norms(statement, letters))
     for cover in (*least, *dict.fromkeys(norms)):
         try:
-            yield cover, bound_of(statement, words, term, cover)
+            bound = bound_of(statement, words, term, cover)
+            yield cover, bound, _sizes(bound, names)
         except (Refused, ValueError):
             continue
 
 
-def _norms(statement: BoundEveryN, letters: Counter[Tree]) -> Iterator[tuple[int, ...]]:
-    """The ways to cover all letters that are not numbers, each by one of the norms known."""
+def _norms(statement: BoundEveryN, letters: Counter[Tree], start: int = 0) -> Iterator[tuple[int, ...]]:
+    """The ways to cover all letters that are not numbers, and any of the numbers, by the norms known."""
     first = min((letter for letter in letters if letter[0] != "var"), default=None)
     if first is None:
         yield ()
-        return
     for index, (known, _) in enumerate(statement.norms):
         taken = Counter(known)
-        if first in taken and taken <= letters:
-            for rest in _norms(statement, letters - taken):
+        wanted = first in taken if first is not None else index >= start
+        if wanted and taken <= letters:
+            for rest in _norms(statement, letters - taken, index if first is None else 0):
                 yield (index, *rest)
 
 
-def _key(powers: dict[str, int]) -> tuple[tuple[str, int], ...]:
-    return tuple(sorted(powers.items()))
+def _sizes(tree: Tree, names: list[str]) -> Sizes:
+    """A polynomial in the numbers of a statement, whose coefficients may contain constants such as √3.
+
+    Raises:
+        Unsupported: it is no such polynomial.
+    """
+    ratio, algebra = normal_form(tree)
+    constants = algebra.constants()
+    if not ratio.bottom.is_constant() or len(constants) < len(algebra.uses):
+        raise Unsupported("a bound is not a polynomial in its numbers")
+    lead = arb(ratio.bottom.leading_coefficient())
+    found: Sizes = {}
+    for exponents, c in ratio.top.to_dict().items():
+        powers = {name: int(e) for name, e in zip(algebra.names, exponents, strict=False)}
+        key = tuple(powers.get(name, 0) for name in names)
+        size = arb(c) / lead
+        for index, constant in constants.items():
+            size *= constant ** int(exponents[index])
+        found[key] = found.get(key, arb(0)) + size
+    return found
