@@ -98,7 +98,7 @@ def _run() -> None:
 def _require_output() -> None:
     """Refuse to run without a standard output: the first file that is opened would take its place."""
     if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w")
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115 (to the end of the process)
     if sys.stdout is None:
         raise argument_error("standard output", "", "is closed", "open it, or send it to /dev/null")
 
@@ -143,7 +143,6 @@ def _same_bytes_everywhere() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-
 
 
 if __name__ == "__main__":
