@@ -55,6 +55,7 @@ def github_property(text: str) -> str:
     return github_text(text).replace(":", "%3A").replace(",", "%2C")
 
 
-def plot_text(text: str) -> str:
-    """The text as matplotlib shows it: no formula between dollar signs."""
-    return printable(text).replace("$", r"\$")
+def plot_text(text: str, most: int = 60) -> str:
+    """The text as matplotlib shows it: no formula between dollar signs, and cut where it would not fit."""
+    shown = printable(text)
+    return (shown if len(shown) <= most else f"{shown[: most - 1]}…").replace("$", r"\$")

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lyapcheck.escapes import plot_text
+from lyapcheck.report.figures.bars import TICK
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 from lyapcheck.report.model import Data
@@ -47,7 +48,7 @@ def _panel(axis: Any, sets: Sequence[Data], quantity: str) -> None:
     for one in sets:
         for number in _of(one, quantity):
             _draw(axis, len(labels), number)
-            labels.append(plot_text(" ".join(filter(None, (one["name"], number["joint"])))))
+            labels.append(plot_text(" ".join(filter(None, (one["name"], number["joint"]))), TICK))
     axis.set_yticks(range(len(labels)), labels, fontsize=7 if len(labels) > len(sets) else 9)
     axis.set(ylim=(len(labels) - 0.4, -0.6), xlabel=TITLES[quantity])
     axis.grid(axis="y", visible=False)
