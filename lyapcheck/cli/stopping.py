@@ -15,6 +15,7 @@ import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Any
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
@@ -41,7 +42,9 @@ class Stopping:
         self.wakeup = signal.set_wakeup_fd(self.writer, warn_on_full_buffer=False)
         _thread.start_new_thread(_listen, (reader,))
         # after the start of the thread, which alone is to take it: a mask is inherited, by processes too
-        self.mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        self.set_mask = signal.pthread_sigmask
+        self.before = self.set_mask(signal.SIG_BLOCK, [signal.SIGINT])
+        signal.pthread_sigmask = self._set_mask
         sys.warnoptions.append(_SILENCE)  # is handed on to processes when they start
 
     def __exit__(self, *raised: object) -> None:
@@ -50,7 +53,16 @@ class Stopping:
         os.close(self.writer)
         for number, handler in self.handlers.items():
             signal.signal(number, handler)
-        signal.pthread_sigmask(signal.SIG_SETMASK, self.mask)
+        signal.pthread_sigmask = self.set_mask
+        signal.pthread_sigmask(signal.SIG_SETMASK, self.before)
+
+    def _set_mask(self, how: int, mask: Iterable[int]) -> set[int | signal.Signals]:
+        """What `signal.pthread_sigmask` does, but SIGINT stays blocked.
+
+        Before its first process multiprocessing unblocks it, whether it was blocked before or not.
+        """
+        kept = set(mask) - {signal.SIGINT} if how == signal.SIG_UNBLOCK else mask
+        return self.set_mask(how, kept)
 
 
 def _listen(reader: int) -> None:
