@@ -81,7 +81,7 @@ def margin_at(
 def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
     """The margin at the largest share of its ε₀ for which the checker accepts a proof.
 
-    Soundness: ``lyapcheck.check.decay.shown`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.loop.decay.shown`` has accepted what is handed back.
     """
     for share in SHARES:
         eps0 = _short(margin.closure.eps0 * share)
