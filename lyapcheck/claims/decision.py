@@ -48,9 +48,11 @@ def decided(finding: Finding, judged: Judged | None) -> Decision:
 
     Soundness: the only way to ``proved`` and ``refuted``, which are the checker's words.
     """
-    if finding.proof is None or judged is None:
+    if finding.proof is None:
         verdict = Verdict.ERROR if finding.verdict is Verdict.ERROR else Verdict.UNDECIDED
         return Decision(verdict, Grade.NUMERIC, finding.method, finding.reason, evidence=finding.evidence)
+    if judged is None:
+        return undecided("the checker has not judged its certificate", finding.method, **finding.evidence)
     if not judged.accepted or judged.verdict is None or judged.grade is None:
         reason = f"the checker refuses its certificate ({judged.reason})"
         return undecided(reason, finding.method, **finding.evidence)

@@ -49,6 +49,8 @@ def judge_afresh(certificates: Mapping[str, Certificate]) -> dict[str, Judged]:
         if row.get("accepted") and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
             raise RuntimeError(f"the checker answers about another certificate than {name}")
     return {
-        name: Judged(rows[name]["accepted"] is True, *(rows[name][key] for key in ("reason", "verdict", "grade")))
+        name: Judged(
+            rows[name]["accepted"] is True, *(rows[name][key] for key in ("reason", "verdict", "grade"))
+        )
         for name in certificates
     }

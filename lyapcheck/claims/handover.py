@@ -27,7 +27,7 @@ class Request:
     Args:
         path: the script.
         shown: its name in messages.
-        asked: the cases that are wanted.
+        asked: the cases that are wanted; without one, only what the claims are.
         others: more cases, only to see what a claim depends on; there it may fail.
         only: the claims wanted, with what they use; all by default.
         answer: the file that receives the JSON.
@@ -35,7 +35,7 @@ class Request:
 
     path: str
     shown: str
-    asked: tuple[Given, ...]
+    asked: tuple[Given, ...] = ()
     others: tuple[Given, ...] = ()
     only: tuple[str, ...] = ()
     answer: str = ""
@@ -60,11 +60,6 @@ class Told:
     section: str
     uses: tuple[str, ...]
     answers: tuple[Answer, ...] = ()
-
-    @property
-    def read(self) -> set[str]:
-        """What its function looked at in some case."""
-        return {name for answer in self.answers for name in answer.read}
 
 
 @dataclass(frozen=True)

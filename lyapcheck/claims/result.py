@@ -66,8 +66,8 @@ class ClaimResult:
 class ProofResult:
     """All rows of a proof, in the order of the text.
 
-    ``claims`` are the rows that were asked for; ``certificates``, by file name, are those that the checker has
-    accepted, also of what these rows use.
+    ``claims`` are the rows that were asked for; ``certificates``, by file name, are those that the checker
+    has accepted, also of what these rows use.
     """
 
     name: str

@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
-from lyapcheck.claims.decision import Decision, decided, undecided
+from lyapcheck.claims.decision import decided, undecided
 from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import Given, Handover, Request
@@ -125,9 +125,7 @@ def _proposals(
             used = tuple((name, m if "m" in depends[name] else None) for name in claim.uses)
             finding = chained(_search(stated), stated, [found[one] for one in used])
             joints = n if "n" in depends[claim.id] else None
-            found[key] = Proposal(
-                claim, key[1], joints, stated, used, finding, time.perf_counter() - begin
-            )
+            found[key] = Proposal(claim, key[1], joints, stated, used, finding, time.perf_counter() - begin)
     return found
 
 

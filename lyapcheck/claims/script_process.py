@@ -7,6 +7,7 @@ one that started it, which is when standard input ends.
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import signal
@@ -30,6 +31,7 @@ Lines = dict[Statement, tuple[int, str]]
 
 def main() -> None:
     """Answer one request and leave at once, whatever threads and exit handlers the script has left."""
+    gc.disable()  # a short life, most of it building trees
     own, code = os.getpid(), 1
     try:
         stream = _only_ours()
@@ -79,7 +81,10 @@ def _handover(request: Request) -> str:
     for claim in proof.claims.values():
         answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
         told.append(Told(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
-    return write(Handover(proof.name, proof.title, proof.reference, tuple(told)), (line for _, line in statements.values()))
+    return write(
+        Handover(proof.name, proof.title, proof.reference, tuple(told)),
+        (line for _, line in statements.values()),
+    )
 
 
 def _answers(claim: Claim, request: Request, statements: Lines) -> Iterator[Answer]:
