@@ -7,7 +7,8 @@ from importlib.metadata import version
 from urllib.parse import quote
 
 from lyapcheck.check.certificates.document import About, Certificate
-from lyapcheck.claims.proposal import Key, Proposal
+from lyapcheck.claims.handover import Key
+from lyapcheck.claims.proposal import Proposal
 
 
 def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Certificate]:

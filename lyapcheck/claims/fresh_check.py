@@ -8,8 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
-from lyapcheck.check.certificates.document import Certificate
+from lyapcheck.check.certificates.document import About, Certificate
+from lyapcheck.claims.handover import Key
 from lyapcheck.claims.python_process import command, environment
 
 
@@ -26,31 +28,30 @@ class Judged:
     grade: str | None
 
 
-def judge_afresh(certificates: Mapping[str, Certificate]) -> dict[str, Judged]:
-    """What ``python -m lyapcheck.check`` says about certificates, by file name.
+def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
+    """What ``python -m lyapcheck.check`` says about certificates that use none but each other.
 
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
 
     Raises:
-        RuntimeError: the checker does not answer, or about something else.
+        RuntimeError: the checker does not answer, or answers about something else.
     """
     if not certificates:
         return {}
+    files = {f"{number}.json": key for number, key in enumerate(certificates)}
     with TemporaryDirectory(prefix="lyapcheck-") as folder:
-        for name, certificate in certificates.items():
-            Path(folder, name).write_text(certificate.text(), encoding="utf-8", errors="surrogatepass")
+        for name, key in files.items():
+            Path(folder, name).write_text(certificates[key].text(), encoding="utf-8")
         words = command("lyapcheck.check", "--format", "json", folder)
         run = subprocess.run(words, capture_output=True, env=environment(), check=False)
-    if run.returncode not in (0, 1):
-        raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}")
-    rows = {row["file"]: row for row in json.loads(run.stdout)["certificates"]}
-    for name, certificate in certificates.items():
-        claim, row = certificate.claim, rows.get(name, {})
-        if row.get("accepted") and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
-            raise RuntimeError(f"the checker answers about another certificate than {name}")
-    return {
-        name: Judged(
-            rows[name]["accepted"] is True, *(rows[name][key] for key in ("reason", "verdict", "grade"))
-        )
-        for name in certificates
-    }
+    try:
+        rows = {row["file"]: row for row in json.loads(run.stdout)["certificates"]}
+    except ValueError as error:
+        raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}") from error
+    return {key: _judged(rows[name], certificates[key].claim) for name, key in files.items()}
+
+
+def _judged(row: dict[str, Any], claim: About) -> Judged:
+    if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
+        raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
+    return Judged(row["accepted"] is True, row["reason"], row["verdict"], row["grade"])

@@ -18,6 +18,8 @@ from lyapcheck.claims.statements import Missing, Statement
 
 Given = tuple[int, int, Any, Any]
 """m, n, a robot or none, and a gain set or none."""
+Key = tuple[str, int | None]
+"""The id of a claim and the m it is decided for, none if it does not depend on m."""
 
 
 @dataclass(frozen=True)

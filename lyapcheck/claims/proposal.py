@@ -8,10 +8,8 @@ from dataclasses import dataclass, replace
 from lyapcheck.check.certificates.document import theorems_of
 from lyapcheck.check.certificates.rules.premises import unmet
 from lyapcheck.claims.finding import Finding, still_open
-from lyapcheck.claims.handover import Told
+from lyapcheck.claims.handover import Key, Told
 from lyapcheck.claims.statements import Statement
-
-Key = tuple[str, int | None]
 
 
 @dataclass(frozen=True)

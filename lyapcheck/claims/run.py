@@ -13,10 +13,10 @@ from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.decision import decided, undecided
 from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
-from lyapcheck.claims.handover import Given, Handover, Request
+from lyapcheck.claims.handover import Given, Handover, Key, Request
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
-from lyapcheck.claims.proposal import Key, Proposal, chained, rests_on
+from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.result import ClaimResult, ProofResult
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.statements import Statement
@@ -67,9 +67,7 @@ def run_proof(
     told = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(told, asked, script.name, on_progress or _silent)
     made = certificates(proposals, told.name)
-    names = {key: file_name(*key) for key in made}
-    judged = judge_afresh({names[key]: certificate for key, certificate in made.items()})
-    results = _results(proposals, {key: judged[name] for key, name in names.items()})
+    results = _results(proposals, judge_afresh(made))
     places = {claim.id: k for k, claim in enumerate(told.claims)}
     every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
     return ProofResult(
@@ -80,7 +78,7 @@ def run_proof(
         model.name if model else None,
         tuple(results[key] for key in every if not only or key[0] in only),
         model.assumptions if model else (),
-        {names[key]: made[key] for key in every if results[key].decision.certificate is not None},
+        {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
     )
 
 
