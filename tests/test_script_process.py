@@ -122,16 +122,21 @@ def test_what_a_script_prints_goes_to_standard_error(write, tmp_path):
         ("class Mine(Statement):\n    pass\nproof.add('a', '', Mine())", "not plain data|does not know|kind"),
         ("class Mine(Constant):\n    pass\nproof.add('a', '', Mine(expr(1) <= 2))", "Mine: is not a kind"),
         ("proof.add('a', '\\udc80', Constant(expr(1) <= 2))", "not Unicode text"),
-        (
-            "t = ('var', 'x')\nfor _ in range(900):\n    t = ('neg', t)\nproof.add('a', '', Identity(t, t))",
-            "deeper|not plain data",
-        ),
         ("import lyapcheck.claims.handover as h\nh.json.dumps = lambda *a, **k: '{}'", "does not hand over"),
     ],
 )
 def test_a_script_that_hands_over_no_statements_is_an_input_error(write, body, message):
     with pytest.raises(InputError, match=message):
         run_proof(write(body), ms=(1,), n=1)
+
+
+@pytest.mark.parametrize("levels", [400, 5000])
+def test_what_no_checker_reads_is_undecided(write, levels):
+    body = f"t = ('var', 'x')\nfor _ in range({levels}):\n    t = ('neg', t)\n"
+    body += "proof.add('a', '', Identity(t, t))\n"
+    row = rows(write(body))["a", None]
+    assert row.verdict is Verdict.UNDECIDED
+    assert "nested deeper than 300 levels" in row.decision.reason
 
 
 def test_what_comes_back_is_limited(write, monkeypatch):

@@ -12,12 +12,16 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from lyapcheck.check.certificates.codec import from_json, to_json
-from lyapcheck.check.certificates.document import parse
-from lyapcheck.check.certificates.refusal import require
+from lyapcheck.check.certificates.document import MAX_CHARACTERS, parse
+from lyapcheck.check.certificates.refusal import Refused, require
+from lyapcheck.check.certificates.trees import MAX_DEPTH
+from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.statements import Missing, Statement
 
 Given = tuple[int, int, Any, Any]
 """m, n, a robot or none, and a gain set or none."""
+TOO_DEEP = f"is nested deeper than {MAX_DEPTH} levels"
+"""The rule of the checker that a statement of many joints may break: it is then undecided."""
 Key = tuple[str, int | None]
 """The id of a claim and the m it is decided for, none if it does not depend on m."""
 
@@ -89,9 +93,14 @@ def statement_json(statement: Statement) -> str:
     """A statement as a line of JSON.
 
     Raises:
-        ValueError, TypeError, RecursionError: it is not plain data.
+        Lacking: it is longer than any that the checker reads.
+        RecursionError: it is nested deeper.
+        ValueError, TypeError: it is not plain data.
     """
-    return json.dumps(to_json(statement), separators=(",", ":"), allow_nan=False)
+    line = json.dumps(to_json(statement), separators=(",", ":"), allow_nan=False)
+    if len(line) > MAX_CHARACTERS:
+        raise Lacking(f"its statement, written out, is above {MAX_CHARACTERS} characters")
+    return line
 
 
 def read(text: str, cases: int) -> Handover:
@@ -115,5 +124,14 @@ def read(text: str, cases: int) -> Handover:
         for number in (answer.statement for answer in claim.answers if answer.statement is not None):
             require(0 <= number < len(lines), claim.id, number, "is not the number of a statement")
             makers.setdefault(number, claim.id)
-    statements = (from_json(Statement, parse(line), makers.get(k, "?")) for k, line in enumerate(lines))
+    statements = (_statement(line, makers.get(k, "?")) for k, line in enumerate(lines))
     return replace(told, statements=tuple(statements))
+
+
+def _statement(line: str, claim: str) -> Statement:
+    try:
+        return from_json(Statement, parse(line), claim)
+    except Refused as refusal:
+        if refusal.rule == TOO_DEEP:
+            return Missing(f"its statement {TOO_DEEP}")
+        raise

@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
-from lyapcheck.claims.handover import Answer, Given, Handover, Request, Told, statement_json, write
+from lyapcheck.claims.handover import TOO_DEEP, Answer, Given, Handover, Request, Told, statement_json, write
 from lyapcheck.claims.order import in_order, needed
 from lyapcheck.claims.script import check_ids, load_proof
 from lyapcheck.claims.statements import Statement
@@ -101,12 +101,13 @@ def _answer(claim: Claim, given: Given, statements: Lines, shown: str) -> Answer
     case = Case(*given)
     try:
         statement = _statement(claim, case, shown)
-    except Lacking as lack:
-        return Answer(None, str(lack), tuple(sorted(case.read)))
-    try:
         if statement not in statements:
             statements[statement] = len(statements), statement_json(statement)
-    except Exception as error:
+    except Lacking as lack:
+        return Answer(None, str(lack), tuple(sorted(case.read)))
+    except RecursionError:
+        return Answer(None, f"its statement {TOO_DEEP}", tuple(sorted(case.read)))
+    except (TypeError, ValueError, AttributeError) as error:
         rule = f"its statement is not plain data ({type(error).__name__}: {error})"
         repair = "build it with the functions of lyapcheck.claims"
         raise InputError(Problem(shown, None, claim.id, "", rule, repair)) from error
