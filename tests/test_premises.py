@@ -11,7 +11,6 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.certificates import certificates
 
 SCRIPT = """
 from lyapcheck.claims import *
@@ -156,7 +155,7 @@ def folder(tmp_path):
     script, made = tmp_path / "script.py", tmp_path / "made"
     script.write_text(SCRIPT, encoding="utf-8")
     made.mkdir()
-    for name, certificate in certificates(run_proof(script, ms=(2,), n=2)).items():
+    for name, certificate in run_proof(script, ms=(2,), n=2).certificates.items():
         (made / name).write_text(certificate.text(), encoding="utf-8")
     return made
 

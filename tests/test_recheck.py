@@ -17,7 +17,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.certificates import certificates, file_name
+from lyapcheck.claims.certificates import file_name
 
 SCRIPT = """
 from lyapcheck.claims import *
@@ -52,7 +52,7 @@ def folder(tmp_path):
     script, made = tmp_path / "mine.py", tmp_path / "made"
     script.write_text(SCRIPT, encoding="utf-8")
     made.mkdir()
-    for name, certificate in certificates(run_proof(script, ms=(2, 3), n=1)).items():
+    for name, certificate in run_proof(script, ms=(2, 3), n=1).certificates.items():
         (made / name).write_text(certificate.text(), encoding="utf-8")
     return made
 
@@ -231,7 +231,7 @@ def test_a_directory_that_cannot_be_made_is_exit_code_2(tmp_path, target):
 
 @pytest.mark.slow
 def test_the_published_proof_is_rechecked_within_seconds(tmp_path):
-    for name, certificate in certificates(run_proof("published.py", ms=(2,))).items():
+    for name, certificate in run_proof("published.py", ms=(2,)).certificates.items():
         (tmp_path / name).write_text(certificate.text(), encoding="utf-8")
     begin = time.process_time()
     assert recheck(gather([tmp_path])).all_accepted
@@ -281,7 +281,7 @@ def test_an_empty_environment_with_the_checker_alone_rechecks_the_published_proo
     """A new environment gets python-flint and lyapcheck/check, nothing else, and judges every certificate."""
     made = tmp_path / "made"
     made.mkdir()
-    for name, certificate in certificates(run_proof("published.py")).items():
+    for name, certificate in run_proof("published.py").certificates.items():
         (made / name).write_text(certificate.text(), encoding="utf-8")
     packages = tmp_path / "packages"
     (packages / "lyapcheck").mkdir(parents=True)
