@@ -24,7 +24,12 @@ REPAIR = "give files written by check --certificates, or their directory"
 
 
 def run(
-    certificates: Sequence[str], format: str, full: bool, trusted: bool, seconds: int, memory: int  # noqa: A002
+    certificates: Sequence[str],
+    format: str,  # noqa: A002
+    full: bool,
+    trusted: bool,
+    seconds: int,
+    memory: int,
 ) -> int:
     """Print the outcome; 0: all accepted, 1: some refused, 2: unusable, 3: some undecided, 4: an alarm."""
     try:

@@ -12,9 +12,9 @@ from lyapcheck.check.refusal import plain
 class Finding:
     """Why a certificate is refused (``reason``), or what it shows; all text in it is safe to print.
 
-    ``label`` and ``says`` are its author's words, ``statement`` is rendered from data, ``shows`` lists (digest,
-    verdict, text) of the statement and of the parts that its proof decides, ``theorems`` lists (name, where it
-    is proved, what it takes for granted), ``rules`` lists (rule, the module that judges by it).
+    ``label`` and ``says`` are its author's words, ``statement`` is rendered from data, ``shows`` lists
+    (digest, verdict, which part) for the statement and the parts of it that the proof decides, ``theorems``
+    lists (name, where it is proved, what it takes for granted), ``rules`` lists (rule, its module).
     """
 
     reason: str = ""

@@ -64,7 +64,11 @@ class Guard:
 
     def lacks(self, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
         """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""
-        request = {"task": "premises", "claims": list(used), "digests": [digest for digest, _ in used.values()]}
+        request = {
+            "task": "premises",
+            "claims": list(used),
+            "digests": [digest for digest, _ in used.values()],
+        }
         answer = self._ask(request, [content, *(text for _, text in used.values())])
         return str(answer.get("ended", answer.get("lacks")))
 
@@ -108,7 +112,7 @@ class Guard:
         if late or (code < 0 and -code == getattr(signal, "SIGXCPU", 0)):
             return f"takes more than {seconds} s to judge; --seconds allows more"
         how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-        return f"ends the process that judges it ({how}), as where {memory} MiB are too few; --memory allows more"
+        return f"ends the process that judges it ({how}): {memory} MiB may be too few; --memory allows more"
 
 
 def _exchange(

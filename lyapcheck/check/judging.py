@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
+from json import JSONDecodeError
 from typing import Any
 
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, theorems_of
-from lyapcheck.check.codec import name_of, to_json
+from lyapcheck.check.codec import name_of
 from lyapcheck.check.finding import Finding, shortened
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.for_all import Piece
@@ -18,30 +19,30 @@ from lyapcheck.check.theorems.premises import unmet
 from lyapcheck.check.verify import RULES
 
 
-def certificate_of(content: bytes) -> Certificate:
-    """A certificate from the bytes of a file.
+def certificate_of(content: bytes) -> tuple[Certificate, Any]:
+    """A certificate from the bytes of a file, and its JSON value.
 
     Raises:
-        ValueError: they are not JSON in UTF-8.
+        UnicodeDecodeError, JSONDecodeError: they are not JSON in UTF-8.
         Refused: they are no certificate.
     """
-    return read(parse(content.decode("utf-8")))
+    data = parse(content.decode("utf-8"))
+    return read(data), data
 
 
 def judged(content: bytes, full: bool = False) -> Finding:
     """What a certificate shows by itself; whatever goes wrong is the reason why it is refused."""
     found = Finding()
     try:
-        certificate = certificate_of(content)
-        found = _about(certificate, full)
-        grade = judge(certificate).grade
-    except ValueError as error:
+        certificate, data = certificate_of(content)
+        found = _claimed(certificate, data, full)
+        return _shown(found, certificate, data, judge(certificate).grade, full)
+    except (UnicodeDecodeError, JSONDecodeError) as error:
         return replace(found.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
     except Refused as refusal:
         return found.refused(str(refusal))
-    except (RecursionError, MemoryError) as error:
-        return found.refused(f"is too large for the checker ({type(error).__name__})")
-    return replace(found, grade=grade)
+    except Exception as error:
+        return found.refused(f"cannot be judged ({type(error).__name__}: {error})")
 
 
 def lacking(content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
@@ -53,49 +54,62 @@ def lacking(content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
     """
     stated: dict[str, Statement] = {}
     for claim, (digest, text) in used.items():
-        premise = certificate_of(text)
-        require(premise.digest == digest, claim, digest, "changed while it was judged")
+        premise, data = certificate_of(text)
+        require(data["digest"] == digest, claim, digest, "changed while it was judged")
         stated[claim] = premise.statement
-    found = (unmet(theorem, stated) for theorem in theorems_of(certificate_of(content).statement))
+    theorems = theorems_of(certificate_of(content)[0].statement)
+    found = (unmet(theorem, stated) for theorem in theorems)
     return plain(next((lacks for lacks in found if lacks is not None), ""))
 
 
-def _about(certificate: Certificate, full: bool) -> Finding:
-    claim, statement = certificate.claim, certificate.statement
-    statement.require_well_formed()
+def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
+    """What it says of itself."""
+    claim = certificate.claim
     return Finding(
-        digest=certificate.digest,
-        label=shortened(claim.id, full),
+        digest=data["digest"],
+        label=claim.id,
         says=shortened(claim.says, full),
         m=claim.m,
         n=claim.n,
-        statement=shortened(statement.text(), full),
-        statement_digest=digest_of(to_json(statement)),
         verdict=certificate.verdict,
         uses=dict(sorted(certificate.uses.items())),
-        shows=tuple(
-            (digest_of(to_json(part)), verdict, shortened(part.text(), full))
-            for part, verdict in shown_by(statement, certificate.proof, certificate.verdict)
-        ),
+    )
+
+
+def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full: bool) -> Finding:
+    """What it shows, now that its proof is accepted."""
+    statement = certificate.statement
+    decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
+    shows = tuple((digest_of(part), verdict, where) for part, verdict, where in decided)
+    return replace(
+        found,
+        grade=grade,
+        statement=shortened(statement.text(), full),
+        statement_digest=shows[0][0],
+        shows=shows,
         theorems=tuple(_granted(theorem.name) for theorem in theorems_of(statement)),
         rules=tuple(sorted(set(_rules(certificate)))),
     )
 
 
-def shown_by(statement: Statement, proof: Proof, verdict: str) -> Iterator[tuple[Statement, str]]:
-    """A statement and the parts of it that an accepted proof decides, with their verdicts."""
-    yield statement, verdict
-    if isinstance(statement, AllOf) and isinstance(proof, EveryPart):
-        for (_, part), own in zip(statement.parts, proof.parts, strict=False):
-            yield from shown_by(part, own, "proved")
-    if isinstance(statement, AllOf) and isinstance(proof, OnePart) and 0 <= proof.part < len(statement.parts):
-        yield from shown_by(statement.parts[proof.part][1], proof.proof, "refuted")
+def decided_by(
+    statement: Statement, proof: Proof, verdict: str, data: Any, where: str = ""
+) -> Iterator[tuple[Any, str, str]]:
+    """A statement and its parts, as data, that an accepted proof decides; the verdict, and which part."""
+    yield data, verdict, where
+    if isinstance(statement, AllOf):
+        decided: dict[int, Proof] = {}
+        if isinstance(proof, EveryPart):
+            decided = dict(enumerate(proof.parts))
+        if isinstance(proof, OnePart):
+            decided = {proof.part: proof.proof}
+        for k, own in decided.items():
+            inner = f"{where}.{k + 1}" if where else f"part {k + 1}"
+            yield from decided_by(statement.parts[k][1], own, verdict, data["parts"][k][1], inner)
 
 
 def _granted(name: str) -> tuple[str, str, tuple[str, ...]]:
-    known = THEOREMS.get(name)
-    if known is None:
-        raise Refused("theorem", name, "is not one that the checker knows")
+    known = THEOREMS[name]
     granted: Any = known.granted
     return name, known.reference, (granted,) if isinstance(granted, str) else tuple(granted)
 
@@ -115,5 +129,3 @@ def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
             waiting += (getattr(value, field.name) for field in fields(value))
         elif isinstance(value, tuple):
             waiting += (part for part in value if isinstance(part, tuple) or is_dataclass(part))
-
-

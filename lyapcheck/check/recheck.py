@@ -103,7 +103,9 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
     """
     with Guard(limits or Limits()) as guard:
         own = [_own(document, guard, full) for document in documents]
-        problems = [(str(d.document.path), d.reason) for d in own if d.finding.unreadable and d.document.named]
+        problems = [
+            (str(d.document.path), d.reason) for d in own if d.finding.unreadable and d.document.named
+        ]
         if problems:
             raise Unreadable(problems)
         known = {one.finding.digest: one for one in own if one.finding.digest}
@@ -156,7 +158,10 @@ def _with_uses(one: Checked, settled: dict[str, Checked], guard: Guard) -> Check
     open_ = [claim for claim, its in used.items() if not its.accepted]
     if missing or open_:
         given = (*missing, *(name for its in used.values() for name in its.given))
-        reasons = [f"{plain(claim)}, whose certificate ({one.finding.uses[claim][:12]}…) is not here" for claim in missing]
+        reasons = [
+            f"{plain(claim)}, whose certificate ({one.finding.uses[claim][:12]}…) is not here"
+            for claim in missing
+        ]
         reasons += [f"{plain(claim)}, which is undecided" for claim in open_]
         reason = f"rests on {'; on '.join(reasons)}"
         return replace(one, status="undecided", reason=reason, grade="", given=tuple(dict.fromkeys(given)))
@@ -220,16 +225,18 @@ def _rests_on(one: Checked, settled: dict[str, Checked]) -> list[Checked]:
 
 def _alarms(checked: tuple[Checked, ...]) -> tuple[Alarm, ...]:
     """Statements that are both proved and refuted, whatever became of what the certificates rest on."""
-    said: dict[str, dict[str, list[str]]] = {}
-    texts: dict[str, str] = {}
+    said: dict[str, list[tuple[str, str, Checked]]] = {}
     for one in checked:
-        for digest, verdict, text in one.finding.shows if not one.finding.reason else ():
-            texts[digest] = text
-            files = said.setdefault(digest, {"proved": [], "refuted": []})[verdict]
-            if one.file not in files:
-                files.append(one.file)
-    return tuple(
-        Alarm(digest, texts[digest], tuple(files["proved"]), tuple(files["refuted"]))
-        for digest, files in said.items()
-        if files["proved"] and files["refuted"]
-    )
+        for digest, verdict, where in one.finding.shows:
+            said.setdefault(digest, []).append((where, verdict, one))
+    return tuple(_alarm(digest, of) for digest, of in said.items() if len({v for _, v, _ in of}) > 1)
+
+
+def _alarm(digest: str, said: list[tuple[str, str, Checked]]) -> Alarm:
+    """What to say of one statement; ``said`` is in which part, the verdict, and where."""
+    named: dict[str, dict[str, None]] = {"proved": {}, "refuted": {}}
+    for where, verdict, one in said:
+        named[verdict][f"{one.file} ({where})" if where else one.file] = None
+    where, _, first = min(said, key=lambda entry: entry[0])
+    of = f"{where} of: " if where else ""
+    return Alarm(digest, of + first.finding.statement, tuple(named["proved"]), tuple(named["refuted"]))

@@ -1,6 +1,6 @@
 """The process that judges: requests on its standard input, a line of JSON for each on its standard output.
 
-A request is a line of JSON, {"task", "sizes", …}, and then as many bytes as ``sizes`` says, for each document.
+A request is a line of JSON, {"task", "sizes", …}, then for each document as many bytes as ``sizes`` says.
 Whatever a certificate does to this process, the one that asks goes on: see ``guard``.
 """
 
@@ -12,14 +12,14 @@ import signal
 import sys
 from contextlib import suppress
 from dataclasses import asdict
+from importlib import import_module
+from importlib.util import find_spec
 from typing import IO, Any
 
 from lyapcheck.check.limits import Limits
 
-try:
-    import resource
-except ImportError:  # not a POSIX system
-    resource = None  # type: ignore[assignment]
+resource: Any = import_module("resource") if find_spec("resource") else None
+"""The limits of a POSIX system; elsewhere there are none."""
 
 RECURSION = 6_000
 """Levels of calls: an expression may be 300 deep, and a level of it takes several calls."""
@@ -48,15 +48,14 @@ def serve(limits: Limits) -> None:
 
 def _answer(request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
     from lyapcheck.check.judging import judged, lacking
-    from lyapcheck.check.refusal import Refused
 
     if request["task"] == "judge":
         return {"finding": asdict(judged(documents[0], request["full"]))}
     pairs = zip(request["digests"], documents[1:], strict=True)
     try:
         return {"lacks": lacking(documents[0], dict(zip(request["claims"], pairs, strict=True)))}
-    except (Refused, ValueError, RecursionError, MemoryError) as error:
-        return {"lacks": str(error) or type(error).__name__}
+    except Exception as error:
+        return {"lacks": f"what its theorem needs cannot be judged ({type(error).__name__}: {error})"}
 
 
 def _send(answers: IO[bytes], answer: dict[str, Any]) -> None:
@@ -65,7 +64,7 @@ def _send(answers: IO[bytes], answer: dict[str, Any]) -> None:
 
 
 def _limit(limits: Limits) -> list[str]:
-    """Set what holds for the whole process; which limits the system keeps: ``seconds``, ``memory`` or none."""
+    """Set what holds for the whole process, and say which limits the system keeps."""
     if resource is None:
         return []
     with suppress(ValueError, OSError):
@@ -95,4 +94,5 @@ def _is_spent(limits: Limits) -> bool:
     if resource is None:
         return False
     unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit * SHARE > limits.memory * 2**20
+    most: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+    return most * SHARE > limits.memory * 2**20

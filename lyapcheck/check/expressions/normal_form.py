@@ -30,6 +30,8 @@ from lyapcheck.check.expressions.expression import (
 from lyapcheck.check.numbers.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
+MAX_STEPS = 5_000_000
+"""Products of two terms each that the product of two polynomials may take."""
 ODD = ("atan", "asin", "tan")
 WITH_GENERATORS = frozenset((*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential"))
 
@@ -46,7 +48,8 @@ class Ratio:
             return Ratio(self.top + other.top, self.bottom)
         common = self.bottom.gcd(other.bottom)
         left, right = self.bottom / common, other.bottom / common
-        return Ratio(self.top * right + other.top * left, left * other.bottom)
+        top = _product(self.top, right) + _product(other.top, left)
+        return Ratio(top, _product(left, other.bottom))
 
     def __neg__(self) -> Ratio:
         return Ratio(-self.top, self.bottom)
@@ -55,12 +58,12 @@ class Ratio:
         return self + (-other)
 
     def __mul__(self, other: Ratio) -> Ratio:
-        return Ratio(self.top * other.top, self.bottom * other.bottom)
+        return Ratio(_product(self.top, other.top), _product(self.bottom, other.bottom))
 
     def __truediv__(self, other: Ratio) -> Ratio:
         if other.top == 0:
             raise Unsupported("division by an expression that is identically zero")
-        return Ratio(self.top * other.bottom, self.bottom * other.top)
+        return Ratio(_product(self.top, other.bottom), _product(self.bottom, other.top))
 
     def lowest(self) -> Ratio:
         """The same quotient in lowest terms, with a leading coefficient of 1 below."""
@@ -189,7 +192,14 @@ class RationalAlgebra(Algebra):
                 lower[(*exponents[:index], exponents[index] - 2, *exponents[index + 1 :])] = coefficient
             else:
                 keep[exponents] = coefficient
-        return self.ring.from_dict(keep) + self.ring.from_dict(lower) * square
+        return self.ring.from_dict(keep) + _product(self.ring.from_dict(lower), square)
+
+
+def _product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
+    """The product, unless it takes too many steps: a short text may stand for a polynomial without end."""
+    if len(left) * len(right) > MAX_STEPS:
+        raise Unsupported(f"a product of polynomials with {len(left)} and {len(right)} terms")
+    return left * right
 
 
 def _rational_root(radicand: fmpq_mpoly) -> Fraction | None:
