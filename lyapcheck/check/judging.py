@@ -115,17 +115,21 @@ def _granted(name: str) -> tuple[str, str, tuple[str, ...]]:
 
 
 def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
-    """The rule of the proof and those inside it, each with the module that it is in."""
+    """The rule of the proof, and the kinds and rules inside it, each with the module that it is in."""
     kind, by = type(certificate.statement), type(certificate.proof)
-    entered = RULES.get((kind, by))
-    if entered is not None:
-        yield f"{name_of(kind)} by {name_of(by)}", entered.__module__
-    waiting: list[Any] = [certificate.statement, certificate.proof]
+    yield f"{name_of(kind)} by {name_of(by)}", RULES[kind, by].__module__
+    if theorems_of(certificate.statement):
+        yield "premises", unmet.__module__
+    waiting: list[Any] = [*_values(certificate.statement), *_values(certificate.proof)]
     while waiting:
         value = waiting.pop()
         if isinstance(value, (Statement, Proof, Piece)):
             yield name_of(type(value)), type(value).__module__
         if is_dataclass(value):
-            waiting += (getattr(value, field.name) for field in fields(value))
+            waiting += _values(value)
         elif isinstance(value, tuple):
             waiting += (part for part in value if isinstance(part, tuple) or is_dataclass(part))
+
+
+def _values(value: Any) -> list[Any]:
+    return [getattr(value, field.name) for field in fields(value)]

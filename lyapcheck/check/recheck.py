@@ -116,7 +116,7 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
             replace(settled[one.finding.digest], document=one.document) if one.finding.digest else one
             for one in own
         )
-        return _summed(found, settled, guard.limited)
+        return summed(found, settled, guard.limited)
 
 
 def _own(document: Document, guard: Guard, full: bool) -> Checked:
@@ -191,7 +191,7 @@ def _fault(one: Checked, used: Checked, claim: str) -> str | None:
     return None if its.verdict == "proved" else "which is refuted"
 
 
-def _summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: tuple[str, ...]) -> Outcome:
+def summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: tuple[str, ...]) -> Outcome:
     """The outcome, with what the accepted ones rest on."""
     theorems: dict[str, list[str]] = {}
     references: dict[str, str] = {}

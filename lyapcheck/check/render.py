@@ -1,4 +1,4 @@
-"""The outcome of a recheck as text or JSON; its statements are rendered from data, never an author's words."""
+"""The outcome of a recheck as text or JSON; its statements are rendered from data, not an author's words."""
 
 from __future__ import annotations
 

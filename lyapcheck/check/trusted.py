@@ -1,7 +1,7 @@
 """The code that a verdict rests on: the modules of its rules and what these import, and a fixed core.
 
 The core reads and judges every certificate; it counts as itself, since what it imports beyond that is there
-for other kinds of statement. A rule counts with the closure of its module under imports, read from the sources.
+for other kinds of statement. A rule counts with all that its module imports, as the sources say.
 """
 
 from __future__ import annotations

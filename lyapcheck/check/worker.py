@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import asdict
 from importlib import import_module
 from importlib.util import find_spec
+from types import ModuleType
 from typing import IO, Any
 
 from lyapcheck.check.limits import Limits
@@ -35,25 +36,25 @@ def serve(limits: Limits) -> None:
     answers, requests = os.fdopen(os.dup(1), "wb"), sys.stdin.buffer
     os.dup2(2, 1)  # nothing that a library prints is an answer
     sys.setrecursionlimit(RECURSION)
-    _send(answers, {"limited": _limit(limits)})
+    limited = _limit(limits)
+    judging = import_module("lyapcheck.check.judging")  # now: it must find room within the limits
+    _send(answers, {"limited": limited})
     while line := requests.readline():
         request = json.loads(line)
         _limit_seconds(limits)
-        answer = _answer(request, [requests.read(size) for size in request["sizes"]])
+        answer = _answer(judging, request, [requests.read(size) for size in request["sizes"]])
         last = _is_spent(limits)
         _send(answers, {**answer, "last": last})
         if last:
             return
 
 
-def _answer(request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
-    from lyapcheck.check.judging import judged, lacking
-
+def _answer(judging: ModuleType, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
     if request["task"] == "judge":
-        return {"finding": asdict(judged(documents[0], request["full"]))}
+        return {"finding": asdict(judging.judged(documents[0], request["full"]))}
     pairs = zip(request["digests"], documents[1:], strict=True)
     try:
-        return {"lacks": lacking(documents[0], dict(zip(request["claims"], pairs, strict=True)))}
+        return {"lacks": judging.lacking(documents[0], dict(zip(request["claims"], pairs, strict=True)))}
     except Exception as error:
         return {"lacks": f"what its theorem needs cannot be judged ({type(error).__name__}: {error})"}
 
