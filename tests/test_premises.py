@@ -216,6 +216,7 @@ def test_what_the_checker_imports_is_still_small():
         assert {module.split(".")[0] for module in imported} <= {
             "__future__",
             "collections",
+            "dataclasses",
             "fractions",
             "functools",
             "itertools",

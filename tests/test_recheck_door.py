@@ -244,6 +244,19 @@ REFUSED = {
         same(["mul", *(["add", ["var", f"a{k}"], ["var", f"b{k}"]] for k in range(40))]),
         "a product of polynomials",
     ),
+    "a number for every n": (
+        sealed(
+            {
+                "kind": "EveryN",
+                "left": ["pow", ["pow", ["num", "7"], 50_000], 50_000],
+                "right": ONE,
+                "symmetric": [],
+                "rates": [],
+                "given": [],
+            }
+        ),
+        "more than 1000000 parts",
+    ),
     "a member of the family": (same(["h", 10_000, X]), "a product of polynomials"),
 }
 

@@ -10,7 +10,7 @@ import io
 import sys
 
 from lyapcheck.check.command import FORMATS, HELP, run
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.limits import MOST, Limits
 
 INTERRUPTED = 130
 
@@ -36,8 +36,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _positive(word: str) -> int:
     value = int(word)
-    if value < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
+    if not 1 <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"must be from 1 to {MOST}")
     return value
 
 

@@ -40,7 +40,7 @@ class Guard:
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
-        self.limited: tuple[str, ...] = ()
+        self.limited: tuple[str, ...] = ("seconds", "memory")
         self._process: subprocess.Popen[bytes] | None = None
         self._exit = ExitStack()
 

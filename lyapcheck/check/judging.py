@@ -127,8 +127,13 @@ def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
             yield name_of(type(value)), type(value).__module__
         if is_dataclass(value):
             waiting += _values(value)
-        elif isinstance(value, tuple):
-            waiting += (part for part in value if isinstance(part, tuple) or is_dataclass(part))
+        elif isinstance(value, tuple) and not _is_expression(value):
+            waiting += value
+
+
+def _is_expression(value: tuple[Any, ...]) -> bool:
+    """Whether a tuple is an expression, or a pair of texts: no proofs or statements in it."""
+    return value != () and isinstance(value[0], str) and not any(map(is_dataclass, value))
 
 
 def _values(value: Any) -> list[Any]:

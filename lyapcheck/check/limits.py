@@ -11,6 +11,9 @@ MAX_NESTING = 400
 SHOWN = 300
 """Characters of a statement, or of its author's words, unless the whole is asked for."""
 
+MOST = 1_000_000
+"""Seconds or MiB, beyond which a limit is none."""
+
 
 @dataclass(frozen=True)
 class Limits:

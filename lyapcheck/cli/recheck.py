@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from lyapcheck.check.command import HELP, run
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.limits import MOST, Limits
 
 
 class RecheckFormat(StrEnum):
@@ -25,8 +25,8 @@ def command(
     format: Annotated[RecheckFormat, typer.Option(help=HELP["format"])] = RecheckFormat.TEXT,  # noqa: A002
     full: Annotated[bool, typer.Option("--full", help=HELP["full"])] = False,
     trusted: Annotated[bool, typer.Option("--trusted", help=HELP["trusted"])] = False,
-    seconds: Annotated[int, typer.Option(min=1, help=HELP["seconds"])] = Limits.seconds,
-    memory: Annotated[int, typer.Option(min=1, help=HELP["memory"])] = Limits.memory,
+    seconds: Annotated[int, typer.Option(min=1, max=MOST, help=HELP["seconds"])] = Limits.seconds,
+    memory: Annotated[int, typer.Option(min=1, max=MOST, help=HELP["memory"])] = Limits.memory,
 ) -> None:
     """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
 

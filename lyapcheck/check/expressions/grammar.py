@@ -84,7 +84,9 @@ def written_out(tree: Any, known: dict[int, int]) -> int:
     """
     if id(tree) not in known:
         operation, *parts = tree
-        inner = sum(written_out(part, known) for part in parts if isinstance(part, tuple))
+        inner = 0
+        for part in parts:
+            inner += written_out(part, known) if isinstance(part, tuple) else 0
         times = parts[1] if operation == "pow" else 4 * parts[0] if operation in FAMILY else 1
         number = len(parts[0]) // 10 if operation == "num" else 0
         known[id(tree)] = 1 + number + inner * times

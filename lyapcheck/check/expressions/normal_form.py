@@ -27,6 +27,7 @@ from lyapcheck.check.expressions.expression import (
     nodes,
     variables,
 )
+from lyapcheck.check.expressions.grammar import MAX_SIZE, written_out
 from lyapcheck.check.numbers.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
@@ -220,6 +221,8 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     Raises:
         Unsupported: where the expression has no such form.
     """
+    if written_out(tree, {}) > MAX_SIZE:
+        raise Unsupported(f"more than {MAX_SIZE} parts with all powers written out")
     names = sorted(variables(tree))
     algebra = RationalAlgebra(names, room_for(tree))
     ratio = evaluate(tree, {name: algebra.variable(name) for name in names}, algebra)
