@@ -23,7 +23,6 @@ from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
-from lyapcheck.check.kinds.norm_chain import ChosenMajorants, Majorant
 from lyapcheck.check.kinds.signs import Multiple, SignIdentity
 from lyapcheck.check.kinds.theorem import Application
 from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
@@ -46,10 +45,8 @@ from lyapcheck.claims import (
     h,
     identity,
     implies,
-    majorant,
     nonnegative,
     norm_bound,
-    norm_chain,
     positive,
     reals,
     run_proof,
@@ -335,7 +332,6 @@ def test_a_refutation_that_claims_to_rest_on_others_is_refused():
 EVEN = for_all(expr(0) < 1 + x**2 * exp(x), -1, 3)
 TOP = for_all(h(2, x) <= "1.06", 0)
 TRANSITIVE = implies(positive("a", "b", "c"), (a < b, b <= var("c")), a < var("c"))
-CHAIN = norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1))
 PRINTED = agrees(a * b, "100", a="9", b="10")
 E0, KP = var("eps"), var("kp")
 LOOP = FamilyBounds(1, 1, 1, 1).loop((tanh(x), 1 - tanh(x) ** 2, tanh(x)), (E0 * KP, E0, KP))
@@ -449,15 +445,6 @@ FORGED = {
         "positive monomial",
     ),
     "a generator that does not exist": (TRANSITIVE, steps((0, 1, ((99, 1),)), (1, 1, ())), "generator = 99"),
-    "a majorant that does not exist": (CHAIN, ChosenMajorants((0, 2), ExactNumbers()), "choice = 2"),
-    "a majorant from behind": (CHAIN, ChosenMajorants((0, -1), ExactNumbers()), "choice = -1"),
-    "a factor without majorant": (CHAIN, ChosenMajorants((0,), ExactNumbers()), "one majorant per factor"),
-    "majorants in other symbols": (CHAIN, ChosenMajorants((0, 0), ExactNumbers()), "other symbols"),
-    "two negative majorants": (
-        norm_chain([(majorant(-2),), (majorant(-3),)], majorant(7)),
-        ChosenMajorants((0, 0), ExactNumbers()),
-        "shown to be >= 0",
-    ),
     "corners of other inputs": (PRINTED, Corners((0,), (1, 1), 128), "0 or 1 for each"),
     "corners on one side": (PRINTED, Corners((0, 0), (0, 0), 128), "below the printed"),
     "not outside": (PRINTED, OutsideRounding(128), "meets the rounding"),
@@ -519,7 +506,6 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         (EVEN, Pieces((boxes(*(F(k, 4) for k in range(13))), boxes(0, "1/2", 1)))),
         (for_all(tanh(x) < x, 0, 1, open_low=True), NEAR_ZERO),
         (TRANSITIVE, steps((0, 1, ()), (1, 1, ()))),
-        (CHAIN, ChosenMajorants((0, 1), ExactNumbers())),
         (PRINTED, Corners((0, 0), (1, 1), 128)),
         (CASES["not all"], OnePart(1, SeparateBalls(128))),
     ]
@@ -541,8 +527,6 @@ class Unheard(Statement):
 
 
 def test_a_statement_that_is_no_statement_is_refused():
-    powers = norm_chain([(Majorant(("num", "1"), (("w", -1),)),)], majorant(1))
-    assert "negative power" in refusal(powers, ChosenMajorants((0,), ExactNumbers()))
     assert "declared" in refusal(implies(positive("a"), (), a <= b), steps())
     assert "twice" in refusal(implies(positive("a", "a"), (), expr(0) <= a), steps())
     assert "at least one part" in refusal(all_of(), EveryPart(()))

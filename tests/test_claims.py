@@ -11,7 +11,6 @@ from lyapcheck.check.expressions.expression import ball, derivative, taylor
 from lyapcheck.check.expressions.inequality import positive_from, positive_near_zero
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.witness import refutation
-from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.numbers.fourier import fourier_sum
 from lyapcheck.check.numbers.polynomials import count_roots, nonnegative_on, positive_on
 from lyapcheck.claims import (
@@ -23,6 +22,7 @@ from lyapcheck.claims import (
     always_positive,
     any_matrix,
     any_vector,
+    at_most_every_n,
     atan,
     bounded,
     cos,
@@ -40,10 +40,8 @@ from lyapcheck.claims import (
     identity,
     implies,
     log,
-    majorant,
     nonnegative,
     norm_bound,
-    norm_chain,
     positive,
     potential,
     rate,
@@ -66,8 +64,7 @@ MITRINOVIC = (3 + x**2 / 11) * sinh(x) < x * (2 + cosh(x) + x**2 / 11)  # mitrin
 
 def norms_for_every_n(left, right):
     """‖V‖ ≤ a, ‖A‖ ≤ b, ‖W‖ ≤ c."""
-    norms = (((V.tree,), a.tree), ((A.tree,), b.tree), ((W.tree,), c.tree))
-    return BoundEveryN(left.tree, right.tree, (), (), (), norms, ())
+    return at_most_every_n(left, right, [(V, a), (A, b), (W, c)])
 
 
 PROVED = {
@@ -101,7 +98,6 @@ PROVED = {
     "rounding of the inputs": agrees(a * b, "100", a="9", b="10"),
     "amplitudes": bounded([sin(x) * cos(y) + cos(x) * sin(y)], [1]),
     "mean above amplitude": always_positive([2 + cos(x) * cos(y) + sin(x) * sin(y)]),
-    "norms": norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1)),
     "a symmetric part for every n": every_n(form(V, A + A.T, V) / 2, form(V, A, V)),
     "a derivative for every n": every_n(
         rate(a * form(V, A, V)),
@@ -110,10 +106,16 @@ PROVED = {
     ),
     "what is given, for every n": every_n(form(W, A, V), 2 * dot(W, W), given=[(A, V, W.times(2))]),
     "norms for every n": norms_for_every_n(form(V, A, W), a * b * c),
-    "ε ≤ ε₀": norm_chain([(majorant(eps=2),)], majorant(eps=1, eps0=1), (("eps", "eps0"),)),
+    "ε ≤ ε₀": at_most_every_n(x**2 * dot(V, W), x * a * b * c, [(x, a), (V, b), (W, c)]),
+    "constants that multiply to a rational": at_most_every_n(
+        form(V, A, W), 3 * gamma(2) * a * b, [(V, sqrt(3) * a), (A, gamma(2)), (W, sqrt(3) * b)]
+    ),
+    "the better of two norms": at_most_every_n(dot(V, W), a * b, [(V, 2 * a), (V, a), (W, b)]),
 }
 
 REFUTED = {
+    "larger ε": at_most_every_n(x * y * dot(V, V), x**2 * a**2, [(x, y), (V, a)]),
+    "norms for every n, other symbols": norms_for_every_n(form(V, A, W), a * b**2),
     "no symmetry for every n": every_n(form(V, A, W), form(W, A, V)),
     "a derivative without a factor": every_n(rate(dot(V, V)), dot(V, W), rates=[(V, W)]),
     "Mitrinović 3.6.12 too far": for_all(MITRINOVIC, "0.01", "5.2"),
@@ -144,9 +146,6 @@ REFUTED = {
 
 UNDECIDED = {
     "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
-    "norms too large": norm_chain([(majorant(2, w=1),)], majorant("1.9", w=1)),
-    "other symbols": norm_chain([(majorant(w=1),)], majorant(e=1)),
-    "larger ε": norm_chain([(majorant(eps=1, eps0=1),)], majorant(eps=2), (("eps", "eps0"),)),
     "leading term of unknown sign": ForSmall("eps", positive("a", "b"), (), var("eps") * a + a < b),
     "a leading term that vanishes": ForSmall("eps", positive("a"), (), a + var("eps") < a),
 }

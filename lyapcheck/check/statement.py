@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
+from lyapcheck.check.expressions.domain import REALS, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.witness import Comparison
 
@@ -56,17 +58,34 @@ class Statement(ABC):
         """
 
     @abstractmethod
+    def terms(self) -> Iterable[tuple[Tree, Domain]]:
+        """Its expressions, each with the domain on all of which it must have a value; see ``defined``.
+
+        A kind that consists of other statements leaves theirs to them.
+        """
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What a proof of it takes for granted about the world, in sentences."""
+        return ()
+
+    @abstractmethod
     def text(self) -> str:
         """The statement in the words of mathematics, from its data alone."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """A real variable of an implication; ``low`` bounds it from below, strictly when ``strict``."""
+    """A real variable; ``low`` bounds it from below, strictly when ``strict``."""
 
     name: str
     low: Fraction | None = None
     strict: bool = True
+
+    @property
+    def interval(self) -> Interval:
+        """The numbers over which it ranges."""
+        return REALS if self.low is None else Interval(self.low, open_low=self.strict)
 
 
 Point = tuple[tuple[str, Fraction], ...]

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from flint import ctx
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 
@@ -54,8 +55,9 @@ def verify(statement: Statement, proof: Proof) -> Accepted:
     Raises:
         Refused: the proof shows nothing, for the reason given.
 
-    Soundness: rests on the functions entered with :func:`rule` and on nothing that searches. Whatever goes
-    wrong inside them, an overflow or a division by zero included, is a refusal.
+    Soundness: rests on the functions entered with :func:`rule`, on the judgement that every term has a value
+        (``expressions.defined``), and on nothing that searches. Whatever goes wrong inside them, an overflow
+        or a division by zero included, is a refusal.
     """
     statement.require_well_formed()
     judge = RULES.get((type(statement), type(proof)))
@@ -66,7 +68,11 @@ def verify(statement: Statement, proof: Proof) -> Accepted:
         )
     try:
         with ctx.workprec(BITS):
-            return judge(statement, proof)
+            accepted = judge(statement, proof)
+            if accepted.verdict == "proved":
+                for tree, domain in statement.terms():
+                    require_defined(tree, domain)
+            return accepted
     except Refused:
         raise
     except Exception as error:

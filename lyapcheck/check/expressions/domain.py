@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -32,8 +32,3 @@ Domain = Mapping[str, Interval]
 REALS = Interval()
 POSITIVE = Interval(low=Fraction(0), open_low=True)
 NONNEGATIVE = Interval(low=Fraction(0))
-
-
-def all_in(names: Iterable[str], interval: Interval) -> dict[str, Interval]:
-    """The same interval for each name."""
-    return dict.fromkeys(names, interval)

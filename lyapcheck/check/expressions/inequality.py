@@ -115,36 +115,9 @@ def positive_on_box(tree: Tree, name: str, low: Fraction, high: Fraction, order:
 def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None, strict: bool) -> bool | None:
     """Whether f > 0 (or >= 0) on [low, high], exactly; ``None`` where f is not in x or y alone.
 
-    With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0. No divisor may vanish.
+    With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0. The quotient is taken in
+    lowest terms: that f has a value everywhere is judged by ``defined``.
     """
-    if not all(_has_no_zero(divisor, name, low, high, strict) for divisor in divisors(tree)):
-        return None
-    return _sign_of_quotient(tree, name, low, high, strict)
-
-
-def divisors(tree: Tree) -> list[Tree]:
-    """What an expression divides by, anywhere."""
-    found = [part for child in tree[1:] if isinstance(child, tuple) for part in divisors(child)]
-    return [*found, tree[2]] if tree[0] == "div" and tree[2][0] != "num" else found
-
-
-def _has_no_zero(tree: Tree, name: str, low: Fraction, high: Fraction | None, zero_left_out: bool) -> bool:
-    """Whether an expression without poles keeps a sign, exactly; at 0 too unless that is left out."""
-    signs = (tree, ("neg", tree))
-    if not zero_left_out and low == 0 and not _is_not_zero(tree, name, low):
-        return False
-    return any(_sign_of_quotient(side, name, low, high, True) for side in signs)
-
-
-def _is_not_zero(tree: Tree, name: str, point: Fraction) -> bool:
-    value = ball(tree, {name: ball_of(point)})
-    return bool(value > 0 or value < 0)
-
-
-def _sign_of_quotient(
-    tree: Tree, name: str, low: Fraction, high: Fraction | None, strict: bool
-) -> bool | None:
-    """The same in lowest terms, where common zeros of top and bottom have gone."""
     found = _in_x_and_y(tree, name)
     if found is None or any(isinstance(c, arb) for terms in found for c in terms.values()):
         return None

@@ -34,6 +34,7 @@ HYPERBOLIC = ("sinh", "cosh", "tanh")
 MAX_STEPS = 5_000_000
 """Products of two terms each that the product of two polynomials may take."""
 ODD = ("atan", "asin", "tan")
+AT_ZERO = {"sin": 0, "cos": 1, "tan": 0, "atan": 0, "asin": 0, "abs": 0}
 WITH_GENERATORS = frozenset((*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential"))
 
 
@@ -108,6 +109,10 @@ class RationalAlgebra(Algebra):
     def function(self, name: str, value: Ratio) -> Ratio:
         """A function of a quotient, in generators."""
         value = Ratio(self.reduced(value.top), self.reduced(value.bottom)).lowest()
+        if value.top == 0 and name in AT_ZERO:
+            return self.number(Fraction(AT_ZERO[name]))
+        if name == "log" and value.top == value.bottom:
+            return self.number(Fraction(0))
         if name == "exp":
             return self._exponential(value)
         if name in HYPERBOLIC:

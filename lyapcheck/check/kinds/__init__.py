@@ -15,8 +15,9 @@ from lyapcheck.check.kinds import (
     for_small,
     identity,
     implies,
+    inertia,
+    loop_property,
     norm_bound,
-    norm_chain,
     theorem,
     trigonometric,
 )
@@ -33,8 +34,9 @@ __all__ = [
     "for_small",
     "identity",
     "implies",
+    "inertia",
+    "loop_property",
     "norm_bound",
-    "norm_chain",
     "theorem",
     "trigonometric",
 ]

@@ -15,6 +15,7 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
+from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
@@ -47,6 +48,11 @@ class Agrees(Statement):
         for text in (*(text for _, text in self.inputs), self.printed):
             plain = len(text) <= MAX_LENGTH and DECIMAL.fullmatch(text) is not None
             require(plain, "printed number", text, "is not a decimal")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The formula over all roundings of the inputs."""
+        ranges = {name: printed_range(value) for name, value in self.inputs}
+        return [(self.formula, {name: Interval(r.lower, r.upper) for name, r in ranges.items()})]
 
     def text(self) -> str:
         """The statement in one line."""

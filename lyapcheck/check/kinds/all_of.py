@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
@@ -18,6 +20,15 @@ class AllOf(Statement):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None of its own."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What the parts take for granted."""
+        return tuple(dict.fromkeys(line for _, part in self.parts for line in part.granted))
 
     def text(self) -> str:
         """The parts by name, in one line."""

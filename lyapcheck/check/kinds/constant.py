@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 from flint import ctx
 
-from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree, Unsupported
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.witness import holds
-from lyapcheck.check.kinds.parts import relation_text, require_relations
+from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.replay import require_bits
 from lyapcheck.check.statement import Proof, Relation, Statement
@@ -25,6 +26,10 @@ class Constant(Statement):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require_relations([self.relation], [])
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides."""
+        return terms_of([self.relation], {})
 
     def text(self) -> str:
         """The statement in one line."""

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from flint import ctx
 
+from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.inequality import (
     positive_from,
@@ -21,7 +22,7 @@ from lyapcheck.check.expressions.inequality import (
     sign_everywhere,
 )
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.parts import relation_text, require_relations
+from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_bits, require_failure
 from lyapcheck.check.statement import Proof, Relation, Statement, Witness
@@ -44,7 +45,17 @@ class ForAll(Statement):
         require_relations([self.relation], [self.variable])
         low, high = self.low, self.high
         if low is not None and high is not None:
-            require(low <= high, "interval", f"[{low}, {high}]", "is empty")
+            closed = not self.open_low and not self.open_high
+            require(low < high or (low == high and closed), "interval", f"{low}, {high}", "is empty")
+
+    @property
+    def interval(self) -> Interval:
+        """The domain."""
+        return Interval(self.low, self.high, self.open_low, self.open_high)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides over the interval."""
+        return terms_of([self.relation], {self.variable: self.interval})
 
     def text(self) -> str:
         """The statement in one line."""
@@ -94,7 +105,7 @@ class Pieces(Proof):
 MAX_CUTS = 20_000
 
 
-Domain = tuple[Tree, Fraction, Fraction | None]
+Stretch = tuple[Tree, Fraction, Fraction | None]
 """The gap on [low, high] with 0 <= low; ``None`` is infinity."""
 
 
@@ -122,7 +133,7 @@ def by_pieces(statement: ForAll, proof: Pieces) -> Accepted:
     )
 
 
-def pieces(statement: ForAll) -> Iterator[Domain]:
+def pieces(statement: ForAll) -> Iterator[Stretch]:
     """The gap on pieces [low, high] with 0 <= low, which together cover the domain."""
     low, high, zero = statement.low, statement.high, Fraction(0)
     gap = statement.relation.gap
@@ -150,7 +161,7 @@ def zero_must_be_positive(statement: ForAll, low: Fraction) -> bool:
     return statement.relation.strict and low == 0 and not zero_is_left_out(statement)
 
 
-def _shown(statement: ForAll, domain: Domain, piece: Piece) -> str:
+def _shown(statement: ForAll, domain: Stretch, piece: Piece) -> str:
     """The grade of the proof on one piece."""
     if isinstance(piece, Boxes):
         with ctx.workprec(require_bits(piece.bits)):
@@ -164,7 +175,7 @@ def _shown(statement: ForAll, domain: Domain, piece: Piece) -> str:
     return "exact"
 
 
-def _require_boxes(statement: ForAll, domain: Domain, piece: Boxes) -> None:
+def _require_boxes(statement: ForAll, domain: Stretch, piece: Boxes) -> None:
     (tree, low, high), cuts, name = domain, piece.cuts, statement.variable
     require(1 <= len(cuts) <= MAX_CUTS, "cuts", len(cuts), f"must be from 1 to {MAX_CUTS}")
     if piece.from_zero:

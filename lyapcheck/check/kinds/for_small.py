@@ -12,7 +12,9 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.check.kinds.parts import conditional_text, require_relations
+from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations, terms_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable
@@ -36,6 +38,12 @@ class ForSmall(Statement):
         """Refuse what the rules should not have to look at."""
         names = [*(v.name for v in self.variables), self.small, *self.bounded]
         require_relations((*self.hypotheses, self.conclusion), names)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """All sides, for every positive value of the small variable and bounded ones in (0, 1]."""
+        unit = Interval(Fraction(0), Fraction(1), open_low=True)
+        domain = domain_of(self.variables) | {self.small: POSITIVE} | dict.fromkeys(self.bounded, unit)
+        return terms_of((*self.hypotheses, self.conclusion), domain)
 
     def text(self) -> str:
         """The statement in one line."""

@@ -7,30 +7,51 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.parts import domain_of, range_text, require_distinct
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import coordinates, require_failure
-from lyapcheck.check.statement import Proof, Statement, Witness
+from lyapcheck.check.replay import coordinates, require_failure, require_inside
+from lyapcheck.check.statement import Proof, Statement, Variable, Witness
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
 class Identity(Statement):
-    """``left = right`` for all values of the variables."""
+    """``left = right`` for all values of the variables; those not in ``variables`` are real numbers."""
 
     left: Tree
     right: Tree
+    variables: tuple[Variable, ...] = ()
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
+        """Expressions, and a range for variables that occur."""
         require_expressions((self.left, self.right))
+        named = [variable.name for variable in self.variables]
+        require_distinct("variables", named)
+        for name in named:
+            require(name in self.names, "variables", name, "does not occur")
+
+    @property
+    def names(self) -> set[str]:
+        """The variables that occur."""
+        return variables(self.left) | variables(self.right)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides."""
+        return [(side, domain_of(self.variables)) for side in (self.left, self.right)]
 
     def text(self) -> str:
-        """The statement in one line."""
-        return f"{expression_text(self.left)} = {expression_text(self.right)}"
+        """``left = right for all …``."""
+        sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
+        free = sorted(self.names - {variable.name for variable in self.variables})
+        over = ", ".join(
+            filter(None, [f"{', '.join(free)} in R" if free else "", range_text(self.variables)])
+        )
+        return f"{sides} for all {over}" if over else sides
 
 
 @dataclass(frozen=True)
@@ -50,8 +71,8 @@ def by_normal_form(statement: Identity, proof: NormalForm) -> Accepted:
 @rule(Identity, Witness)
 def by_witness(statement: Identity, proof: Witness) -> Accepted:
     """Soundness: disjoint balls for both sides at one point."""
-    names = variables(statement.left) | variables(statement.right)
-    point = coordinates(proof.point, names)
+    point = coordinates(proof.point, statement.names)
+    require_inside(statement.variables, point)
     require_failure((statement.left, "=", statement.right), point, proof.bits)
     return Accepted("refuted", "enclosure")
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.check.kinds.parts import conditional_text, require_relations
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations, terms_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
-from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import coordinates, require_failure
+from lyapcheck.check.replay import coordinates, require_failure, require_inside
 from lyapcheck.check.statement import Relation, Statement, Variable, Witness
 from lyapcheck.check.verify import Accepted, rule
 
@@ -23,6 +24,10 @@ class Implies(Statement):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require_relations((*self.hypotheses, self.conclusion), [v.name for v in self.variables])
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """All sides, for all values of the variables: hypotheses give no term a value."""
+        return terms_of((*self.hypotheses, self.conclusion), domain_of(self.variables))
 
     def text(self) -> str:
         """The statement in one line."""
@@ -41,10 +46,7 @@ def by_signs(statement: Implies, proof: SignIdentity) -> Accepted:
 def by_witness(statement: Implies, proof: Witness) -> Accepted:
     """Soundness: variables in their ranges; every hypothesis holds and the conclusion fails, in balls."""
     point = coordinates(proof.point, [v.name for v in statement.variables])
-    for v in statement.variables:
-        x = point[v.name]
-        inside = v.low is None or x > v.low or (x == v.low and not v.strict)
-        require(inside, v.name, x, f"must be {'above' if v.strict else 'at least'} {v.low}")
+    require_inside(statement.variables, point)
     given = tuple(hypothesis.comparison for hypothesis in statement.hypotheses)
     require_failure(statement.conclusion.comparison, point, proof.bits, given)
     return Accepted("refuted", "enclosure")

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
@@ -38,6 +39,10 @@ class NormBound(Statement):
         require(self.power in (0, 1), "power", self.power, "must be 0 or 1")
         require_expressions([self.component], ["x"])
         require_expressions([self.bound], [])
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The component for every real x, and the bound."""
+        return [(self.component, {}), (self.bound, {})]
 
     def text(self) -> str:
         """The statement in one line."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from lyapcheck.check.expressions.domain import Domain, Interval
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text, number_text
 from lyapcheck.check.refusal import require
@@ -28,6 +30,16 @@ def require_distinct(subject: str, names: list[str]) -> None:
         Refused: there is one.
     """
     require(len(set(names)) == len(names), subject, ", ".join(names), "one is given twice")
+
+
+def terms_of(relations: Iterable[Relation], domain: Domain) -> list[tuple[Tree, Domain]]:
+    """Both sides of relations, which must have values over a domain."""
+    return [(side, domain) for relation in relations for side in (relation.left, relation.right)]
+
+
+def domain_of(variables: Iterable[Variable]) -> dict[str, Interval]:
+    """The intervals over which variables range."""
+    return {variable.name: variable.interval for variable in variables}
 
 
 def relation_text(relation: Relation) -> str:

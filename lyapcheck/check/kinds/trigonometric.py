@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
+from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import number_text
@@ -32,6 +33,10 @@ class TrigonometricBound(Statement):
         """Refuse what the rules should not have to look at."""
         require_expressions(tree for tree, _ in self.entries)
 
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The polynomials, for all angles."""
+        return [(tree, {}) for tree, _ in self.entries]
+
     def text(self) -> str:
         """The statement in one line."""
         limits = [limit for _, limit in self.entries if limit is not None]
@@ -48,6 +53,10 @@ class TrigonometricPositive(Statement):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require_expressions(self.entries)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """The polynomials, for all angles."""
+        return [(tree, {}) for tree in self.entries]
 
     def text(self) -> str:
         """The statement in one line."""

@@ -68,6 +68,14 @@ class Entries:
         factor = self.number(rest[0])
         return [[("mul", factor, entry) for entry in row] for row in self.matrix(rest[1])]
 
+    def names(self, letter: Tree) -> list[str]:
+        """The variables of a letter: one for a number, one an entry of a vector or a matrix."""
+        if letter[0] == "var":
+            return [letter[1]]
+        if letter[0] == "mat":
+            return [entry[1] for row in self.matrix(letter) for entry in row]
+        return [entry[1] for entry in self.vector(("vec", letter[1]))]
+
     def _name(self, name: str, i: int, j: int) -> str:
         if name in self.symmetric:
             i, j = min(i, j), max(i, j)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from lyapcheck.check.expressions.defined import Undefined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -14,11 +17,12 @@ from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
-from lyapcheck.claims.procedures.chain import find_chain
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
+from lyapcheck.claims.procedures.inertia import find_mass_above, find_upper
+from lyapcheck.claims.procedures.loop_property import find_loop_property
 from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
@@ -40,6 +44,8 @@ def decide(statement: kinds.Statement | kinds.Missing) -> Decision:
         return undecided(finding.reason, finding.method, **finding.evidence)
     try:
         accepted = verify(statement, finding.proof)
+    except Undefined as undefined:
+        return undecided(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
         return undecided(
             f"what the search found is refused by the checker ({refusal}); report this as a fault",
@@ -87,9 +93,12 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Implies: find_implies,
     kinds.ForSmall: find_for_small,
     kinds.Agrees: find_agrees,
-    kinds.NormChain: find_chain,
     kinds.TrigonometricBound: find_bounds,
     kinds.TrigonometricPositive: find_positive,
+    LoopProperty: find_loop_property,
+    MassAbove: find_mass_above,
+    MassBelow: find_upper,
+    CoriolisBelow: find_upper,
     state_kinds.Decreasing: find_decreasing,
     state_kinds.DampingBelow: find_damping_below,
     kinds.Theorem: _apply_theorem,

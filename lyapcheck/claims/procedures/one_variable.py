@@ -22,10 +22,10 @@ from lyapcheck.check.expressions.inequality import (
 from lyapcheck.check.kinds.for_all import (
     ZERO_BOX,
     Boxes,
-    Domain,
     ForAll,
     Piece,
     Pieces,
+    Stretch,
     Sturm,
     pieces,
     zero_is_left_out,
@@ -89,7 +89,7 @@ def valleys(statement: ForAll) -> list[Fraction]:
     return lowest_points(statement.relation, statement.variable, low, high)
 
 
-def _prove(statement: ForAll, domain: Domain) -> Piece:
+def _prove(statement: ForAll, domain: Stretch) -> Piece:
     """The step that proves one piece; raises :class:`_Open` with what to try next."""
     tree, low, high = domain
     strict, at_zero = statement.relation.strict, zero_must_be_positive(statement, low)
@@ -105,7 +105,7 @@ def _prove(statement: ForAll, domain: Domain) -> Piece:
     return _boxes(statement, domain)
 
 
-def _boxes(statement: ForAll, domain: Domain) -> Boxes:
+def _boxes(statement: ForAll, domain: Stretch) -> Boxes:
     tree, low, high = domain
     name, start, end = statement.variable, low, high
     if low == 0:
