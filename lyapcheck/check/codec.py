@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from functools import lru_cache
+from inspect import isabstract
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 from unicodedata import category, is_normalized
@@ -133,8 +134,14 @@ def _one_class(cls: Any, data: Any, where: str) -> Any:
 
 def members(base: type) -> dict[str, Any]:
     """The kinds of statement, rules or pieces of the checker by name; not what others derive."""
-    found: list[Any] = base.__subclasses__()
-    return {name_of(cls): cls for cls in found if cls.__module__.startswith(f"{KINDS}.")}
+    found: dict[str, Any] = {}
+    waiting: list[Any] = base.__subclasses__()
+    while waiting:
+        cls = waiting.pop()
+        waiting += cls.__subclasses__()
+        if cls.__module__.startswith(f"{KINDS}.") and not isabstract(cls):
+            found[name_of(cls)] = cls
+    return found
 
 
 READERS: dict[Any, Callable[[Any, Any, str], Any]] = {

@@ -14,7 +14,8 @@ class Finding:
 
     ``label`` and ``says`` are its author's words, ``statement`` is rendered from data, ``shows`` lists
     (digest, verdict, which part) for the statement and the parts of it that the proof decides, ``theorems``
-    lists (name, where it is proved, what it takes for granted), ``rules`` lists (rule, its module).
+    lists (name, where it is proved), ``granted`` what the statement takes for granted, ``rules`` lists
+    (rule, its module).
     """
 
     reason: str = ""
@@ -30,7 +31,8 @@ class Finding:
     grade: str = ""
     uses: dict[str, str] = field(default_factory=dict)
     shows: tuple[tuple[str, str, str], ...] = ()
-    theorems: tuple[tuple[str, str, tuple[str, ...]], ...] = ()
+    theorems: tuple[tuple[str, str], ...] = ()
+    granted: tuple[str, ...] = ()
     rules: tuple[tuple[str, str], ...] = ()
 
     def refused(self, reason: str) -> Finding:

@@ -58,9 +58,8 @@ class Guard:
         if "ended" in answer:
             return Finding().refused(answer["ended"])
         found = answer["finding"]
-        pairs = {name: tuple(map(tuple, found[name])) for name in ("shows", "rules")}
-        theorems = tuple((name, where, tuple(granted)) for name, where, granted in found["theorems"])
-        return Finding(**{**found, **pairs, "theorems": theorems})
+        pairs = {name: tuple(map(tuple, found[name])) for name in ("shows", "rules", "theorems")}
+        return Finding(**{**found, **pairs, "granted": tuple(found["granted"])})
 
     def lacks(self, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
         """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""

@@ -87,7 +87,8 @@ def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full
         statement=shortened(statement.text(), full),
         statement_digest=shows[0][0],
         shows=shows,
-        theorems=tuple(_granted(theorem.name) for theorem in theorems_of(statement)),
+        theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement)),
+        granted=statement.granted,
         rules=tuple(sorted(set(_rules(certificate)))),
     )
 
@@ -106,12 +107,6 @@ def decided_by(
         for k, own in decided.items():
             inner = f"{where}.{k + 1}" if where else f"part {k + 1}"
             yield from decided_by(statement.parts[k][1], own, verdict, data["parts"][k][1], inner)
-
-
-def _granted(name: str) -> tuple[str, str, tuple[str, ...]]:
-    known = THEOREMS[name]
-    granted: Any = known.granted
-    return name, known.reference, (granted,) if isinstance(granted, str) else tuple(granted)
 
 
 def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:

@@ -61,7 +61,7 @@ class Outcome:
     """All documents in the order they were given, what they rest on, and what contradicts itself.
 
     ``theorems`` gives for each theorem the files of the accepted certificates that rest on it, ``granted``
-    for each accepted file the sentences that its theorems take for granted, ``rules`` the (rule, module)
+    for each accepted file what its statements take for granted, ``rules`` the (rule, module)
     pairs it rests on; ``limited`` says which limits the system keeps.
     """
 
@@ -201,11 +201,11 @@ def summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: t
         if not one.accepted:
             continue
         below = [its.finding for its in _rests_on(one, settled)]
-        applied = {name: (where, sentences) for its in below for name, where, sentences in its.theorems}
+        applied = {name: where for its in below for name, where in its.theorems}
         for name in sorted(applied):
             theorems.setdefault(name, []).append(one.file)
-            references[name] = applied[name][0]
-        granted[one.file] = tuple(dict.fromkeys(s for name in sorted(applied) for s in applied[name][1]))
+            references[name] = applied[name]
+        granted[one.file] = tuple(dict.fromkeys(line for its in below for line in its.granted))
         rules[one.file] = tuple(sorted({rule for its in below for rule in its.rules}))
     files = {name: tuple(theorems[name]) for name in sorted(theorems)}
     return Outcome(checked, _alarms(checked), files, references, granted, rules, limited)

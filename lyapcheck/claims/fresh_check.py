@@ -28,12 +28,24 @@ class Judged:
     grade: str | None
 
 
+class Alarm(Exception):
+    """One statement is both proved and refuted: the checker is wrong, and no verdict of this run counts."""
+
+    def __init__(self, found: list[tuple[str, list[str], list[str]]]) -> None:
+        self.statements = tuple(statement for statement, _, _ in found)
+        super().__init__(
+            "one statement is both proved and refuted, so the checker is wrong; trust none of its verdicts, "
+            f"and report this: {'; '.join(self.statements)}"
+        )
+
+
 def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
     """What ``python -m lyapcheck.check`` says about certificates that use none but each other.
 
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
 
     Raises:
+        Alarm: it proves and refutes one statement.
         RuntimeError: the checker does not answer, or answers about something else.
     """
     if not certificates:
@@ -45,9 +57,12 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
         words = command("lyapcheck.check", "--format", "json", folder)
         run = subprocess.run(words, capture_output=True, env=environment(), check=False)
     try:
-        rows = {row["file"]: row for row in json.loads(run.stdout)["certificates"]}
+        answer = json.loads(run.stdout)
     except ValueError as error:
         raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}") from error
+    if answer["alarms"]:
+        raise Alarm([(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]])
+    rows = {row["file"]: row for row in answer["certificates"]}
     return {key: _judged(rows[name], certificates[key].claim) for name, key in files.items()}
 
 
