@@ -59,7 +59,7 @@ def from_json(cls: type[T], data: Any, where: str) -> T:
 
 def _read(hint: Any, data: Any, where: str) -> Any:
     if hint == Tree:
-        return _tree(data, where, MAX_DEPTH)
+        return _tree(data, where, MAX_DEPTH, {})
     reader = READERS.get(get_origin(hint) or hint)
     if reader is not None:
         return reader(hint, data, where)
@@ -103,13 +103,17 @@ def _fraction(hint: Any, data: Any, where: str) -> Fraction:
     return Fraction(data)
 
 
-def _tree(data: Any, where: str, depth: int) -> Any:
-    """Lists to tuples; what they mean is for ``well_formed`` to see."""
+def _tree(data: Any, where: str, depth: int, known: dict[tuple[Any, ...], Any]) -> Any:
+    """Lists to tuples, equal ones to one object; what they mean is for ``grammar`` to see.
+
+    ``known`` keeps all objects that it hands out, so that the identities in its keys stay their own.
+    """
     require(depth > 0, where, "", f"is nested deeper than {MAX_DEPTH} levels")
     if isinstance(data, list):
-        return tuple(_tree(part, where, depth - 1) for part in data)
+        parts = tuple(_tree(part, where, depth - 1, known) for part in data)
+        return known.setdefault(tuple(map(id, parts)), parts)
     require(type(data) is int or is_text(data), where, data, "is not part of an expression")
-    return data
+    return known.setdefault((type(data), data), data)
 
 
 def _tagged(base: type, data: Any, where: str) -> Any:

@@ -11,9 +11,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from lyapcheck.check.certificate import MAX_CHARACTERS, parse
+from lyapcheck.check.certificate import parse
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.expressions.grammar import MAX_DEPTH
+from lyapcheck.check.limits import MAX_BYTES
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.statements import Missing, Statement
@@ -98,8 +99,8 @@ def statement_json(statement: Statement) -> str:
         ValueError, TypeError: it is not plain data.
     """
     line = json.dumps(to_json(statement), separators=(",", ":"), allow_nan=False)
-    if len(line) > MAX_CHARACTERS:
-        raise Lacking(f"its statement, written out, is above {MAX_CHARACTERS} characters")
+    if len(line) > MAX_BYTES:
+        raise Lacking(f"its statement, written out, is above {MAX_BYTES} characters")
     return line
 
 
