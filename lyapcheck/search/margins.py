@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
 from lyapcheck.check.loop import Closure
-from lyapcheck.check.loop.decay import Margin, shown
+from lyapcheck.check.loop.decay import Margin
 from lyapcheck.check.loop.radial import Radial
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
@@ -37,8 +37,8 @@ MAX_BOXES = 60_000
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A margin that the checker has accepted, and the data by which it was."""
+class Attempt:
+    """A margin, and untrusted data for dV/dt < 0 of its reduced closure."""
 
     margin: Margin
     by: BoxTree | RadialBounds
@@ -78,18 +78,14 @@ def margin_at(
     return Margin(closure, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
 
 
-def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
-    """The margin at the largest share of its ε₀ for which the checker accepts a proof.
-
-    Soundness: ``lyapcheck.check.loop.decay.shown`` has accepted what is handed back.
-    """
+def attempts(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
+    """The margin at falling shares of its ε₀, wherever the search finds data; for the checker to judge."""
     for share in SHARES:
         eps0 = _short(margin.closure.eps0 * share)
         tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
         by = _data(setting, tried, max_boxes)
-        if by is not None and shown(tried, setting.inertia_proof, by, jobs):
-            return Shown(tried, by)
-    return None
+        if by is not None:
+            yield Attempt(tried, by)
 
 
 def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:

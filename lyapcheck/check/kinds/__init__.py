@@ -18,6 +18,8 @@ from lyapcheck.check.kinds import (
     inertia,
     loop_property,
     norm_bound,
+    resting,
+    settling,
     theorem,
     trigonometric,
 )
@@ -37,6 +39,8 @@ __all__ = [
     "inertia",
     "loop_property",
     "norm_bound",
+    "resting",
+    "settling",
     "theorem",
     "trigonometric",
 ]

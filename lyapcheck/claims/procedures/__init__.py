@@ -11,6 +11,8 @@ from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import LoopProperty
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -27,6 +29,7 @@ from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
 from lyapcheck.claims.procedures.printed import find_agrees
+from lyapcheck.claims.procedures.settling import find_resting, find_settling
 from lyapcheck.claims.procedures.small import find_for_small
 from lyapcheck.claims.procedures.states import find_damping_below, find_decreasing
 from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
@@ -94,6 +97,8 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     CoriolisBelow: find_upper,
     state_kinds.Decreasing: find_decreasing,
     state_kinds.DampingBelow: find_damping_below,
+    Settling: find_settling,
+    Resting: find_resting,
     kinds.Theorem: _apply_theorem,
     kinds.AllOf: _find_all,
 }
