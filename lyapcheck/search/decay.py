@@ -67,7 +67,9 @@ def settling_bound(
     """
     start = start_of(setting, e0, w0, delta)
     wanted = _Wanted(setting, Disturbance.none(setting.n), start, short_below(as_written(delta)))
-    shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
+    shown, reason = None, not_positive(setting)
+    if not reason:
+        shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
     gains, robot = setting.gains, setting.model.name
     exponential = gains.m in (None, 1)
     return SettlingBound(gains.name, gains.m, robot, shown, reason, as_written(delta), exponential)
@@ -106,8 +108,10 @@ def disturbance_bound(
     start = start_of(setting, e0, w0, 1.0)
     acting = Disturbance(torques_of(setting, "torque", torque), torques_of(setting, "dry", dry))
     wanted = _Wanted(setting, acting, start, None)
-    shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
-    at_rest = resting(setting, [a + b for a, b in zip(acting.torque, acting.dry, strict=True)])
+    shown, reason, at_rest = None, not_positive(setting), None
+    if not reason:
+        shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
+        at_rest = resting(setting, [a + b for a, b in zip(acting.torque, acting.dry, strict=True)])
     gains, robot = setting.gains, setting.model.name
     return DisturbanceBound(gains.name, gains.m, robot, shown, reason, acting.torque, acting.dry, at_rest)
 
@@ -123,9 +127,6 @@ class _Wanted:
 
     def shown(self, max_boxes: int, jobs: int, tell: Progress) -> tuple[Shown | None, str]:
         """The best statement that the checker accepts, or why there is none."""
-        reason = not_positive(self.setting)
-        if reason:
-            return None, reason
         tell(0.05, "margins by samples")
         found = candidates(self.setting, any(self.acting.torque))
         rows = ((self._worth(margin), margin.friction, margin) for margin in found)

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import Settling
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
@@ -29,8 +30,10 @@ def find_resting(statement: Resting) -> Finding:
     for joint, bound in enumerate(statement.errors):
         against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
         if bound is not None and _verdict(statement, against) == "refuted":
+            left, right = (list(Enclosure.exact(x).decimals(12)) for x in (against.error, bound))
             point = {f"e{joint + 1}": str(against.error)}
-            return broken(against, f"{METHOD}: one beyond a bound", {"point": point})
+            witness = {"point": point, "left": left, "operator": "<=", "right": right}
+            return broken(against, f"{METHOD}: one beyond a bound", witness)
     return still_open("h at the bounds does not decide it; take larger bounds", METHOD)
 
 
