@@ -99,7 +99,7 @@ FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
     ("smaller errors on the way", put(["1/2", "1"], "statement", "largest_errors"), "allows at most"),
     ("a farther start", put(["1", "8/5"], "statement", "errors_at_start"), "where V may start"),
     ("a faster start", put(["1", "0"], "statement", "rates_at_start"), "where V may start"),
-    ("more friction", put(["3", "7/40"], "statement", "viscous"), "."),
+    ("far more friction", put(["300", "7/40"], "statement", "viscous"), "."),
     ("less friction", put(["2", "7/40"], "statement", "viscous"), "."),
     ("another stiffness", put(["59", "6"], "statement", "kp"), "."),
     ("another member", put(2, "statement", "m"), "."),
