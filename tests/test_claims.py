@@ -114,6 +114,7 @@ PROVED = {
 }
 
 REFUTED = {
+    "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
     "larger ε": at_most_every_n(x * y * dot(V, V), x**2 * a**2, [(x, y), (V, a)]),
     "norms for every n, other symbols": norms_for_every_n(form(V, A, W), a * b**2),
     "no symmetry for every n": every_n(form(V, A, W), form(W, A, V)),
@@ -145,7 +146,6 @@ REFUTED = {
 }
 
 UNDECIDED = {
-    "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
     "leading term of unknown sign": ForSmall("eps", positive("a", "b"), (), var("eps") * a + a < b),
     "a leading term that vanishes": ForSmall("eps", positive("a"), (), a + var("eps") < a),
 }
