@@ -221,7 +221,7 @@ FAULTS = [
     ("16.8", "return above(secant_bound(case.m))", "return above(secant_bound(case.m)) / 2"),
     ("16.9", "eps * eps0 * n * gam**2 * kc * a * b", "eps * eps0 * n * gam**2 * kc * a * b**2"),
     ("16.10", '(s.eps, c["eps0"])', '(s.eps, 2 * c["eps0"])'),
-    ("16.11", "eps * eps0 * n * gam * rh * beta", "eps**2 * n * gam * rh * beta"),
+    ("16.11", "eps * eps0 * n * gam * rh * beta", "eps * eps0 * gam * rh * beta"),
     (
         "19",
         "(expr(0) < upper,), condition_19(c)",

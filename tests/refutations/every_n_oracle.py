@@ -142,14 +142,12 @@ def _numbers(statement: BoundEveryN, generator: np.random.Generator) -> Values:
         at[letter] = (
             sizes[generator.integers(len(sizes))] if sizes and generator.random() < 0.5 else _size(generator)
         )
-    known_before = set()
+    seen: set[Tree] = set()
     for known, size in sorted(statement.norms, key=lambda pair: len(pair[0])):
         letter = known[0] if known[0][0] != "diag" else ("vec", known[0][1])
         most = _number(size, at, statement) / mpmath.fprod(_number(x, at, statement) for x in known[1:])
-        again = any(
-            known[0] == other[0] for other, _ in statement.norms[: statement.norms.index((known, size))]
-        )
-        at[letter] = min(at[letter], most) if again or letter[0] == "var" else most
+        at[letter] = min(at[letter], most) if letter in seen or letter[0] == "var" else most
+        seen.add(letter)
     for letter in sorted(every):
         if letter[0] != "var" and letter[1] not in statement.symmetric and generator.random() < 0.5:
             at[letter] = -at[letter]
