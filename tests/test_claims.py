@@ -341,9 +341,7 @@ def test_only_letters_are_taken_for_letters():
         (lambda: every_n(a, a, given=[(A, V + V, W)]), "given: .* is not the letter of a vector"),
         (lambda: every_n(a, a, positive=[1 + a]), r"positive: 1 \+ a is not the letter of a number"),
     ):
-        with pytest.raises(
-            ValueError, match=words + "; give it a letter of its own" if "given" not in words else words
-        ):
+        with pytest.raises(ValueError, match=f"{words}; give it a letter of its own"):
             refused()
 
 
