@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -69,16 +70,26 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
     except TooSlow:
         return Judged(made, NONE, f"no decision within {SECONDS} s")
     except Exception as error:
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        place = f"{where.filename.rpartition('lyapcheck/')[2]}:{where.name}"
-        return Judged(made, NONE, f"{type(error).__name__}: {str(error)[:120]} ({place})")
+        return Judged(made, NONE, _place(error))
     verdict = str(decision.verdict.value)
     if verdict == UNDECIDED and "report this as a fault" in decision.reason:
         return Judged(made, DISAGREEMENT, "", str(decision.method))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        fault = _fault(made, verdict, decision, seed)
+        try:
+            fault = _fault(made, verdict, decision, seed)
+        except Exception as error:
+            fault = f"the oracle itself fails: {_place(error)}"
     return Judged(made, verdict, fault, str(decision.method))
+
+
+def _place(error: Exception) -> str:
+    """An exception, and the last function of this project that it came through."""
+    frames = [
+        frame for frame in traceback.extract_tb(error.__traceback__) if "site-packages" not in frame.filename
+    ]
+    place = f"{Path(frames[-1].filename).stem}.{frames[-1].name}" if frames else ""
+    return f"{type(error).__name__}: {str(error)[:120]} ({place})"
 
 
 def _fault(made: Made, verdict: str, decision: Any, seed: int) -> str:

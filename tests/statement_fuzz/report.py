@@ -8,11 +8,11 @@ from tests.statement_fuzz.judge import VERDICTS
 from tests.statement_fuzz.run import Tally
 
 INTRODUCTION = """\
-A program writes statements of the kinds that users write, many of them false or undefined somewhere, and
-decides them. An oracle that shares no code with lyapcheck looks for a point at which a proved statement fails
-or a term of it is undefined, and replays every counterexample. A fault is: proved with such a point, or though
-false by construction; refuted by a point that is none, or though true by construction; an exception. Written by
-`python -m tests.statement_fuzz`.
+A program writes statements of the kinds that users write, many of them false or undefined somewhere,
+and decides them. An oracle that shares no code with lyapcheck looks for a point at which a proved
+statement fails or a term of it is undefined, and replays every counterexample. A fault is: proved with
+such a point, or though false by construction; refuted by a point that is none, or though true by
+construction; an exception. Written by `python -m tests.statement_fuzz`.
 """
 
 

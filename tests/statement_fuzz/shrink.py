@@ -47,7 +47,7 @@ def _size(value: Any) -> int:
 
 
 def variants(value: Any) -> Iterator[Any]:
-    """The value with one expression replaced by a part of it or by a number, or one entry of a list left out."""
+    """The value with one expression replaced by a part of it or a number, or one entry of a list left out."""
     if is_dataclass(value) and not isinstance(value, type):
         for f in fields(value):
             for other in variants(getattr(value, f.name)):

@@ -21,8 +21,8 @@ UNPROVABLE = "unprovable"
 class Made:
     """A statement with what is known of it by construction.
 
-    ``truth`` is TRUE, FALSE, NEITHER (undefined somewhere and false nowhere), UNPROVABLE (false or undefined) or
-    ``None`` where only the oracle can say.
+    ``truth`` is TRUE, FALSE, NEITHER (undefined somewhere, false nowhere), UNPROVABLE (false or undefined)
+    or ``None`` where only the oracle can say.
     """
 
     statement: Any

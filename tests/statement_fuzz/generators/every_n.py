@@ -1,4 +1,4 @@
-"""Identities and bounds in vectors and matrices: products expanded by hand, and the same with one thing changed."""
+"""Identities and bounds in vectors and matrices: products expanded, and the same with one thing changed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ VECTORS = ("a", "b", "w")
 MATRICES = ("M", "N")
 
 
-@generates("EveryN", 22)
+@generates("EveryN", 24)
 def make(random: Random) -> Made:
     """One identity in vectors and matrices."""
     kind = random.random()

@@ -32,7 +32,7 @@ from tests.statement_fuzz.generators.trees import (
 NAMES = ["x", "y", "v"]
 
 
-@generates("Identity", 18)
+@generates("Identity", 22)
 def make(random: Random) -> Made:
     """One identity."""
     kind = random.random()
@@ -98,7 +98,7 @@ def _term(c: Fraction, i: int, j: int) -> Tree:
 
 
 def _law(random: Random) -> Made:
-    """A law of functions; the ones that hold only where both sides are defined are for the oracle to judge."""
+    """A law of functions; the oracle judges those that hold only where both sides are defined."""
     a = var("x") if random.random() < 0.6 else smooth(random, ["x"], 1)
     b = var("y") if random.random() < 0.6 else num(nonzero(random))
     k = num(random.choice((2, 3, -1, "1/2")))

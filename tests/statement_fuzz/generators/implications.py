@@ -1,4 +1,4 @@
-"""Implications: lemmas with all their hypotheses, with one missing or turned round, contradictions, disguises."""
+"""Implications: lemmas with all hypotheses, with one missing or turned round, contradictions, disguises."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def used(statement: Implies) -> Implies:
     return replace(statement, variables=kept or statement.variables[:1])
 
 
-@generates("Implies", 22)
+@generates("Implies", 20)
 def make(random: Random) -> Made:
     """One implication."""
     hypotheses, conclusion, kind = random.choice(LEMMAS)

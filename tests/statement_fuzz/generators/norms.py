@@ -26,7 +26,7 @@ from tests.statement_fuzz.generators.trees import (
 X = var("x")
 
 
-@generates("NormBound", 6)
+@generates("NormBound", 2)
 def bound(random: Random) -> Made:
     """A bound of a vector of equal functions."""
     n, k = random.choice((1, 1, 2, 3, 4)), random.choice((0, 1))

@@ -1,7 +1,7 @@
 """Real numbers as polynomials over ℚ in named irrational numbers; a zero polynomial is the number 0.
 
-An atom is a name with a canonical argument: √p for a prime p, π, γ_m, exp(1/q), ln p, sin r, … . The relations
-used are √p² = p, cos² = 1 − sin², the addition of exponents of exp, and no others.
+An atom is a name with a canonical argument: √p for a prime p, π, γ_m, exp(1/q), ln p, sin r, … . The
+relations used are √p² = p, cos² = 1 − sin², the addition of exponents of exp, and no others.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The hyperbolic family by definition: h_m, its derivative, U_m, and γ_m, ρ_m, L_m by a search for the largest."""
+"""The hyperbolic family by definition: h_m, its derivative, U_m; γ_m, ρ_m, L_m by a search."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LARGEST = 60
 
 
 def member(kind: str, m: int, x: Value) -> Value:
-    """h_m = s^(2m−1) c/(1 + s^(2m)), h_m' by the quotient rule, U_m = ln(1 + s^(2m))/(2m), s = sinh x, c = cosh x."""
+    """h_m = s^(2m−1) c/(1 + s^(2m)), h_m' and U_m = ln(1 + s^(2m))/(2m), with s = sinh x, c = cosh x."""
     if m > LARGEST:
         raise Unsure
     s, c = _plain(apply("sinh", x)), _plain(apply("cosh", x))

@@ -1,4 +1,4 @@
-"""For each kind of statement, by name: how an objection to it is looked for, and how a counterexample is judged.
+"""For each kind of statement: how an objection to it is looked for, how a counterexample is judged.
 
 A kind that is not entered is never objected to, and its counterexamples are not judged.
 """
@@ -29,7 +29,7 @@ def objections_to(kind: str) -> Callable[[Objections], Objections]:
 
 
 def judges(kind: str) -> Callable[[Judgements], Judgements]:
-    """Enter a function that says whether a point (as text by name) refutes a statement; ``None``: not known."""
+    """Enter a function that says whether a witness refutes a statement; ``None``: not known."""
 
     def enter(function: Judgements) -> Judgements:
         JUDGEMENTS[kind] = function

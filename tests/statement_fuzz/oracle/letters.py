@@ -11,13 +11,13 @@ from typing import Any
 
 from mpmath import mp
 
-from tests.statement_fuzz.oracle import exact, kinds
+from tests.statement_fuzz.oracle import exact, functions, kinds
 from tests.statement_fuzz.oracle.evaluate import Evaluation, Tree, names, nodes
 from tests.statement_fuzz.oracle.numbers import DIGITS, Undefined, Unsure, Value, divide, power, sign
 from tests.statement_fuzz.oracle.region import Objection, holds
 
 SIZES = (1, 2, 3)
-TRIES = 9
+TRIES = 6
 Letter = tuple[str, str]
 Values = dict[Letter, Any]
 """Numbers, lists of entries and lists of rows, by letter."""
@@ -51,6 +51,21 @@ class Dual:
         return Dual(value, divide(self.speed + -(value * other.speed), other.value))
 
 
+def _moved(name: str, inner: Dual) -> Dual:
+    """A function of a number that moves."""
+    value = functions.apply(name, inner.value)
+    slopes = {
+        "log": lambda: divide(Fraction(1), inner.value),
+        "exp": lambda: value,
+        "sqrt": lambda: divide(Fraction(1, 2), value),
+        "sin": lambda: functions.apply("cos", inner.value),
+        "cos": lambda: -functions.apply("sin", inner.value),
+    }
+    if name not in slopes:
+        raise Unsure
+    return Dual(value, slopes[name]() * inner.speed)
+
+
 def _dual(value: Any) -> Dual:
     return value if isinstance(value, Dual) else Dual(value, Fraction(0))
 
@@ -69,6 +84,8 @@ class Entries(Evaluation):
             return sum((a * b for a, b in zip(x, y, strict=True)), Fraction(0))
         if kind == "rate":
             return _dual(self._moving().of(rest[0])).speed
+        if kind in functions.BY_NAME and isinstance(inner := self.of(rest[0]), Dual):
+            return _moved(kind, inner)
         return super()._of(tree)
 
     def power(self, base: Any, k: int) -> Any:

@@ -26,7 +26,7 @@ class Unsure(Exception):
 
 
 class Num:
-    """All that is known of a real number: it lies in [low, high], and ``form`` is it exactly, if there is one."""
+    """What is known of a real number: it lies in [low, high], and ``form`` is it exactly, if there is one."""
 
     __slots__ = ("form", "high", "low")
 

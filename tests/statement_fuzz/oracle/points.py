@@ -1,4 +1,4 @@
-"""Points of a box at which a statement may fail: its ends, special numbers, random ones, zeros, lowest places."""
+"""Points of a box at which a statement may fail: ends, special numbers, zeros, lowest places."""
 
 from __future__ import annotations
 
@@ -172,7 +172,7 @@ def _best(
     if target[0] == "gap" and score[order[0]] < -1e-9:
         return
     width = 0.2
-    rounds = 14
+    rounds = 9
     for _ in range(rounds):
         moved = {name: np.repeat(column, 24) for name, column in best.items()}
         for axis in region.axes:
@@ -186,7 +186,7 @@ def _best(
         again = _score(target, region, moved, {})
         keep = np.argsort(again, kind="stable")[:3]
         best = {name: column[keep] for name, column in moved.items()}
-        width *= 0.35
+        width *= 0.2
     yield from _rounded(best, region, 2)
 
 
@@ -202,7 +202,7 @@ def _rounded(best: dict[str, Any], region: Region, how_many: int) -> Iterator[Po
 
 
 def _on_borders(region: Region, random: Random) -> Iterator[Point]:
-    """Points where hypotheses, or zeros of divisors, hold with equality, for a variable that enters linearly."""
+    """Points where hypotheses hold with equality, or divisors vanish, by a variable that enters linearly."""
     gaps = [("add", r.right, ("neg", r.left)) for r in region.hypotheses]
     zeros = [part for node in region.nodes() if node[0] == "div" and names(part := node[2])]
     for _ in range(3):

@@ -1,4 +1,4 @@
-"""A statement as relations over a box of real variables, what shows that it fails, and the test of one point."""
+"""A statement as relations over a box of real variables, and the test of one point."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ class Relation:
 class Region:
     """At every point of the box: where the hypotheses hold, so do all claims; and every term is defined.
 
-    ``segments`` are pairs of points at which a divisor has opposite signs. All parts of it are continuous where
-    they are defined, and the box is convex: on the way from one to the other something is undefined.
+    ``signs`` keeps, for each divisor, a point of either sign. All parts of it are continuous where they are
+    defined, and the box is convex: on the way from one to the other something is undefined.
     """
 
     axes: tuple[Axis, ...]

@@ -83,7 +83,7 @@ def trigonometric_positive(statement: Any) -> Region:
 
 
 def _entries(statement: Any) -> list[Region]:
-    """One region for each relation: a witness gives the variables of the entry that it is about, and no others."""
+    """One region for each relation: a witness gives the variables of one entry, and no others."""
     whole = REGIONS[type(statement).__name__](statement)
     return [Region(_reals(claim.left, claim.right), (claim,)) for claim in whole.claims]
 

@@ -1,0 +1,66 @@
+"""Statements that were once accepted though false or undefined are proved through no door."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.check.certificates.document import About, Certificate
+from lyapcheck.claims.procedures import decide
+from tests.statement_fuzz.known_faults import FAULTS, KnownFault
+from tests.statement_fuzz.oracle.kinds import objection
+
+ROOT = Path(__file__).parents[2]
+SCRIPT = Path(__file__).with_name("known_faults_script.py")
+CHECK = "import sys; sys.argv = ['lyapcheck', *sys.argv[1:]]; from lyapcheck.cli.main import main; main()"
+
+each_fault = pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+
+
+@each_fault
+def test_the_oracle_objects(fault: KnownFault) -> None:
+    assert objection(fault.statement, 0) is not None
+
+
+@each_fault
+def test_it_is_not_proved(fault: KnownFault) -> None:
+    assert decide(fault.statement).verdict.value != "proved"
+
+
+def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False, timeout=300)
+
+
+@pytest.fixture(scope="module")
+def verdicts_of_the_script() -> dict[str, str]:
+    found = run("-c", CHECK, "check", SCRIPT, "--format", "json", "--m", 2)
+    return {row["id"]: row["verdict"] for row in json.loads(found.stdout)["claims"]}
+
+
+@pytest.mark.parametrize("number", range(len(FAULTS)), ids=lambda number: FAULTS[number].name)
+def test_a_script_does_not_prove_it(verdicts_of_the_script: dict[str, str], number: int) -> None:
+    assert verdicts_of_the_script[f"F{number}"] in ("undecided", "refuted")
+
+
+@pytest.fixture(scope="module")
+def accepted_certificates(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
+    """The ids of the claims whose certificates the checker, started by itself, accepts."""
+    folder = tmp_path_factory.mktemp("certificates")
+    for number, fault in enumerate(FAULTS):
+        about = About(f"F{number}", fault.name, None, None, "known-faults")
+        made = Certificate(about, fault.statement, "proved", fault.grade, fault.proof)
+        (folder / f"F{number}.json").write_text(made.text(), encoding="utf-8")
+    found = run("-m", "lyapcheck.check", folder, "--format", "json")
+    rows = json.loads(found.stdout)["certificates"]
+    assert len(rows) == len(FAULTS)
+    return {Path(row["file"]).stem for row in rows if row["accepted"]}
+
+
+@pytest.mark.parametrize("number", range(len(FAULTS)), ids=lambda number: FAULTS[number].name)
+def test_the_checker_refuses_its_certificate(accepted_certificates: set[str], number: int) -> None:
+    assert f"F{number}" not in accepted_certificates
