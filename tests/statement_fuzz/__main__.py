@@ -22,12 +22,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--statements", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="the index of the first statement")
+    parser.add_argument("--only", help="one kind of statement, by name")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--shown", type=int, default=2, help="faults of each sort to print")
     parser.add_argument("--report", type=Path, help="where to write the page of figures")
     options = parser.parse_args(arguments)
     started = time.monotonic()
-    tally = _run(options.seed, options.first, options.statements, options.jobs)
+    tally = _run(options.seed, options.first, options.statements, options.jobs, options.only)
     seconds = time.monotonic() - started
     _print_faults(tally, options.shown)
     print(summary(tally))
@@ -40,16 +41,16 @@ def main(arguments: list[str] | None = None) -> int:
     return int(bool(tally.faults))
 
 
-def _run(seed: int, first: int, count: int, jobs: int) -> Tally:
+def _run(seed: int, first: int, count: int, jobs: int, only: str | None) -> Tally:
     chunks = [range(k, min(k + CHUNK, first + count)) for k in range(first, first + count, CHUNK)]
     total = Tally()
     if jobs < 2:
         for chunk in chunks:
-            total = total + run(seed, chunk)
+            total = total + run(seed, chunk, only)
             print(f"… {total.statements}: {len(total.faults)} faults", file=sys.stderr)
         return total
     with ProcessPoolExecutor(jobs) as pool:
-        for tally in pool.map(run, [seed] * len(chunks), chunks):
+        for tally in pool.map(run, [seed] * len(chunks), chunks, [only] * len(chunks)):
             total = total + tally
             print(f"… {total.statements}: {len(total.faults)} faults", file=sys.stderr)
     return total

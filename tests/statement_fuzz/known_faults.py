@@ -95,9 +95,7 @@ FAULTS: tuple[KnownFault, ...] = (
     KnownFault("root of -3 squared", for_all(x**2 + 4 + nowhere**2 > 0, 1), Pieces((Sturm(),))),
     KnownFault("the same on the line", for_all(x**2 + 4 + nowhere**2 >= 0), Pieces((Sturm(), Sturm()))),
     # implications
-    KnownFault(
-        "1/(1/y) at 0", implies(nonnegative("y"), (), expr(0) <= 1 / (1 / y)), SignIdentity((), ())
-    ),
+    KnownFault("1/(1/y) at 0", implies(nonnegative("y"), (), expr(0) <= 1 / (1 / y)), SignIdentity((), ())),
     KnownFault(
         "a hypothesis with 1/(1/y)",
         implies(nonnegative("y", "b"), (1 / (1 / y) <= b,), expr(0) <= b),
@@ -122,9 +120,7 @@ FAULTS: tuple[KnownFault, ...] = (
     KnownFault("a number over itself", every_n(s * a.dot(a) / s, a.dot(a)), NormalForm()),
     KnownFault("log s times 0", every_n(zero_vector().dot(a.times(log(s))), 0), NormalForm()),
     # the other kinds
-    KnownFault(
-        "a norm below 0/0", norm_bound(dh(1, x), 1, deeper / deeper), Supremum(ExactNumbers())
-    ),
+    KnownFault("a norm below 0/0", norm_bound(dh(1, x), 1, deeper / deeper), Supremum(ExactNumbers())),
     KnownFault(
         "a majorant that is no number",
         norm_chain([(majorant(log(-1), w=1), majorant(0))], majorant(1)),
@@ -136,7 +132,10 @@ FAULTS: tuple[KnownFault, ...] = (
         LeadingTerm(SignIdentity((), ())),
     ),
     KnownFault(
-        "a printed number beside log(-1)", agrees(b * log(-1) ** 0, "1.0", b="1.0"), PrintedInputs(128), "enclosure"
+        "a printed number beside log(-1)",
+        agrees(b * log(-1) ** 0, "1.0", b="1.0"),
+        PrintedInputs(128),
+        "enclosure",
     ),
 )
 """Each with the proof that was accepted; more are welcome, none goes."""

@@ -38,9 +38,9 @@ class Tally:
         return sum(self.verdicts.values())
 
 
-def run(seed: int, indices: Iterable[int]) -> Tally:
+def run(seed: int, indices: Iterable[int], only: str | None = None) -> Tally:
     """The statements of a seed with these indices."""
     tally = Tally()
     for index in indices:
-        tally.enter(index, judge(draw(seed, index), index))
+        tally.enter(index, judge(draw(seed, index, only), index))
     return tally

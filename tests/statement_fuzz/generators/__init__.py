@@ -44,11 +44,11 @@ def generates(name: str, weight: int) -> Callable[[Generator], Generator]:
     return enter
 
 
-def draw(seed: int, index: int) -> Made:
-    """The statement of a seed and an index: always the same."""
+def draw(seed: int, index: int, only: str | None = None) -> Made:
+    """The statement of a seed and an index, always the same; of one generator, if ``only`` names it."""
     _load()
     random = Random(f"{seed}:{index}")
-    names = list(GENERATORS)
+    names = [only] if only is not None else list(GENERATORS)
     name = random.choices(names, [GENERATORS[n][0] for n in names])[0]
     return GENERATORS[name][1](random)
 

@@ -99,7 +99,7 @@ def _expanded(random: Random) -> Made:
     how = random.random()
     if how < 0.4:
         products, truth = _perturbed(random, products)
-    elif how < 0.5:
+    elif how < 0.6:
         return _collected(random, left, right, symmetric)
     expanded = add(*(mul(num(c), _scalar(random, x, y)) for c, x, y in products)) if products else num(0)
     sides = [("dot", _sum(left), _sum(right)), expanded]
@@ -128,12 +128,14 @@ def _perturbed(random: Random, products: list[tuple[Fraction, Word, Word]]) -> t
 
 def _collected(random: Random, left: Sum, right: Sum, symmetric: tuple[str, ...]) -> Made:
     """Terms collected as one who forgets what occurs twice would: each product word once."""
+
+    def turned(matrix: Tree) -> Tree:
+        return matrix if matrix[0] == "mat" and matrix[1] in symmetric else _transposed(matrix)
+
     once: dict[Word, Tree] = {}
     for c, x in left:
         for d, y in right:
-            once[(*(_transposed(m) for m in reversed(x[:-1])), x[-1], *y)] = mul(
-                num(c * d), _scalar(random, x, y)
-            )
+            once[(*(turned(m) for m in reversed(x[:-1])), x[-1], *y)] = mul(num(c * d), _scalar(random, x, y))
     return Made(_every_n(("dot", _sum(left), _sum(right)), add(*once.values()), symmetric), "each word once")
 
 

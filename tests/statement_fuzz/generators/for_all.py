@@ -47,8 +47,10 @@ def make(random: Random) -> Made:
         return _known(random)
     if kind < 0.5:
         return _factors(random)
-    if kind < 0.65:
+    if kind < 0.6:
         return _poles(random)
+    if kind < 0.68:
+        return _tails(random)
     if kind < 0.85:
         return _disguised(random)
     if kind < 0.95:
@@ -177,6 +179,34 @@ def _poles(random: Random) -> Made:
     bound = num(random.choice((0, 0, -1, 1, "-1/10", -10, 100)))
     sides = (bound, tree) if random.random() < 0.75 else (tree, bound)
     return Made(ForAll(relation(random, *sides), *domain), "poles")  # type: ignore[arg-type]
+
+
+def _tails(random: Random) -> Made:
+    """Functions that approach a limit slowly or exceed a bound only far out or near an end."""
+    far = num(10 ** random.choice((1, 3, 6, 12)))
+    left, right = random.choice(
+        (
+            (div(X, add(ONE, X)), sub(ONE, div(ONE, far))),
+            (("tanh", X), sub(ONE, div(ONE, far))),
+            (("atan", X), sub(div(("pi",), TWO), div(ONE, far))),
+            (("log", add(ONE, X)), mul(far, ONE)),
+            (("log", add(ONE, X)), mul(num(2), root(X))),
+            (X, ("exp", div(X, far))),
+            (("log", X), div(X, TWO)),
+            (mul(X, ("log", X)), power(X, 2)),
+            (root(add(power(X, 2), ONE)), add(X, div(ONE, far))),
+            (div(("sin", X), X), ONE),
+            (div(ONE, X), far),
+            (div(sub(("exp", X), ONE), X), ("exp", X)),
+            (("abs", ("sin", X)), X),
+            (("tanh", X), div(X, add(ONE, div(X, far)))),
+            (power(X, 8), ("exp", X)),
+            (mul(power(X, 2), ("exp", neg(X))), num(random.choice(("0.5413", "0.5414")))),
+        )
+    )
+    low = random.choice((Fraction(0), Fraction(0), Fraction(1), Fraction(2), Fraction(1, 100)))
+    high = random.choice((None, None, low + 1, low + 100))
+    return Made(ForAll(relation(random, left, right), low, high, random.random() < 0.5, False), "tails")
 
 
 def _disguised(random: Random) -> Made:

@@ -53,4 +53,5 @@ def _result(random: Random, formula: Tree, inputs: dict[str, str]) -> str:
     except (Undefined, Unsure, OverflowError):
         found = Decimal(f"{random.uniform(0, 5):.{places}f}")
     step = random.choice((0, 0, 0, 1, -1, 3, 40))
-    return str(found + step * Decimal(1).scaleb(-places))
+    result = found + step * Decimal(1).scaleb(-places)
+    return f"{result:.{places}e}" if random.random() < 0.1 else str(result)

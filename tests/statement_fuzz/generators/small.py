@@ -9,7 +9,9 @@ from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.implications import KINDS
 from tests.statement_fuzz.generators.traps import disguised
 from tests.statement_fuzz.generators.trees import (
+    ONE,
     ZERO,
+    Tree,
     add,
     constant,
     div,
@@ -22,6 +24,16 @@ from tests.statement_fuzz.generators.trees import (
     small_number,
     var,
 )
+
+
+def _of_small(random: Random, generators: list[Tree]) -> Tree:
+    """A function of ε, t or of what they divide: it may tend to 0, to 1 or to infinity."""
+    a = random.choice(generators[:1] + generators[3:])
+    inner = random.choice(
+        (a, div(ONE, a), div(ONE, power(a, 2)), div(A, a), add(ONE, a), div(ONE, power(a, 4)))
+    )
+    return (random.choice(("exp", "log", "sqrt", "abs", "sin", "tanh", "cosh")), inner)
+
 
 E, T, A, B = var("eps"), var("t"), var("a"), var("b")
 
@@ -44,6 +56,8 @@ def make(random: Random) -> Made:
         left = ZERO
     if random.random() < 0.2:
         right = div(right, random.choice((E, A, add(A, E), power(E, 2))))
+    if random.random() < 0.25:
+        left = add(left, mul(random.choice((E, A, power(E, 2))), _of_small(random, generators)))
     if random.random() < 0.2:
         right = disguised(random, right, ["a", "eps"])
     kind = random.choice(("positive", "positive", "weak", "real"))

@@ -195,6 +195,8 @@ def disguised(random: Random, of: Tree, names: list[str]) -> Tree:
             lambda: add(of, mul(sub(a := smooth(random, names, 1), a), r)),
             lambda: add(of, mul(hidden_zero(random, names), r)),
             lambda: div(of, add(power(r, 0), ZERO)),
+            lambda: add(of, mul(ZERO, (random.choice(("sin", "tanh", "atan", "cos")), r))),
+            lambda: add(of, div(ZERO, add(TWO, ("sin", r)))),
         )
     )()
 

@@ -13,7 +13,7 @@ from tests.statement_fuzz.oracle import exact
 from tests.statement_fuzz.oracle.exact import Polynomial, TooLong
 from tests.statement_fuzz.oracle.numbers import Num, Undefined, Unsure, Value, lifted, made, sign
 
-LARGEST = mpf(10) ** 9
+LARGEST = mpf(10) ** 1000
 AT_ZERO = {"exp": 1, "cos": 1, "cosh": 1, "sin": 0, "tan": 0, "sinh": 0, "tanh": 0, "atan": 0, "asin": 0}
 HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)
 

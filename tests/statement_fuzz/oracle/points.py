@@ -50,7 +50,7 @@ def special_values(region: Region, axis: Axis, random: Random) -> list[Value]:
     found += [s * a for a in dict.fromkeys(numbers) for s in (1, -1) if a]
     found += [a / b for a in numbers[:6] for b in numbers[:6] if b]
     found += [Fraction(random.randint(-40, 40), random.randint(1, 8)) for _ in range(4)]
-    found += [Fraction(s * 10**k) for k in (2, 5) for s in (1, -1)]
+    found += [Fraction(s * 10**k) for k in (2, 5, 7, 13, random.randint(14, 40)) for s in (1, -1)]
     kinds = {node[0] for node in region.nodes()}
     if kinds & {"sin", "cos", "tan"}:
         found += [functions.pi() * Fraction(k, 2) for k in (-3, -2, -1, 1, 2, 3)]

@@ -1,4 +1,7 @@
-"""Relations for every small enough ε: points at which they fail for ε = 10^-40 and for ever smaller ones."""
+"""Relations for every small enough ε: points at which they fail for ε = 10^-200, 10^-400 and 10^-800.
+
+To be sure that this is what happens in the limit, every part without ε must be 0 or of moderate size there.
+"""
 
 from __future__ import annotations
 
@@ -6,22 +9,23 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from mpmath import mp
+from mpmath import mp, mpf
 
 from tests.statement_fuzz.oracle import exact, kinds
-from tests.statement_fuzz.oracle.evaluate import names
-from tests.statement_fuzz.oracle.numbers import Value
+from tests.statement_fuzz.oracle.evaluate import Evaluation, Tree, names, nodes
+from tests.statement_fuzz.oracle.functions import ends
+from tests.statement_fuzz.oracle.numbers import DIGITS, Undefined, Unsure, Value
 from tests.statement_fuzz.oracle.points import candidates
 from tests.statement_fuzz.oracle.region import Axis, Objection, Region, Relation
 
-EXPONENTS = (40, 80, 160, 320)
-DIGITS = 700
+EXPONENTS = (200, 400, 800)
+MODERATE = mpf(10) ** 35
 POINTS = 60
 
 
 @kinds.objections_to("ForSmall")
 def for_small(statement: Any, random: Random) -> Objection | None:
-    """Four ever smaller ε at which the relation fails, or is undefined, in the same way."""
+    """Ever smaller ε at which the relation fails, or is undefined, in the same way."""
     axes = tuple(Axis(v.name, v.low, open_low=v.low is not None and v.strict) for v in statement.variables)
     given = tuple(Relation(r.left, r.operator, r.right) for r in statement.hypotheses)
     wanted = statement.conclusion
@@ -30,17 +34,35 @@ def for_small(statement: Any, random: Random) -> Objection | None:
     if any(names(r.left, r.right) & moving for r in given):
         return None
     fixed = Region(axes, (Relation(("num", "0"), "<=", ("num", "0")),), given)
+    still = [node for node in nodes(claim.left, claim.right) if not names(node) & moving]
     with mp.workdps(DIGITS):
         for index, point in enumerate(candidates(fixed, random)):
             if index == POINTS:
                 break
+            if not _moderate(still, point):
+                continue
             shape = random.randrange(4)
             whole = Region((*axes, *(Axis(name) for name in moving)), (claim,), given)
             found = [_at(whole, point, statement, e, shape) for e in EXPONENTS]
-            kinds_found = {objection.what if objection else "" for objection in found}
-            if len(kinds_found) == 1 and found[0] is not None:
+            if found[0] is not None and len({one.what if one else "" for one in found}) == 1:
                 return found[0]
     return None
+
+
+def _moderate(trees: list[Tree], point: dict[str, Value]) -> bool:
+    """Whether the parts without ε are undefined, 0 or between 10⁻³⁵ and 10³⁵ in size."""
+    evaluation = Evaluation(point)
+    for tree in trees:
+        try:
+            low, high = ends(evaluation.of(tree))
+        except Undefined:
+            continue
+        except Unsure:
+            return False
+        size = max(abs(low), abs(high))
+        if size and not (1 / MODERATE < min(abs(low), abs(high)) and size < MODERATE):
+            return False
+    return True
 
 
 def _at(
