@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from mpmath import mp
+from mpmath import mp, mpf
 
 from tests.statement_fuzz.oracle import exact
 from tests.statement_fuzz.oracle.evaluate import Evaluation, Signs, Tree, nodes
@@ -15,6 +15,7 @@ from tests.statement_fuzz.oracle.numbers import DIGITS, Num, Undefined, Unsure, 
 
 Point = dict[str, Value]
 MORE_DIGITS = 250
+LONGEST = 60
 
 
 @dataclass(frozen=True)
@@ -176,11 +177,12 @@ def holds(operator: str, left: Value, right: Value) -> bool:
 
 def shown(point: Mapping[str, Any]) -> str:
     """A point in words."""
-    texts = (
-        f"{name} = {value if isinstance(value, Fraction) else _near(value)}" for name, value in point.items()
-    )
-    return ", ".join(texts) or "every point"
+    return ", ".join(f"{name} = {_text(value)}" for name, value in point.items()) or "every point"
 
 
-def _near(value: Any) -> str:
-    return f"{mp.nstr(value.low, 12)}…" if isinstance(value, Num) else str(value)
+def _text(value: Any) -> str:
+    if isinstance(value, Num):
+        return f"{mp.nstr(value.low, 12)}…"
+    text = str(value)
+    short = len(text) <= LONGEST
+    return text if short else f"about {mp.nstr(mpf(value.numerator) / value.denominator, 12)}"
