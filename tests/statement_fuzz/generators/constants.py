@@ -32,7 +32,7 @@ from tests.statement_fuzz.oracle.numbers import Undefined, Unsure, lifted
 LARGEST = 10**20
 
 
-@generates("Constant", 24)
+@generates("Constant", 28)
 def make(random: Random) -> Made:
     """One relation between numbers."""
     kind = random.random()

@@ -20,7 +20,7 @@ VECTORS = ("a", "b", "w")
 MATRICES = ("M", "N")
 
 
-@generates("EveryN", 24)
+@generates("EveryN", 28)
 def make(random: Random) -> Made:
     """One identity in vectors and matrices."""
     kind = random.random()
@@ -153,7 +153,7 @@ def _every_n(
 
 
 def _letters(*trees: Tree) -> set[tuple[str, str]]:
-    from tests.statement_fuzz.oracle.letters import letters_of
+    from tests.statement_fuzz.oracle.entries import letters_of
 
     return letters_of(*trees)
 
@@ -295,5 +295,9 @@ def bound(random: Random) -> Made:
         left = add(left, mul(num(-2), ("dot", a, a)))
         right = add(right, mul(num(random.choice((-2, -1, -3))), power(var("x"), 2)))
     symmetric = ("M",) if random.random() < 0.4 and ("mat", "M") in _letters(left) else ()
+    if random.random() < 0.1:
+        same = div(var("z"), var("z"))
+        left, right = random.choice(((left, mul(right, same)), (mul(left, same), right)))
+        return Made(BoundEveryN(left, right, symmetric, (), (), tuple(norms), least), "products, disguised")
     truth = TRUE if off >= 0 and not least and len(norms[0][0]) == 1 else None
     return Made(BoundEveryN(left, right, symmetric, (), (), tuple(norms), least), "products of norms", truth)

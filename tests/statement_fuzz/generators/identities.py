@@ -32,7 +32,7 @@ from tests.statement_fuzz.generators.trees import (
 NAMES = ["x", "y", "v"]
 
 
-@generates("Identity", 22)
+@generates("Identity", 26)
 def make(random: Random) -> Made:
     """One identity."""
     kind = random.random()

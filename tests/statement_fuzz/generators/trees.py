@@ -104,19 +104,16 @@ def smooth(random: Random, names: list[str], depth: int = 2) -> Tree:
         if not names or random.random() < 0.35:
             return constant(random) if random.random() < 0.3 else num(small_number(random))
         return var(random.choice(names))
-    kind = random.choice(("add", "add", "mul", "mul", "neg", "pow", "function", "over", "family"))
-    a = smooth(random, names, depth - 1)
-    if kind in ("add", "mul"):
-        return (kind, a, smooth(random, names, depth - 1))
-    if kind == "neg":
-        return neg(a)
-    if kind == "pow":
-        return power(a, random.choice((0, 1, 2, 2, 3, 4)))
-    if kind == "function":
-        return (random.choice((*SMOOTH, "abs")), a)
-    if kind == "over":
-        return div(a, add(power(smooth(random, names, depth - 1), 2), num(positive(random))))
-    return (random.choice(("h", "dh", "potential")), random.choice((1, 2, 3)), a)
+    a, b = smooth(random, names, depth - 1), smooth(random, names, depth - 1)
+    shapes: tuple[Tree, ...] = (
+        *((kind, a, b) for kind in ("add", "add", "mul", "mul")),
+        neg(a),
+        power(a, random.choice((0, 1, 2, 2, 3, 4))),
+        (random.choice((*SMOOTH, "abs")), a),
+        div(a, add(power(b, 2), num(positive(random)))),
+        (random.choice(("h", "dh", "potential")), random.choice((1, 2, 3)), a),
+    )
+    return random.choice(shapes)
 
 
 def constant(random: Random) -> Tree:

@@ -11,6 +11,7 @@ from tests.statement_fuzz.oracle.numbers import Unsure, Value, divide, power, si
 
 Tree = tuple[Any, ...]
 Signs = dict[Tree, int]
+LEAVES = ("num", "var", "pi", "gamma", "rho", "L")
 
 
 class Evaluation:
@@ -37,18 +38,22 @@ class Evaluation:
 
     def _of(self, tree: Tree) -> Any:
         kind, *rest = tree
-        if kind == "num":
-            return Fraction(rest[0])
-        if kind == "var":
-            return self.point[rest[0]]
-        if kind == "pi":
-            return functions.pi()
-        if kind in ("gamma", "rho", "L"):
-            return family.constant(kind, rest[0])
+        if kind in LEAVES:
+            return self._leaf(kind, rest)
         if kind in ("h", "dh", "potential"):
             return family.member(kind, rest[0], self.of(rest[1]))
         if kind == "pow":
             return self.power(self.of(rest[0]), rest[1])
+        return self._combined(kind, rest)
+
+    def _leaf(self, kind: str, rest: list[Any]) -> Any:
+        if kind == "num":
+            return Fraction(rest[0])
+        if kind == "var":
+            return self.point[rest[0]]
+        return functions.pi() if kind == "pi" else family.constant(kind, rest[0])
+
+    def _combined(self, kind: str, rest: list[Any]) -> Any:
         parts = self._parts(rest)
         if kind == "div":
             return self._quotient(rest[1], *parts)

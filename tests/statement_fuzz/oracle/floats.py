@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tests.statement_fuzz.oracle import family
-from tests.statement_fuzz.oracle.evaluate import Tree
+from tests.statement_fuzz.oracle.evaluate import LEAVES, Tree
 from tests.statement_fuzz.oracle.numbers import Unsure, lifted
 
 ALIAS = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
@@ -25,20 +25,22 @@ def at(tree: Tree, points: Mapping[str, Any], known: dict[int, Any]) -> Any:
 
 def _at(tree: Tree, points: Mapping[str, Any], known: dict[int, Any]) -> Any:
     kind, *rest = tree
-    if kind == "num":
-        return _float(rest[0])
     if kind == "var":
         return points[rest[0]]
-    if kind == "pi":
-        return np.float64(np.pi)
-    if kind in ("gamma", "rho", "L"):
-        return _constant(kind, rest[0])
+    if kind in LEAVES:
+        return _number(kind, *rest)
     if kind in ("h", "dh", "potential"):
         return _member(kind, rest[0], at(rest[1], points, known))
     if kind == "pow":
         base = at(rest[0], points, known)
         return base ** np.float64(rest[1]) if rest[1] else base * 0 + 1
     return _operation(kind, [at(part, points, known) for part in rest])
+
+
+def _number(kind: str, which: Any = None) -> Any:
+    if kind == "num":
+        return _float(which)
+    return np.float64(np.pi) if kind == "pi" else _constant(kind, which)
 
 
 def _operation(kind: str, parts: list[Any]) -> Any:

@@ -53,4 +53,11 @@ def confirms(statement: Any, witness: Mapping[str, Any]) -> bool | None:
 
 
 def _load() -> None:
-    from tests.statement_fuzz.oracle import chains, letters, printed, relations, small  # noqa: F401
+    from tests.statement_fuzz.oracle import (  # noqa: F401
+        bounds,
+        chains,
+        every_n,
+        printed,
+        relations,
+        small,
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any, Union
+from typing import Any
 
 from mpmath import mp, mpf
 
@@ -56,7 +56,7 @@ class Num:
     __rmul__ = __mul__
 
 
-Value = Union[Fraction, Num]
+Value = Fraction | Num
 
 
 def lifted(value: Value) -> Num:

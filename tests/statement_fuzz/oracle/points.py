@@ -15,7 +15,7 @@ from tests.statement_fuzz.oracle.numbers import Undefined, Unsure, Value
 from tests.statement_fuzz.oracle.region import Axis, Point, Region
 
 GRID = 400
-SCATTER = 1500
+SCATTER = 800
 KEPT = 5
 DENOMINATORS = (12, 1000, 10**6, 10**12)
 GUARDED = ("div", "sqrt", "log", "tan", "asin", "acos")

@@ -60,7 +60,7 @@ def _moderate(trees: list[Tree], point: dict[str, Value]) -> bool:
         except Unsure:
             return False
         size = max(abs(low), abs(high))
-        if size and not (1 / MODERATE < min(abs(low), abs(high)) and size < MODERATE):
+        if size and not (min(abs(low), abs(high)) * MODERATE > 1 and size < MODERATE):
             return False
     return True
 
