@@ -6,6 +6,7 @@ import argparse
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -28,9 +29,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--report", type=Path, help="where to write the page of figures")
     options = parser.parse_args(arguments)
     started = time.monotonic()
-    tally = _run(options.seed, options.first, options.statements, options.jobs, options.only)
+    tally, printed = Tally(), Counter[tuple[str, ...]]()
+    for part in _parts(options):
+        tally += part
+        _print_faults(part, printed, options.shown)
+        print(f"… {tally.statements}: {len(tally.faults)} faults", file=sys.stderr)
     seconds = time.monotonic() - started
-    _print_faults(tally, options.shown)
+    for sort, count in Counter(judged.signature for _, judged in tally.faults).most_common():
+        print(f"{count} × {' | '.join(sort)}")
     print(summary(tally))
     print(
         f"{seconds:.0f} s, {seconds / max(options.statements, 1) * 10_000:.0f} s for 10 000", file=sys.stderr
@@ -41,29 +47,24 @@ def main(arguments: list[str] | None = None) -> int:
     return int(bool(tally.faults))
 
 
-def _run(seed: int, first: int, count: int, jobs: int, only: str | None) -> Tally:
-    chunks = [range(k, min(k + CHUNK, first + count)) for k in range(first, first + count, CHUNK)]
-    total = Tally()
-    if jobs < 2:
-        for chunk in chunks:
-            total = total + run(seed, chunk, only)
-            print(f"… {total.statements}: {len(total.faults)} faults", file=sys.stderr)
-        return total
-    with ProcessPoolExecutor(jobs) as pool:
-        for tally in pool.map(run, [seed] * len(chunks), chunks, [only] * len(chunks)):
-            total = total + tally
-            print(f"… {total.statements}: {len(total.faults)} faults", file=sys.stderr)
-    return total
+def _parts(options: argparse.Namespace) -> Iterator[Tally]:
+    """The tallies of one chunk of indices after the other."""
+    first, end = options.first, options.first + options.statements
+    chunks = [range(k, min(k + CHUNK, end)) for k in range(first, end, CHUNK)]
+    if options.jobs < 2:
+        yield from (run(options.seed, chunk, options.only) for chunk in chunks)
+        return
+    with ProcessPoolExecutor(options.jobs) as pool:
+        count = len(chunks)
+        yield from pool.map(run, [options.seed] * count, chunks, [options.only] * count)
 
 
-def _print_faults(tally: Tally, shown: int) -> None:
-    sorts: Counter[tuple[str, ...]] = Counter(judged.signature for _, judged in tally.faults)
-    printed: Counter[tuple[str, ...]] = Counter()
-    for index, judged in tally.faults:
-        if printed[judged.signature] < shown:
-            printed[judged.signature] += 1
-            short = shrunk(judged, index)
-            print(f"{index} (one of {sorts[judged.signature]}): {short.text()}")
+def _print_faults(part: Tally, printed: Counter[tuple[str, ...]], most: int) -> None:
+    """Print the first faults of each sort, made short."""
+    for index, judged in part.faults:
+        printed[judged.signature] += 1
+        if printed[judged.signature] <= most:
+            print(f"{index}: {shrunk(judged, index).text()}", flush=True)
 
 
 if __name__ == "__main__":

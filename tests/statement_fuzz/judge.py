@@ -60,8 +60,8 @@ class Judged:
 def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judged:
     """The verdict on a statement, judged.
 
-    A statement that is ``proved`` must not be false or undefined anywhere; one that is ``refuted`` must not be
-    true, and the oracle must confirm the point; an exception, or a decision without end, is a fault as well.
+    A statement that is ``proved`` must not be false or undefined anywhere; one that is ``refuted`` must not
+    be true, and the oracle must confirm the point; an exception, or no decision in time, is a fault as well.
     """
     try:
         with limit(SECONDS), np.errstate(all="ignore"), warnings.catch_warnings():

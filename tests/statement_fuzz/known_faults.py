@@ -11,6 +11,7 @@ from lyapcheck.check.certificates.proofs import (
     ExactNumbers,
     LeadingTerm,
     NormalForm,
+    OutsideRounding,
     Pieces,
     PrintedInputs,
     Proof,
@@ -18,16 +19,22 @@ from lyapcheck.check.certificates.proofs import (
     SignIdentity,
     Sturm,
     Supremum,
+    Witness,
 )
 from lyapcheck.claims import (
     Constant,
     ForSmall,
+    Relation,
     Statement,
     agrees,
+    always_positive,
     any_matrix,
     any_vector,
+    bounded,
+    cos,
     dh,
     every_n,
+    exp,
     expr,
     for_all,
     identity,
@@ -39,6 +46,8 @@ from lyapcheck.claims import (
     norm_chain,
     positive,
     reals,
+    sin,
+    sinh,
     sqrt,
     var,
     zero_vector,
@@ -47,12 +56,13 @@ from lyapcheck.claims import (
 
 @dataclass(frozen=True)
 class KnownFault:
-    """A statement that must not be proved, and a proof of it that the checker must refuse."""
+    """A statement that must not get a verdict, and a proof to that effect that the checker must refuse."""
 
     name: str
     statement: Statement
     proof: Proof
     grade: str = "exact"
+    verdict: str = "proved"
 
 
 def near_zero(*cuts: int) -> Pieces:
@@ -62,6 +72,15 @@ def near_zero(*cuts: int) -> Pieces:
 
 x, v, y, b, s, eps = map(var, ("x", "v", "y", "b", "s", "eps"))
 a, M = any_vector("a"), any_matrix("M")
+t = var("t")
+LEADING = LeadingTerm(SignIdentity((), ()))
+
+
+def small(claim: Relation, *bounded: str) -> ForSmall:
+    """A claim for small eps."""
+    return ForSmall("eps", (), (), claim, bounded)
+
+
 hidden = sqrt(2) ** 2 - 2
 deeper = sqrt(2) * sqrt(3) - sqrt(6)
 nowhere = sqrt(-3)
@@ -126,16 +145,86 @@ FAULTS: tuple[KnownFault, ...] = (
         norm_chain([(majorant(log(-1), w=1), majorant(0))], majorant(1)),
         ChosenMajorants((1,), ExactNumbers()),
     ),
-    KnownFault(
-        "small eps beside 0 log 0",
-        ForSmall("eps", (), (), expr(0) < log(0) * 0 + eps),
-        LeadingTerm(SignIdentity((), ())),
-    ),
+    KnownFault("small eps beside 0 log 0", small(expr(0) < log(0) * 0 + eps), LEADING),
     KnownFault(
         "a printed number beside log(-1)",
         agrees(b * log(-1) ** 0, "1.0", b="1.0"),
         PrintedInputs(128),
         "enclosure",
     ),
+    # functions of ε and t are not their own leading terms
+    KnownFault("eps exp(1/eps)", small(eps * exp(1 / eps) < 1), LEADING),
+    KnownFault("eps root of 1/eps^4", small(eps * sqrt(1 / eps**4) < 1), LEADING),
+    KnownFault("eps |1/t|", small(eps * abs(1 / t) < 1, "t"), LEADING),
+    # points of the domain at which a term is undefined, next to those where all is well
+    KnownFault("sin x / x at 0", for_all(sin(x) / x <= 2, 0, 1), near_zero(1), "enclosure"),
+    KnownFault("x/x at 0", for_all(x / x > 0, 0, 1), near_zero(1), "enclosure"),
+    # refuted, at a point where a term is undefined
+    KnownFault(
+        "6 below a root to the power 0",
+        Constant(sqrt(-2) ** 0 > 6),
+        SeparateBalls(128),
+        "enclosure",
+        "refuted",
+    ),
+    KnownFault(
+        "log to the power 0 at 0",
+        for_all(log(x) ** 0 < x, 0),
+        Witness((("x", Fraction(0)),)),
+        "enclosure",
+        "refuted",
+    ),
+    KnownFault(
+        "root to the power 0 of what is negative",
+        implies(reals("v"), (sqrt(v) ** 0 <= 1,), expr(0) < v),
+        Witness((("v", Fraction(-1)),)),
+        "enclosure",
+        "refuted",
+    ),
+    KnownFault(
+        "log to the power 0, an identity",
+        identity(log(x) ** 0, 2),
+        Witness((("x", Fraction(-1)),)),
+        "enclosure",
+        "refuted",
+    ),
+    KnownFault(
+        "a norm below a root to the power 0",
+        norm_bound(x, 1, sqrt(-2) ** 0),
+        Witness((("x1", Fraction(2)),)),
+        "enclosure",
+        "refuted",
+    ),
+    KnownFault(
+        "a printed number that is none",
+        agrees(log(b) ** 0, "2.0", b="-1.0"),
+        OutsideRounding(128),
+        "enclosure",
+        "refuted",
+    ),
 )
 """Each with the proof that was accepted; more are welcome, none goes."""
+
+RAISING: dict[str, Statement] = {
+    "the root of a negative number": Constant(sqrt(-1) <= 1),
+    "0 times the root of a negative number": Constant(0 * sqrt(-1) <= -2),
+    "a number over 0": implies(positive("y"), (), expr(1) / 0 <= y),
+    "a number over 0, one variable": for_all(expr(1) / 0 < 1, 0),
+    "over a hidden 0": Constant(expr(1) / hidden <= 1),
+    "over a hidden 0, inside": Constant(abs(expr(1) / hidden) <= 1),
+    "over another hidden 0": for_all(1 / (sin(x) ** 2 + cos(x) ** 2 - 1) <= 1, 1),
+    "the root of a negative number, an implication": implies(positive("y"), (), sqrt(-1) <= y),
+    "the root of a negative number, small eps": small(sqrt(-1) < eps),
+    "a point": for_all(x >= 0, 0, 0, open_low=True),
+    "a point that is a root": for_all(x - 1 >= 0, 1, 1),
+    "a printed number that is none": agrees(log(b), "1.0", b="-1.0"),
+    "a printed number, a divisor that may be 0": agrees(1 / b, "1.0", b="0"),
+    "a norm that is none": norm_bound(log(-4), 2, 2),
+    "a norm over 0": norm_bound(x, 4, expr(3) / 0),
+    "a chain to a bound over a hidden 0": norm_chain([(majorant(2, w=1),)], majorant(1 / hidden, w=1)),
+    "an angle by itself": bounded([1 + var("q")], [1]),
+    "over an angle": always_positive([1 / var("q")]),
+    "e to the e to the 30": Constant(exp(exp(30)) <= 1),
+    "sinh of 10^12": Constant(sinh(expr(10**12)) <= 1),
+}
+"""Statements on which a decision must be made, if only that there is none."""

@@ -5,6 +5,7 @@ To be sure that this is what happens in the limit, every part without ε must be
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -21,6 +22,15 @@ from tests.statement_fuzz.oracle.region import Axis, Objection, Region, Relation
 EXPONENTS = (200, 400, 800)
 MODERATE = mpf(10) ** 35
 POINTS = 60
+
+Shape = Callable[[Fraction], Fraction]
+SHAPES: tuple[Shape, ...] = (
+    lambda eps: Fraction(1),
+    lambda eps: eps,
+    lambda eps: eps**2,
+    lambda eps: Fraction(1, 10**9),
+)
+"""How the bounded variables depend on ε."""
 
 
 @kinds.objections_to("ForSmall")
@@ -41,11 +51,11 @@ def for_small(statement: Any, random: Random) -> Objection | None:
                 break
             if not _moderate(still, point):
                 continue
-            shape = random.randrange(4)
             whole = Region((*axes, *(Axis(name) for name in moving)), (claim,), given)
-            found = [_at(whole, point, statement, e, shape) for e in EXPONENTS]
-            if found[0] is not None and len({one.what if one else "" for one in found}) == 1:
-                return found[0]
+            for shape in SHAPES if statement.bounded else SHAPES[:1]:
+                found = [_at(whole, point, statement, e, shape) for e in EXPONENTS]
+                if found[0] is not None and len({one.what if one else "" for one in found}) == 1:
+                    return found[0]
     return None
 
 
@@ -66,11 +76,11 @@ def _moderate(trees: list[Tree], point: dict[str, Value]) -> bool:
 
 
 def _at(
-    region: Region, point: dict[str, Value], statement: Any, exponent: int, shape: int
+    region: Region, point: dict[str, Value], statement: Any, exponent: int, shape: Shape
 ) -> Objection | None:
-    """The objection at one ε, where the bounded variables are 1, ε, ε² or 1/10⁹."""
+    """The objection at one ε, with the bounded variables as a function of it."""
     region.signs.clear()
     eps = Fraction(1, 10**exponent)
-    t = (Fraction(1), eps, eps**2, Fraction(1, 10**9))[shape]
+    t = shape(eps)
     with exact.kept(False):
         return region.objection({**point, statement.small: eps, **dict.fromkeys(statement.bounded, t)})
