@@ -19,8 +19,8 @@ from lyapcheck.claims.procedures import decide
 from tests.statement_fuzz.generators import FALSE, NEITHER, TRUE, UNPROVABLE, Made
 from tests.statement_fuzz.oracle.kinds import confirms, objection
 
-SECONDS = 20
-"""The time that a decision may take; a limit of the fuzzer, not a promise of lyapcheck."""
+SECONDS = 30
+"""The processor time that a decision may take; a limit of the fuzzer, not a promise of lyapcheck."""
 
 PROVED, REFUTED, UNDECIDED, NONE = "proved", "refuted", "undecided", "no verdict"
 DISAGREEMENT = "undecided: the checker refuses what the search found"
@@ -108,16 +108,16 @@ def _fault(made: Made, verdict: str, decision: Any, seed: int) -> str:
 
 
 @contextmanager
-def limit(seconds: int) -> Iterator[None]:
-    """Raise :class:`TooSlow` in what takes longer."""
+def limit(seconds: float) -> Iterator[None]:
+    """Raise :class:`TooSlow` in what takes more processor time, however busy the machine is."""
 
     def stop(*_: object) -> None:
         raise TooSlow
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(seconds)
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)

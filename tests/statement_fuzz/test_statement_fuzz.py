@@ -20,7 +20,7 @@ from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Tally, run
 from tests.statement_fuzz.shrink import shrunk
 
-SEEDS = range(8)
+SEEDS = range(10)
 EACH = 1_000
 MANY = 5_000
 
@@ -39,7 +39,7 @@ def test_random_statements_have_no_faults(seed: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [100 + seed for seed in SEEDS])
+@pytest.mark.parametrize("seed", [100 + seed for seed in range(8)])
 def test_many_random_statements_have_no_faults(seed: int) -> None:
     tally = run(seed, range(MANY))
     assert not tally.faults, faults(tally)
@@ -55,6 +55,15 @@ def test_statements_are_neither_all_plain_nor_all_hopeless() -> None:
 def test_every_kind_that_is_written_has_an_oracle() -> None:
     written = {type(draw(0, 0, kind).statement).__name__ for kind in GENERATORS}
     assert written <= set(OBJECTIONS)
+
+
+def test_a_decision_without_end_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(statement: Any) -> Any:
+        while True:
+            pass
+
+    monkeypatch.setattr("tests.statement_fuzz.judge.SECONDS", 0.05)
+    assert "no decision" in judge(draw(0, 0), 0, by=endless).fault
 
 
 def test_a_seed_and_an_index_give_the_same_statement() -> None:

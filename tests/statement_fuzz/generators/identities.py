@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import fields
+from dataclasses import fields, replace
 from fractions import Fraction
 from random import Random
 
@@ -60,7 +60,7 @@ def _identity(random: Random, left: Tree, right: Tree) -> Identity:
         from tests.statement_fuzz.oracle.evaluate import names
 
         used = names(left, right)
-        return Identity(left, right, tuple(v for v in found if v.name in used))  # type: ignore[call-arg]
+        return replace(Identity(left, right), variables=tuple(v for v in found if v.name in used))  # type: ignore[call-arg]
     return Identity(left, right)
 
 
