@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from typing import Any
 
     from lyapcheck.admissible import EpsilonResult, epsilon
-    from lyapcheck.check.certificates.recheck import recheck
-    from lyapcheck.check.constants import Constants, gamma_less_than, hyperbolic_constants
-    from lyapcheck.check.enclosure import Enclosure
+    from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
+    from lyapcheck.check.numbers.enclosure import Enclosure
+    from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
     from lyapcheck.claims.explain import explain
@@ -109,9 +109,9 @@ _HOMES = {
     "Bounds": "control.gains",
     "Claim": "claims.claim",
     "ClaimResult": "claims.result",
-    "Constants": "check.constants",
+    "Constants": "check.numbers.constants",
     "Decision": "claims.decision",
-    "Enclosure": "check.enclosure",
+    "Enclosure": "check.numbers.enclosure",
     "EpsilonResult": "admissible",
     "Exit": "verdicts",
     "Family": "family.base",
@@ -140,9 +140,9 @@ _HOMES = {
     "build_table": "family.table",
     "epsilon": "admissible",
     "explain": "claims.explain",
-    "gamma_less_than": "check.constants",
+    "gamma_less_than": "check.numbers.constants",
     "gate": "gating.gate",
-    "hyperbolic_constants": "check.constants",
+    "hyperbolic_constants": "check.numbers.constants",
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",
     "lyapunov_graph": "lyapunov.graph",
@@ -150,7 +150,7 @@ _HOMES = {
     "paper_gain_file": "control.paper",
     "read_gain_file": "control.gains",
     "read_reference": "tracking.reference.file",
-    "recheck": "check.certificates.recheck",
+    "recheck": "check.recheck",
     "robot_constants": "constants.bounds",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",

@@ -5,6 +5,7 @@ Ids follow the numbers of the paper's equations.
 """
 
 from fractions import Fraction
+from functools import partial
 
 from lyapcheck.claims import (
     ArmBounds,
@@ -15,19 +16,15 @@ from lyapcheck.claims import (
     above,
     agrees,
     all_of,
-    any_matrix,
-    any_vector,
-    apply,
     below,
     bounded,
-    combined,
     coriolis_matrix,
     damping_below,
     dh,
+    diagonal,
     diff,
     dot,
     every_n,
-    exp,
     expr,
     for_all,
     form,
@@ -37,16 +34,14 @@ from lyapcheck.claims import (
     identity,
     implies,
     lacking,
-    majorant,
+    loop_property,
+    loops,
     mass_matrix,
-    matrix,
     nonnegative,
     norm_bound,
-    norm_chain,
     pi,
     plus,
     positive,
-    positive_definite,
     potential,
     rate,
     rate_of,
@@ -61,7 +56,6 @@ from lyapcheck.claims import (
     transpose,
     var,
     vector,
-    zero_vector,
 )
 
 proof = Proof(
@@ -81,12 +75,13 @@ ROBOT = "Section 2: the robot"
 def _(case):
     robot, a, b = case.robot.fixed(), vector("x", case.n), vector("y", case.n)
     mass = mass_matrix(robot)
-    return all_of(symmetric=identity(form(a, mass, b), form(b, mass, a)), positive=positive_definite(robot))
+    symmetric = identity(form(a, mass, b), form(b, mass, a))
+    return all_of(symmetric=symmetric, positive=ArmBounds(robot).mass_above())
 
 
 @proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", place="Property 2.2, (2)", section=ROBOT)
 def _(case):
-    return bounded(entry for row in mass_matrix(case.robot.fixed()) for entry in row)
+    return ArmBounds(case.robot).mass_below()
 
 
 @proof.claim("2.3", "C(q, 0) = 0", place="Property 2.3", section=ROBOT)
@@ -125,9 +120,7 @@ def _(case):
 
 @proof.claim("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", place="Property 2.6, (5)", section=ROBOT)
 def _(case):
-    n, robot = case.n, case.robot.fixed()
-    units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
-    return bounded(entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row)
+    return ArmBounds(case.robot).coriolis_below()
 
 
 @proof.claim("2.7", "0 < λmin(B)‖q̇‖² ≤ q̇ᵀBq̇ ≤ λmax(B)‖q̇‖² for q̇ ≠ 0", place="Property 2.7", section=ROBOT)
@@ -346,188 +339,82 @@ LYAPUNOV = "Section 3: the Lyapunov function"
     "11", "the origin is the only equilibrium", place="after (11)", section=LYAPUNOV, uses=["2.3", "6"]
 )
 def _(case):
-    """At rest M ẇ = K_p h(e): each entry k_pi h(e_i) vanishes only with e_i."""
-    m, gain = case.m, var("kp")
-    w = [expr(0)] * case.n
-    at_rest = [
-        gain * h(m, x) - b * v - var("kv") * h(m, v) for b, v in zip(vector("b", case.n), w, strict=True)
-    ]
-    return all_of(
-        at_rest_only_the_proportional_term=identity(total(at_rest), case.n * gain * h(m, x)),
-        no_zero_right_of_0=for_all(expr(0) < h(m, x), 0, open_low=True),
-        no_zero_left_of_0=for_all(h(m, x) < 0, None, 0, open_high=True),
-        zero_at_0=identity(h(m, 0), 0),
-    )
+    return loop_property("the origin is the only equilibrium", function_of(case))
 
 
-NAMES = ("w", "a", "h", "d", "U", "hw", "kp", "kv", "e")
-
-
-def symbols(n):
-    """The letters of (12)–(15) for any robot: h = h(e), d = h'(e), hw = h(w), U the potential, r = ‖e‖."""
-    return {name: vector(name, n) for name in NAMES} | {
-        "M": matrix("M", n, symmetric=True),
-        "C": matrix("C", n),
-        "r": var("r"),
-        "eps0": var("eps0"),
-    }
-
-
-def letters():
-    """The same for every n, with b the diagonal of B."""
-    return {name: any_vector(name) for name in (*NAMES, "b")} | {
-        "M": any_matrix("M"),
-        "C": any_matrix("C"),
-        "r": var("r"),
-        "eps0": var("eps0"),
-    }
+def function_of(case):
+    """h, h' and U."""
+    return h(case.m, x), dh(case.m, x), potential(case.m, x)
 
 
 def lyapunov_12(s):
     """V as (12) prints it."""
-    eps = s["eps0"] / (1 + s["r"])
-    kinetic = form(s["w"], s["M"], s["w"]) / 2
-    cross = eps * form(s["h"], s["M"], s["w"])
-    return kinetic + dot(s["kp"], s["U"]) - cross + eps**2 * form(s["h"], s["M"], s["h"]) / 2
+    kinetic = form(s.w, s.M, s.w) / 2
+    cross = s.eps * form(s.h, s.M, s.w)
+    return kinetic + dot(s.kp, s.U) - cross + s.eps**2 * form(s.h, s.M, s.h) / 2
 
 
-def lyapunov_13(s):
-    """V as (13) prints it."""
-    eps = s["eps0"] / (1 + s["r"])
-    y = combined(s["w"], -eps, s["h"])
-    return form(y, s["M"], y) / 2 + dot(s["kp"], s["U"])
-
-
-def along_11(s, function):
-    """dV/dt by the chain rule, with ẇ = a; the friction that makes M a the right side of (11)."""
-    n = len(s["w"])
-    w, mass, c = s["w"], s["M"], s["C"]
-    rates = {f"w{i + 1}": s["a"][i] for i in range(n)}
-    rates |= {f"h{i + 1}": -s["d"][i] * w[i] for i in range(n)}
-    rates |= {f"U{i + 1}": -s["h"][i] * w[i] for i in range(n)}
-    rates |= {f"M{i + 1}{j + 1}": c[i][j] + c[j][i] for i in range(n) for j in range(i, n)}
-    rates["r"] = -dot(s["e"], w) / s["r"]
-    drive = scaled(s["kp"], s["h"])
-    damping, coriolis, inertia = scaled(s["kv"], s["hw"]), apply(c, w), apply(mass, s["a"])
-    friction = [(drive[i] - damping[i] - coriolis[i] - inertia[i]) / w[i] for i in range(n)]
-    return total(diff(function, name) * rate for name, rate in rates.items()), friction
-
-
-def along_11_every_n(s, function, equals):
-    """For every n: a function has this derivative along (11), with Ṁ = C + Cᵀ and constant gains."""
-    w, mass, c = s["w"], s["M"], s["C"]
-    rates = [(w, s["a"]), (s["e"], -w), (s["h"], -scaled(s["d"], w)), (s["U"], -scaled(s["h"], w))]
-    rates += [(s["kp"], zero_vector()), (mass, plus(c, transpose(c)))]
-    rates += [(s["r"], -dot(s["e"], w) / s["r"]), (s["eps0"], expr(0))]
-    friction = scaled(s["kv"], s["hw"]) + scaled(s["b"], w) + apply(c, w)
-    motion = (mass, s["a"], scaled(s["kp"], s["h"]) - friction)
-    return every_n(rate(function), equals, symmetric=[mass], rates=rates, given=[motion])
-
-
-def terms_15(s, b):
-    """The eleven terms of (15), in printed order."""
-    eps = s["eps0"] / (1 + s["r"])
-    w, h_e, dw, mass, c = s["w"], s["h"], scaled(s["d"], s["w"]), s["M"], s["C"]
-    along = dot(s["e"], w) / s["r"]
-    return [
-        -dot(w, scaled(s["kv"], s["hw"])),
-        -dot(w, scaled(b, w)),
-        eps * form(dw, mass, w),
-        -s["eps0"] * along / (1 + s["r"]) ** 2 * form(h_e, mass, w),
-        -eps * form(h_e, transpose(c), w),
-        -eps * dot(h_e, scaled(s["kp"], h_e)),
-        eps * dot(h_e, scaled(b, w)),
-        eps * dot(h_e, scaled(s["kv"], s["hw"])),
-        eps**2 * form(h_e, plus(c, transpose(c)), h_e) / 2,
-        eps**2 * along / (1 + s["r"]) * form(h_e, mass, h_e),
-        -(eps**2) * form(dw, mass, h_e),
-    ]
-
-
-def terms_14(s, b):
+def terms_14(s):
     """The sixteen terms of (14), in printed order; Ṁ is written C + Cᵀ where the paper does."""
-    eps = s["eps0"] / (1 + s["r"])
-    w, h_e, dw, mass, c = s["w"], s["h"], scaled(s["d"], s["w"]), s["M"], s["C"]
+    w, h_e, dw, mass, c, eps, along = s.w, s.h, scaled(s.dh, s.w), s.M, s.C, s.eps, s.along
     rate = plus(c, transpose(c))
-    along = dot(s["e"], w) / s["r"]
-    proportional = dot(w, scaled(s["kp"], h_e))
+    proportional = dot(w, scaled(s.kp, h_e))
     return [
         proportional,
-        -dot(w, scaled(s["kv"], s["hw"])),
-        -dot(w, scaled(b, w)),
+        -dot(w, scaled(s.kv, s.hw)),
+        -dot(w, scaled(s.b, w)),
         -form(w, c, w),
         form(w, rate, w) / 2,
         -proportional,
         eps * form(dw, mass, w),
-        -s["eps0"] * along / (1 + s["r"]) ** 2 * form(h_e, mass, w),
+        -s.eps0 * along / (1 + s.r) ** 2 * form(h_e, mass, w),
         -eps * form(h_e, rate, w),
-        -eps * dot(h_e, scaled(s["kp"], h_e)),
-        eps * dot(h_e, scaled(b, w)),
-        eps * dot(h_e, scaled(s["kv"], s["hw"])),
+        -eps * dot(h_e, scaled(s.kp, h_e)),
+        eps * dot(h_e, scaled(s.b, w)),
+        eps * dot(h_e, scaled(s.kv, s.hw)),
         eps * form(h_e, c, w),
         eps**2 * form(h_e, rate, h_e) / 2,
-        eps**2 * (2 * along / (1 + s["r"])) * form(h_e, mass, h_e) / 2,
+        eps**2 * (2 * along / (1 + s.r)) * form(h_e, mass, h_e) / 2,
         -(eps**2) * form(dw, mass, h_e),
     ]
 
 
 @proof.claim("12", "V of (12) equals (13), for every n", place="(12), (13)", section=LYAPUNOV)
 def _(case):
-    s, any_n = symbols(case.n), letters()
-    return all_of(
-        entries=identity(lyapunov_12(s), lyapunov_13(s)),
-        every_n=every_n(lyapunov_12(any_n), lyapunov_13(any_n), symmetric=[any_n["M"]]),
-    )
+    s = loops.letters()
+    return every_n(lyapunov_12(s), loops.energy(s), symmetric=[s.M], positive=[s.r])
 
 
 @proof.claim(
     "12p", "V > 0 away from the origin", place="after (13)", section=LYAPUNOV, uses=["2.1", "6", "12"]
 )
 def _(case):
-    """(13) is ½yᵀMy + Σ k_pi U(e_i), y = w − εh: U(x) > 0 = ln 1 unless x = 0, and then y = w."""
-    m = case.m
-    return all_of(
-        argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
-        argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
-        h_vanishes_at_0=identity(h(m, 0), 0),
-    )
+    """V in the form (13), which is (12) by claim 12."""
+    return loop_property("V is positive definite", function_of(case))
 
 
 @proof.claim("12u", "V is radially unbounded", place="after (13)", section=LYAPUNOV, uses=["2.1", "7a", "12"])
 def _(case):
-    """U(x) ≥ |x| − ln 4 takes care of e; y = w − εh differs from w by at most ε₀√nγ."""
-    m = case.m
-    return for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0)
+    return loop_property("V is radially unbounded", function_of(case))
 
 
 @proof.claim(
     "12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", place="(12)", section=LYAPUNOV, uses=["8"]
 )
 def _(case):
-    """V depends on ‖q̃‖ only through ε(r)h(q̃), which differs from ε₀h(q̃) by no more than 2ε₀r²."""
-    r, eps0, norm_h = var("r"), var("eps0"), var("norm_h")
-    return all_of(
-        h_is_at_most_2_r=norm_bound(h(case.m, x), case.n, 2, power=1),
-        difference_is_of_second_order=implies(
-            positive("eps0") + nonnegative("r", "norm_h"),
-            (norm_h <= 2 * r,),
-            (eps0 - eps0 / (1 + r)) * norm_h <= 2 * eps0 * r**2,
-        ),
-    )
+    return loop_property("V is continuously differentiable", function_of(case))
 
 
 @proof.claim(
     "14", "(14) is dV/dt along (11), for every n", place="(14)", section=LYAPUNOV, uses=["2.4", "8", "12"]
 )
 def _(case):
-    """Entry by entry for this n, and for every n."""
-    s, any_n = symbols(case.n), letters()
-    derivative, friction = along_11(s, lyapunov_12(s))
+    """The loop moves the letters; the rate of r = ‖q̃‖ is what the rate of r² says."""
+    s = loops.letters()
     return all_of(
         potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
-        derivative=identity(derivative, total(terms_14(s, friction))),
-        every_n=along_11_every_n(any_n, lyapunov_12(any_n), total(terms_14(any_n, any_n["b"]))),
-        rate_of_the_norm=along_11_every_n(any_n, any_n["r"] ** 2, rate(dot(any_n["e"], any_n["e"]))),
+        every_n=loops.along(s, lyapunov_12(s), total(terms_14(s))),
+        rate_of_the_norm=loops.along(s, s.r**2, rate(dot(s.e, s.e))),
     )
 
 
@@ -539,89 +426,125 @@ def _(case):
     uses=["2.4", "2.5", "14"],
 )
 def _(case):
-    """Entry by entry for this n, and for every n."""
-    s, any_n = symbols(case.n), letters()
-    entries = simplifications(s, vector("b", case.n), identity)
-    return all_of(**entries, every_n=all_of(**simplifications(any_n, any_n["b"], every_n)))
-
-
-def simplifications(s, b, equal):
     """What cancels and combines in (14), and that (15) is left."""
-    t = terms_14(s, b)
-    eps = s["eps0"] / (1 + s["r"])
-    return {
-        "terms_1_and_6": equal(t[0] + t[5], expr(0)),
-        "terms_4_and_5": equal(t[3] + t[4], expr(0)),
-        "terms_9_and_13": equal(t[8] + t[12], -eps * form(s["h"], transpose(s["C"]), s["w"])),
-        "sum": equal(total(t), total(terms_15(s, b))),
-    }
+    s = loops.letters()
+    t = terms_14(s)
+    equal = partial(every_n, positive=[s.r])
+    return all_of(
+        terms_1_and_6=every_n(t[0] + t[5], expr(0)),
+        terms_4_and_5=every_n(t[3] + t[4], expr(0)),
+        terms_9_and_13=equal(t[8] + t[12], -s.eps * form(s.h, transpose(s.C), s.w)),
+        sum=equal(total(t), total(loops.terms(s))),
+    )
 
 
 # Section 3: the bounds of (16) ----------------------------------------------------------------------------
 
 BOUNDS = "Section 3: the bounds of (16)"
-ORDER = (("eps", "eps0"),)
+LETTERS = loops.short_letters()
+NORM_E, NORM_W = var("norm_e"), var("norm_w")
 
 
-def bound_factors(m, n):
-    """What is known of each factor of (15): by (7), (8), L = sup h(x)/x, and Properties 2.2, 2.6, 2.7."""
-    root = sqrt(n)
-    flat, steep = root * gamma(m), secant_bound(m)
+def constants(n):
+    """The constants of Θ as positive reals; λmax(B) = b + more, and ε = share·ε₀ with 0 < share ≤ 1."""
+    c = {name: var(name) for name in ("gamma", "rho", "kp", "kv", "b", "beta", "kc", "eps0", "share")}
+    return c | {"n": n, "root": sqrt(n), "b_max": c["b"] + var("more"), "eps": c["eps0"] * c["share"]}
+
+
+def constants_of(case):
+    """The same with the numbers γ_m and ρ_m, and letters for λmax(B) and ε."""
+    family = {"gamma": gamma(case.m), "rho": rho(case.m)}
+    return constants(case.n) | family | {"b_max": var("b_max"), "eps": var("eps")}
+
+
+def bounds_16(c):
+    """The eleven bounds of (16), in printed order."""
+    n, root, gam, rh, eps, eps0 = (c[name] for name in ("n", "root", "gamma", "rho", "eps", "eps0"))
+    kv, beta, kc, a, b = c["kv"], c["beta"], c["kc"], NORM_E, NORM_W
+    return [
+        root * gam * kv * b**2,
+        -c["b"] * b**2,
+        eps * root * rh * beta * b**2,
+        eps * root * gam * beta * b**2,
+        eps * root * gam * kc * b**2,
+        -eps * n * gam**2 * c["kp"] * a**2,
+        eps * root * gam * c["b_max"] * a * b,
+        eps * n * rh * gam * kv * a * b,
+        eps * eps0 * n * gam**2 * kc * a * b,
+        eps * eps0 * n * gam**2 * beta * a * b,
+        eps * eps0 * n * gam * rh * beta * a * b,
+    ]
+
+
+def secant_of(case):
+    """A decimal number above L = sup h(x)/x."""
+    return above(secant_bound(case.m))
+
+
+def norms(case):
+    """What (7), (8), L and Properties 2.2, 2.6 and 2.7 say of the letters, and ε ≤ ε₀, 1/(1 + ‖q̃‖) ≤ 1."""
+    s, c = LETTERS, constants_of(case)
+    reach, steep = c["root"] * c["gamma"], c["root"] * c["rho"]
     return {
-        "eps": (majorant(eps=1),),
-        "eps0 over (1 + r)²": (majorant(eps=1),),
-        "unit·w": (majorant(w=1),),
-        "h(e)": (majorant(flat), majorant(steep, e=1)),
-        "h(w)": (majorant(flat), majorant(steep, w=1)),
-        "h'(e)∘w": (majorant(rho(m), w=1),),
-        "w": (majorant(w=1),),
-        "M": (majorant(beta=1),),
-        "C": (majorant(kc=1, w=1),),
-        "K_v": (majorant(kv_max=1),),
-        "B": (majorant(b_max=1),),
+        "eps": (s.eps, c["eps0"]),
+        "s": (s.s, 1),
+        "u": (s.u, 1),
+        "w": (s.w, NORM_W),
+        "7a": (s.h, reach),
+        "7b": (s.h, reach * NORM_E),
+        "L": (s.h, secant_of(case) * NORM_E),
+        "Lw": (s.hw, secant_of(case) * NORM_W),
+        "8a": (diagonal(s.dh), steep),
+        "M": (s.M, c["beta"]),
+        "C": (s.C, c["kc"] * NORM_W),
+        "K_v": (diagonal(s.kv), c["kv"]),
+        "B": (diagonal(s.b), c["b_max"]),
     }
 
 
-def chain(case, names, bound, factor=1):
-    """A product of named factors, times a number, against a bound."""
-    known = bound_factors(case.m, case.n)
-    return norm_chain([(majorant(factor),), *(known[name] for name in names)], bound, ORDER)
+def least_of_1_and_2(case):
+    """K_v ≻ 0 and h has the sign of its argument; λmin(B) of Property 2.7."""
+    s = LETTERS
+    return {
+        1: (dot(s.w, scaled(s.kv, s.hw)), 0),
+        2: (dot(s.w, scaled(s.b, s.w)), constants_of(case)["b"] * NORM_W**2),
+    }
+
+
+def term_at_most(case, k, *known):
+    """Term k of (15) is at most its bound in (16), for every n, by norms that are known."""
+    every = norms(case)
+    return loops.term_at_most(
+        LETTERS, k, bounds_16(constants_of(case))[k - 1], [every[name] for name in known]
+    )
+
+
+def negative_term_at_most(case, k):
+    """The same for terms 1 and 2, which are negative."""
+    right, least = bounds_16(constants_of(case))[k - 1], least_of_1_and_2(case)[k]
+    return loops.term_at_most(LETTERS, k, right, [norms(case)["w"]], [least])
 
 
 @proof.claim(
     "16.1", "−q̇ᵀK_v h(q̇) ≤ √n γ λmax(K_v)‖q̇‖²", place="(16), term 1", section=BOUNDS, uses=["6", "15"]
 )
 def _(case):
-    """The summands are −k_i t_i with t_i = w_i h(w_i) ≥ 0."""
-    n = case.n
-    terms = total(var(f"k{i + 1}") * var(f"t{i + 1}") for i in range(n))
-    size = total(var(f"w{i + 1}") ** 2 for i in range(n))
-    variables = positive("k_max", "gamma", *(f"k{i + 1}" for i in range(n)))
-    variables += nonnegative(*(f"t{i + 1}" for i in range(n))) + reals(*(f"w{i + 1}" for i in range(n)))
     return all_of(
-        every_t_is_nonnegative=for_all(expr(0) <= x * h(case.m, x)),
-        sum=implies(variables, (), -terms <= sqrt(n) * var("gamma") * var("k_max") * size),
+        every_summand_is_nonnegative=for_all(expr(0) <= x * h(case.m, x)), term=negative_term_at_most(case, 1)
     )
 
 
-@proof.claim("16.2", "−q̇ᵀBq̇ ≤ −λmin(B)‖q̇‖²", place="(16), term 2", section=BOUNDS, uses=["15"])
+@proof.claim("16.2", "−q̇ᵀBq̇ ≤ −λmin(B)‖q̇‖²", place="(16), term 2", section=BOUNDS, uses=["2.7", "15"])
 def _(case):
-    """With b_i = λmin(B) + c_i, c_i ≥ 0."""
-    names = [f"w{i + 1}" for i in range(case.n)]
-    over = [f"c{i + 1}" for i in range(case.n)]
-    power = total((var("b_min") + var(c)) * var(w) ** 2 for c, w in zip(over, names, strict=True))
-    return implies(
-        positive("b_min") + nonnegative(*over) + reals(*names),
-        (),
-        -power <= -var("b_min") * total(var(w) ** 2 for w in names),
-    )
+    return negative_term_at_most(case, 2)
 
 
 @proof.claim(
     "16.3", "ε(h'∘q̇)ᵀMq̇ ≤ ε√n ρ β_M ‖q̇‖²", place="(16), term 3", section=BOUNDS, uses=["2.2", "8a", "15"]
 )
 def _(case):
-    return chain(case, ["eps", "h'(e)∘w", "M", "w"], majorant(sqrt(case.n) * rho(case.m), eps=1, beta=1, w=2))
+    """The norm of diag(h') is at most that of the vector h'."""
+    return term_at_most(case, 3, "8a", "M", "w")
 
 
 @proof.claim(
@@ -632,15 +555,14 @@ def _(case):
     uses=["2.2", "7a", "15"],
 )
 def _(case):
-    names = ["eps0 over (1 + r)²", "unit·w", "h(e)", "M", "w"]
-    return chain(case, names, majorant(sqrt(case.n) * gamma(case.m), eps=1, beta=1, w=2))
+    return term_at_most(case, 4, "s", "u", "7a", "M", "w")
 
 
 @proof.claim(
     "16.5", "−ε hᵀCᵀq̇ ≤ ε√n γ k_c ‖q̇‖²", place="(16), term 5", section=BOUNDS, uses=["2.6", "7a", "15"]
 )
 def _(case):
-    return chain(case, ["eps", "h(e)", "C", "w"], majorant(sqrt(case.n) * gamma(case.m), eps=1, kc=1, w=2))
+    return term_at_most(case, 5, "7a", "C", "w")
 
 
 def term_6(case):
@@ -664,16 +586,18 @@ def _(case):
     "16.7", "ε hᵀBq̇ ≤ ε√n γ λmax(B)‖q̃‖‖q̇‖", place="(16), term 7", section=BOUNDS, uses=["2.7", "7b", "15"]
 )
 def _(case):
-    bound = majorant(sqrt(case.n) * gamma(case.m), eps=1, b_max=1, e=1, w=1)
-    return chain(case, ["eps", "h(e)", "B", "w"], bound)
+    return term_at_most(case, 7, "7b", "B", "w")
 
 
 @proof.claim(
     "16.8", "ε hᵀK_v h(q̇) ≤ ε n ρ γ λmax(K_v)‖q̃‖‖q̇‖", place="(16), term 8", section=BOUNDS, uses=["6", "15"]
 )
 def _(case):
-    bound = majorant(case.n * rho(case.m) * gamma(case.m), eps=1, kv_max=1, e=1, w=1)
-    return chain(case, ["eps", "h(e)", "K_v", "h(w)"], bound)
+    """By L = sup h(x)/x, as L² ≤ nργ."""
+    return all_of(
+        slope=norm_bound(h(case.m, x), case.n, secant_of(case), power=1),
+        term=term_at_most(case, 8, "L", "Lw", "K_v"),
+    )
 
 
 @proof.claim(
@@ -681,11 +605,10 @@ def _(case):
     "½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖",
     place="(16), term 9",
     section=BOUNDS,
-    uses=["2.6", "7a", "15"],
+    uses=["2.6", "7a", "7b", "15"],
 )
 def _(case):
-    bound = majorant(case.n * gamma(case.m) ** 2, eps=1, eps0=1, kc=1, e=1, w=1)
-    return chain(case, ["eps", "eps", "h(e)", "C", "h(e)"], bound)
+    return term_at_most(case, 9, "eps", "7a", "7b", "C")
 
 
 @proof.claim(
@@ -693,11 +616,10 @@ def _(case):
     "ε² q̃ᵀq̇/(‖q̃‖(1+‖q̃‖)) hᵀMh ≤ ε ε₀ n γ² β_M ‖q̃‖‖q̇‖",
     place="(16), term 10",
     section=BOUNDS,
-    uses=["2.2", "7a", "15"],
+    uses=["2.2", "7a", "7b", "15"],
 )
 def _(case):
-    bound = majorant(case.n * gamma(case.m) ** 2, eps=1, eps0=1, beta=1, e=1, w=1)
-    return chain(case, ["eps", "eps", "unit·w", "h(e)", "M", "h(e)"], bound)
+    return term_at_most(case, 10, "eps", "s", "u", "w", "7a", "7b", "M")
 
 
 @proof.claim(
@@ -705,11 +627,10 @@ def _(case):
     "−ε²(h'∘q̇)ᵀMh ≤ ε ε₀ n γ ρ β_M ‖q̃‖‖q̇‖",
     place="(16), term 11",
     section=BOUNDS,
-    uses=["2.2", "8a", "15"],
+    uses=["2.2", "7b", "8a", "15"],
 )
 def _(case):
-    bound = majorant(case.n * gamma(case.m) * rho(case.m), eps=1, eps0=1, beta=1, e=1, w=1)
-    return chain(case, ["eps", "eps", "h'(e)∘w", "M", "h(e)"], bound)
+    return term_at_most(case, 11, "eps", "8a", "w", "7b", "M")
 
 
 SIXTEEN = [f"16.{k}" for k in range(1, 12)]
@@ -724,40 +645,26 @@ SIXTEEN = [f"16.{k}" for k in range(1, 12)]
 )
 def _(case):
     """At rest all terms but the sixth vanish; elsewhere the bounds add up to the quadratic form."""
-    c = constants(case.n)
-    a, b = var("norm_e"), var("norm_w")
-    corner, side, low = theta(c)
-    root, n, eps, eps0 = sqrt(case.n), case.n, c["eps"], c["eps0"]
-    gam, rh, kv_max, beta, kc = c["gamma"], c["rho"], c["kv"], c["beta"], c["kc"]
-    parts = [
-        root * gam * kv_max * b**2,
-        -c["b"] * b**2,
-        eps * root * rh * beta * b**2,
-        eps * root * gam * beta * b**2,
-        eps * root * gam * kc * b**2,
-        -eps * n * gam**2 * c["kp"] * a**2,
-        eps * root * gam * c["b_max"] * a * b,
-        eps * n * rh * gam * kv_max * a * b,
-        eps * eps0 * n * gam**2 * kc * a * b,
-        eps * eps0 * n * gam**2 * beta * a * b,
-        eps * eps0 * n * gam * rh * beta * a * b,
-    ]
+    c, of_case, s = constants(case.n), constants_of(case), LETTERS
+    gain = of_case["n"] * of_case["gamma"] ** 2 * of_case["kp"] * NORM_E**2
+    least = [*least_of_1_and_2(case).values(), (dot(s.h, scaled(s.kp, s.h)), gain)]
     return all_of(
         at_rest=term_6(case),
-        the_bounds_add_up=identity(total(parts), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        the_bounds_add_up=identity(total(bounds_16(c)), minus_form(theta(c))),
+        rate_of_V=loops.rate_at_most(s, minus_form(theta(of_case)), norms(case).values(), least),
     )
+
+
+def minus_form(entries):
+    """−[‖q̃‖ ‖q̇‖] Θ [‖q̃‖ ‖q̇‖]ᵀ."""
+    corner, side, low = entries
+    return -(corner * NORM_E**2 + 2 * side * NORM_E * NORM_W + low * NORM_W**2)
 
 
 # Section 3: the conditions on ε₀ --------------------------------------------------------------------------
 
 CONDITIONS = "Section 3: the conditions on ε₀"
 PARAMETERS = positive("gamma", "rho", "kp", "kv", "b", "beta", "kc", "eps0", "share") + nonnegative("more")
-
-
-def constants(n):
-    """The constants of Θ as positive reals; λmax(B) = b + more, and ε = share·ε₀ with 0 < share ≤ 1."""
-    c = {name: var(name) for name in ("gamma", "rho", "kp", "kv", "b", "beta", "kc", "eps0", "share")}
-    return c | {"n": n, "root": sqrt(n), "b_max": c["b"] + var("more"), "eps": c["eps0"] * c["share"]}
 
 
 def bracket(c):
@@ -872,7 +779,7 @@ def numbers_at_hand(case):
     """The constants of Θ for the robot and gains at hand; ε₀ and ε are left to the claim."""
     if len(case.gains.kp) != case.robot.n:
         raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    arm, n = ArmBounds(case.robot.fixed()), case.n
+    arm, n = ArmBounds(case.robot), case.n
     known = {"kp": min(case.gains.kp), "kv": max(case.gains.kv), "b": arm.b_min, "b_max": arm.b_max}
     known |= {"beta": arm.beta, "kc": arm.kc, "n": n, "root": sqrt(n)}
     return {name: expr(value) for name, value in known.items()} | {
@@ -911,7 +818,7 @@ def _(case):
     "the origin is globally asymptotically stable",
     place="Proposition",
     section=CONDITIONS,
-    uses=["11", "12d", "12p", "12u", "16", "18e"],
+    uses=["11", "12d", "12p", "12u", "h.bounds", "16", "18e"],
 )
 def _(case):
     """By Θ of (16), with decimals for γ_m and ρ_m."""
@@ -921,11 +828,12 @@ def _(case):
     form = theta(names | {"kv": var("kv_max"), "b": var("b_min")})
     return theorem(
         "Lyapunov's direct method",
-        known.loop((h(case.m, x), dh(case.m, x), potential(case.m, x)), form),
+        known.loop(function_of(case), form),
         only_equilibrium="11",
         differentiable="12d",
         positive_definite="12p",
         radially_unbounded="12u",
+        bounds_of_h="h.bounds",
         rate_bounded_by_a_form="16",
         form_negative_definite="18e",
     )
@@ -1070,4 +978,5 @@ for figure, m, joint, torque in FIGURES:
 
 # Remark II: tracking --------------------------------------------------------------------------------------
 
+proof.adopt("scalar.py", "h.bounds", section=FAMILY)
 proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)")

@@ -17,38 +17,28 @@ long as ‖q̇_d‖ ≤ v_d. Taken for granted: q_d has two continuous derivativ
 
 from dataclasses import replace
 from fractions import Fraction
-from functools import reduce
 
 from lyapcheck.claims import (
     ArmBounds,
-    Constant,
     FamilyBounds,
     ForSmall,
     Proof,
     all_of,
-    always_positive,
+    any_matrix,
     any_vector,
-    apply,
-    combined,
     dh,
     dot,
-    entry_floors,
     every_n,
     expr,
     for_all,
     gamma,
     h,
     identity,
-    implies,
     lacking,
     largest_with,
-    leading_minors,
-    loop_closed,
+    loop_property,
     loops,
-    majorant,
-    mass_matrix,
     nonnegative,
-    norm_chain,
     positive,
     potential,
     rate_bound,
@@ -58,7 +48,6 @@ from lyapcheck.claims import (
     theorem,
     total,
     var,
-    vector,
     zero_vector,
 )
 
@@ -75,7 +64,7 @@ SHARE = Fraction(99, 100)
 """ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
 
 SAME_TERMS = [f"rate.{k}" for k in (1, 2, 3, 4, 6, 7, 8, 10, 11)]
-proof.adopt("scalar.py", "V.positive", "V.unbounded", *SAME_TERMS)
+proof.adopt("scalar.py", "V.positive", "V.unbounded", "h.bounds", *SAME_TERMS)
 
 
 def sign_of(case):
@@ -94,6 +83,11 @@ def known_of(case):
     return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
 
 
+def function_of(case):
+    """h, h' and U."""
+    return h(case.m, x), dh(case.m, x), potential(case.m, x)
+
+
 @proof.claim(
     "21.loop",
     "w = −(q̇_d − q̇) obeys (11) with C(q, q̇) in place of C(q, w); the origin is an equilibrium",
@@ -102,109 +96,37 @@ def known_of(case):
     uses=["h.odd"],
 )
 def _(case):
-    """Entry by entry for this n, and for every n."""
-    n, any_n = case.n, loops.letters()
-    names = ("z", "vd", "ad", "g")
-    zero = [expr(0)] * n
-    entries = loop_of_21(loops.loop(n), [vector(name, n) for name in names], zero, identity)
-    letters = [any_vector(name) for name in names]
+    s = loops.letters()
+    zero = zero_vector()
+    origin = replace(s, w=zero, hw=zero, h=zero)
+    z, *others = (any_vector(name) for name in ("z", "vd", "ad", "g"))
     return all_of(
         **sign_of(case),
-        **entries,
-        every_n=all_of(**loop_of_21(any_n, letters, zero_vector(), every_n)),
-        with_the_letters_of_the_theorem=loop_closed(loop_of(case)),
+        loop=every_n(lacking_torque(s, z, *others), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
+        equilibrium=every_n(dot(z, loops.force(origin)), expr(0)),
+        with_the_letters_of_the_theorem=loop_property(
+            "the origin is an equilibrium", function_of(case), desired=True
+        ),
     )
 
 
-def loop_of_21(s, others, zero, equal):
-    """(21) minus the left side of (1) at q̇ = q̇_d + w, q̈ = q̈_d + ẇ, with h(ė) = −h(w) as h is odd."""
-    z, speed, acceleration, weight = others
-
-    def together(first, *rest):
-        return reduce(lambda x, y: combined(x, expr(1), y), rest, first)
-
-    applied = together(
-        combined(scaled(s.kp, s.h), expr(-1), scaled(s.kv, s.hw)),
-        apply(s.M, acceleration),
-        apply(s.C, speed),
-        weight,
-        scaled(s.b, speed),
-    )
-    velocity = together(speed, s.w)
-    inertia = apply(s.M, together(acceleration, s.a))
-    needed = together(inertia, apply(s.C, velocity), weight, scaled(s.b, velocity))
-    origin = replace(s, w=zero, hw=zero, h=zero)
-    return {
-        "loop": equal(dot(z, applied) - dot(z, needed), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
-        "equilibrium": equal(dot(z, loops.force(origin)), expr(0)),
-    }
+def lacking_torque(s, z, speed, acceleration, weight):
+    """zᵀ of (21) minus the left side of (1) at q̇ = q̇_d + w, q̈ = q̈_d + ẇ, with h(ė) = −h(w) as h is odd."""
+    velocity = speed + s.w
+    applied = scaled(s.kp, s.h) - scaled(s.kv, s.hw) + s.M @ acceleration + s.C @ speed + weight
+    applied += scaled(s.b, speed)
+    needed = s.M @ (acceleration + s.a) + s.C @ velocity + weight + scaled(s.b, velocity)
+    return dot(z, applied) - dot(z, needed)
 
 
 RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ, with ‖q̇_d‖ ≤ v_d"
 
 
-def with_speed(case, names, product, bound):
-    """A product with ‖q̇‖ in it, and ‖q̇‖ ≤ v_d + b and a ≤ √nγ in that."""
-    norms = loops.norms(known_of(case))
-    a, b, v, vd, reach = map(var, ("a", "b", "v", "vd", "reach"))
-    variables = nonnegative("eps", "kc", "a", "b", "v", "vd", "reach")
-    powers = dict(product.powers)
-    symbols = {"eps": var("eps"), "kc": var("kc"), "v": v, "a": a, "w": b}
-    size = expr(1)
-    for name, power in powers.items():
-        size = size * symbols[name] ** power
-    return all_of(
-        product=norm_chain([norms[name] for name in names], product),
-        split=implies(variables, (v <= vd + b, a <= reach), size <= bound),
-    )
-
-
-@proof.claim(
-    "21.5",
-    "term 5: −ε hᵀC(q,q̇)ᵀw ≤ ε k_c v_d a b + ε√nγ k_c b²",
-    place="(15), term 5",
-    section=RATE,
-    uses=["rate", "h.bound"],
-)
-def _(case):
-    a, b, eps, kc, vd, reach = map(var, ("a", "b", "eps", "kc", "vd", "reach"))
-    product = majorant(eps=1, kc=1, v=1, a=1, w=1)
-    bound = eps * kc * vd * a * b + eps * reach * kc * b**2
-    return with_speed(case, ["eps", "h(e)", "C(q,q̇)", "w"], product, bound)
-
-
-@proof.claim(
-    "21.9",
-    "term 9: ½ε² hᵀ(C + Cᵀ)h ≤ ε² k_c v_d a² + ε²√nγ k_c a b",
-    place="(15), term 9",
-    section=RATE,
-    uses=["rate", "h.bound"],
-)
-def _(case):
-    a, b, eps, kc, vd, reach = map(var, ("a", "b", "eps", "kc", "vd", "reach"))
-    product = majorant(eps=2, kc=1, v=1, a=2)
-    bound = eps**2 * kc * vd * a**2 + eps**2 * reach * kc * a * b
-    return with_speed(case, ["eps", "eps", "h(e)", "C(q,q̇)", "h(e)"], product, bound)
-
-
-def theta(eps, k, b_min, c, d, turn):
-    """θ'11, θ'12, θ'22; ``turn`` is k_c v_d."""
-    return eps * (k - eps * turn), -eps / 2 * (d + turn + eps * c), b_min - eps * c
-
-
-@proof.claim(
-    "21.form",
-    "dV/dt ≤ −[a b] Θ' [a b]ᵀ, in which there is no t",
-    place="in place of (16)",
-    section=RATE,
-    uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
-)
-def _(case):
-    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
-    known = known_of(case)
+def bounds_of(known):
+    """The bounds of the eleven terms; those of the fifth and the ninth have v_d in them."""
     names = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
     a, b, eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
-    bounds = [
+    return [
         expr(0),
         -b_min * b**2,
         eps * known.rho * beta * b**2,
@@ -217,26 +139,74 @@ def _(case):
         eps**2 * known.G * beta * a * b,
         eps**2 * known.rho * beta * a * b,
     ]
-    c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
-    corner, side, low = theta(eps, k, b_min, c, d, kc * vd)
-    return all_of(
-        sum=identity(total(bounds), -(corner * a**2 + 2 * side * a * b + low * b**2)),
-        from_V_for_every_n=rate_bound(loop_of(case)),
-    )
+
+
+def term(case, k, *names):
+    """Term k of (15) with C(q, q̇) = C(q, w) + D, D = C(q, q̇_d), ‖D‖ ≤ k_c v_d, is at most its bound."""
+    s, known, desired = loops.short_letters(), known_of(case), any_matrix("D")
+    sizes = loops.known_norms(s, known) | {"D": (desired, var("kc") * var("vd"))}
+    turning = replace(s, C=s.C + desired)
+    return loops.term_at_most(turning, k, bounds_of(known)[k - 1], [sizes[name] for name in names])
+
+
+@proof.claim(
+    "21.5",
+    "term 5: −ε hᵀC(q,q̇)ᵀw ≤ ε k_c v_d a b + ε√nγ k_c b²",
+    place="(15), term 5",
+    section=RATE,
+    uses=["rate", "h.bound"],
+)
+def _(case):
+    return term(case, 5, "h", "reach", "C", "D", "w")
+
+
+@proof.claim(
+    "21.9",
+    "term 9: ½ε² hᵀ(C + Cᵀ)h ≤ ε² k_c v_d a² + ε²√nγ k_c a b",
+    place="(15), term 9",
+    section=RATE,
+    uses=["rate", "h.bound"],
+)
+def _(case):
+    return term(case, 9, "h", "reach", "C", "D")
+
+
+def theta(eps, k, b_min, c, d, turn):
+    """θ'11, θ'12, θ'22; ``turn`` is k_c v_d."""
+    return eps * (k - eps * turn), -eps / 2 * (d + turn + eps * c), b_min - eps * c
+
+
+def form_of(known):
+    """The same in the constants of the loop."""
+    names = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
+    eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
+    return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
 
 
 def loop_of(case, **more):
     """The loop that (21) closes with V of (13), as the theorem is about it."""
     known = known_of(case)
-    names = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
-    eps, k, b_min, b_max, kv_max, beta, kc, vd = map(var, names)
-    form = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
-    h_and_more = (h(case.m, x), dh(case.m, x), potential(case.m, x))
-    return known.loop(h_and_more, form, desired=True, **more)
+    return known.loop(function_of(case), form_of(known), desired=True, **more)
+
+
+@proof.claim(
+    "21.form",
+    "dV/dt ≤ −[a b] Θ' [a b]ᵀ, in which there is no t",
+    place="in place of (16)",
+    section=RATE,
+    uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
+)
+def _(case):
+    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
+    known, a, b = known_of(case), var("a"), var("b")
+    corner, side, low = form_of(known)
+    return all_of(
+        sum=identity(total(bounds_of(known)), -(corner * a**2 + 2 * side * a * b + low * b**2)),
+        from_V_for_every_n=rate_bound(loop_of(case)),
+    )
 
 
 UNIFORM = "Uniform asymptotic stability, for every arm"
-SIZES = positive("mu", "beta") + nonnegative("yy", "yMy", "stored")
 
 
 @proof.claim(
@@ -248,8 +218,7 @@ SIZES = positive("mu", "beta") + nonnegative("yy", "yMy", "stored")
 )
 def _(case):
     """λmin(M) is one number μ > 0 for all q(t): M is positive definite on the compact torus of angles."""
-    mu, yy, size, stored = map(var, ("mu", "yy", "yMy", "stored"))
-    return implies(SIZES, (mu * yy <= size,), mu * yy / 2 + stored <= size / 2 + stored)
+    return loop_property("V is bounded below by a positive definite function", function_of(case))
 
 
 @proof.claim(
@@ -260,8 +229,7 @@ def _(case):
     uses=["V.positive"],
 )
 def _(case):
-    beta, yy, size, stored = map(var, ("beta", "yy", "yMy", "stored"))
-    return implies(SIZES, (size <= beta * yy,), size / 2 + stored <= beta * yy / 2 + stored)
+    return loop_property("V is bounded above by a positive definite function", function_of(case))
 
 
 @proof.claim(
@@ -290,6 +258,7 @@ DIRECT_METHOD = {
     "bounded_below_by_a_positive_definite_function": "21.below",
     "bounded_above_by_a_positive_definite_function": "21.above",
     "radially_unbounded": "V.unbounded",
+    "bounds_of_h": "h.bounds",
     "rate_bounded_by_a_form": "21.form",
 }
 
@@ -310,14 +279,14 @@ def _(case):
 # With numbers for the robot, the gains and v_d -------------------------------------------------------------
 
 ARM = "This arm, with a number for v_d"
-proof.adopt("scalar.py", "arm.properties", "arm.M", "arm.C", "arm.B")
+proof.adopt("scalar.py", "arm.properties", "arm.M", "arm.C")
 
 
 def form_numbers(case):
     """λmin(K_p), λmin(B), c, d and k_c v_d for the robot and gains at hand."""
     if len(case.gains.kp) != case.robot.n:
         raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    known, arm = known_of(case), ArmBounds(case.robot.fixed())
+    known, arm = known_of(case), ArmBounds(case.robot)
     c, d = known.drift(arm.beta, arm.kc), known.cross(arm.b_max, max(case.gains.kv))
     return min(case.gains.kp), arm.b_min, c, d, arm.kc * SPEED
 
@@ -344,17 +313,9 @@ def eps0_of(case):
     "arm.inertia", "M(q) − μI is positive definite for a number μ > 0", place="Property 2.1", section=ARM
 )
 def _(case):
-    mass = mass_matrix(case.robot.fixed())
-
-    def minors(mu):
-        rows = range(len(mass))
-        return leading_minors([[mass[i][j] - mu if i == j else mass[i][j] for j in rows] for i in rows])
-
-    halves = (Fraction(1, 2**k) for k in range(3, 20))
-    mu = next((mu for mu in halves if min(entry_floors(minors(mu))) > 0), None)
-    if mu is None:
-        raise lacking("the Fourier sums of the leading minors of M do not show M − μI ≻ 0 for any μ")
-    return all_of(positive=Constant(expr(0) < mu), minors=always_positive(minors(mu)))
+    """μ is half of the least eigenvalue at a few postures, rounded down to a power of two."""
+    arm = ArmBounds(case.robot)
+    return arm.mass_above(arm.guessed_floor())
 
 
 @proof.claim(
@@ -383,13 +344,13 @@ def _(case):
         "arm.inertia",
         "arm.M",
         "arm.C",
-        "arm.B",
         "arm.21.theta",
     ],
 )
 def _(case):
-    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(case.robot.fixed())
+    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(case.robot)
     bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc, "vd": SPEED}
     gains = {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
-    loop = loop_of(case, **bounds, **gains)
-    return theorem(name, loop, **DIRECT_METHOD, form_negative_definite="arm.21.theta")
+    loop = loop_of(case, arm=arm.under(case.gains), **bounds, **gains)
+    constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
+    return theorem(name, loop, **DIRECT_METHOD, **constants, form_negative_definite="arm.21.theta")

@@ -9,9 +9,9 @@ from functools import cache
 
 import mpmath
 
-from lyapcheck.check.certificates import statements
-from lyapcheck.check.certificates.every_n import EveryN
-from lyapcheck.check.functions import variables
+from lyapcheck.check.expressions.expression import variables
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.claims import statements
 from tests.refutations.every_n_oracle import every_n_is_false
 
 POINTS = 40

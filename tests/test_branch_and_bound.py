@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.stability import leaves, proves
+from lyapcheck.check.loop import leaves, proves
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load

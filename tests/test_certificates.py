@@ -14,33 +14,21 @@ from hypothesis import strategies as st
 from independent_truth import contradicts
 from test_claims import PROVED, REFUTED
 
-from lyapcheck.check.certificates import Refused, verify
-from lyapcheck.check.certificates.codec import from_json, to_json
-from lyapcheck.check.certificates.document import SCHEMA, About, Certificate, digest_of, judge, parse, read
-from lyapcheck.check.certificates.proofs import (
-    Application,
-    Boxes,
-    ChosenMajorants,
-    Corners,
-    EntryWitness,
-    EqualEntries,
-    EveryPart,
-    ExactNumbers,
-    FourierBounds,
-    Multiple,
-    NormalForm,
-    OnePart,
-    OutsideRounding,
-    Pieces,
-    Proof,
-    SeparateBalls,
-    SignIdentity,
-    Sturm,
-    Supremum,
-    Witness,
-)
-from lyapcheck.check.certificates.statements import Majorant, Relation, Statement
-from lyapcheck.check.functions import CONSTANTS, FAMILY, FUNCTIONS
+from lyapcheck.check.certificate import SCHEMA, About, Certificate, digest_of, judge, parse, read
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS
+from lyapcheck.check.kinds.agrees import Corners, OutsideRounding
+from lyapcheck.check.kinds.all_of import EveryPart, OnePart
+from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
+from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
+from lyapcheck.check.kinds.signs import Multiple, SignIdentity
+from lyapcheck.check.kinds.theorem import Application
+from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     Constant,
     FamilyBounds,
@@ -57,10 +45,8 @@ from lyapcheck.claims import (
     h,
     identity,
     implies,
-    majorant,
     nonnegative,
     norm_bound,
-    norm_chain,
     positive,
     reals,
     run_proof,
@@ -70,8 +56,7 @@ from lyapcheck.claims import (
     theorem,
     var,
 )
-from lyapcheck.claims.certificates import certificates
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 
 x, y, a, b = map(var, "xyab")
@@ -81,9 +66,9 @@ CASES["not all"] = all_of(one=PROVED["√3 < 1.7321"], two=REFUTED["√3 < 1.732
 
 
 def certificate_of(statement):
-    decision = decide(statement)
+    decision = propose(statement)
     about = About("c", "a claim", None, None, "test")
-    return Certificate(about, statement, decision.verdict.value, decision.grade.label, decision.certificate)
+    return Certificate(about, statement, decision.verdict.value, decision.grade.label, decision.proof)
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +78,7 @@ def made():
 
 @pytest.fixture(scope="module")
 def published():
-    return certificates(run_proof("published.py", ms=(2,)))
+    return run_proof("published.py", ms=(2,)).certificates
 
 
 def sealed(data):
@@ -120,7 +105,7 @@ def test_a_certificate_survives_its_file(made):
 
 
 def test_the_same_proof_gives_the_same_bytes_without_paths(published):
-    again = certificates(run_proof("published.py", ms=(2,)))
+    again = run_proof("published.py", ms=(2,)).certificates
     assert {name: c.text() for name, c in again.items()} == {name: c.text() for name, c in published.items()}
     assert not any("/work" in c.text() or "home" in c.text() for c in published.values())
 
@@ -346,7 +331,6 @@ def test_a_refutation_that_claims_to_rest_on_others_is_refused():
 EVEN = for_all(expr(0) < 1 + x**2 * exp(x), -1, 3)
 TOP = for_all(h(2, x) <= "1.06", 0)
 TRANSITIVE = implies(positive("a", "b", "c"), (a < b, b <= var("c")), a < var("c"))
-CHAIN = norm_chain([(majorant(2, w=1),), (majorant(1), majorant(3, e=1))], majorant(7, e=1, w=1))
 PRINTED = agrees(a * b, "100", a="9", b="10")
 E0, KP = var("eps"), var("kp")
 LOOP = FamilyBounds(1, 1, 1, 1).loop((tanh(x), 1 - tanh(x) ** 2, tanh(x)), (E0 * KP, E0, KP))
@@ -359,7 +343,7 @@ def boxes(*cuts, zero=False, tail=False, bits=64):
     return Boxes(tuple(map(F, cuts)), zero, tail, bits)
 
 
-NEAR_ZERO = decide(for_all(tanh(x) < x, 0, 1, open_low=True)).certificate
+NEAR_ZERO = propose(for_all(tanh(x) < x, 0, 1, open_low=True)).proof
 
 
 def steps(*multiples, lift=()):
@@ -460,15 +444,6 @@ FORGED = {
         "positive monomial",
     ),
     "a generator that does not exist": (TRANSITIVE, steps((0, 1, ((99, 1),)), (1, 1, ())), "generator = 99"),
-    "a majorant that does not exist": (CHAIN, ChosenMajorants((0, 2), ExactNumbers()), "choice = 2"),
-    "a majorant from behind": (CHAIN, ChosenMajorants((0, -1), ExactNumbers()), "choice = -1"),
-    "a factor without majorant": (CHAIN, ChosenMajorants((0,), ExactNumbers()), "one majorant per factor"),
-    "majorants in other symbols": (CHAIN, ChosenMajorants((0, 0), ExactNumbers()), "other symbols"),
-    "two negative majorants": (
-        norm_chain([(majorant(-2),), (majorant(-3),)], majorant(7)),
-        ChosenMajorants((0, 0), ExactNumbers()),
-        "shown to be >= 0",
-    ),
     "corners of other inputs": (PRINTED, Corners((0,), (1, 1), 128), "0 or 1 for each"),
     "corners on one side": (PRINTED, Corners((0, 0), (0, 0), 128), "below the printed"),
     "not outside": (PRINTED, OutsideRounding(128), "meets the rounding"),
@@ -530,7 +505,6 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         (EVEN, Pieces((boxes(*(F(k, 4) for k in range(13))), boxes(0, "1/2", 1)))),
         (for_all(tanh(x) < x, 0, 1, open_low=True), NEAR_ZERO),
         (TRANSITIVE, steps((0, 1, ()), (1, 1, ()))),
-        (CHAIN, ChosenMajorants((0, 1), ExactNumbers())),
         (PRINTED, Corners((0, 0), (1, 1), 128)),
         (CASES["not all"], OnePart(1, SeparateBalls(128))),
     ]
@@ -538,13 +512,24 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         assert verify(statement, proof).verdict in ("proved", "refuted")
 
 
+class Unheard(Statement):
+    """A kind of statement that no rule decides."""
+
+    def require_well_formed(self):
+        pass
+
+    def terms(self):
+        return ()
+
+    def text(self):
+        return ""
+
+
 def test_a_statement_that_is_no_statement_is_refused():
-    powers = norm_chain([(Majorant(("num", "1"), (("w", -1),)),)], majorant(1))
-    assert "negative power" in refusal(powers, ChosenMajorants((0,), ExactNumbers()))
     assert "declared" in refusal(implies(positive("a"), (), a <= b), steps())
     assert "twice" in refusal(implies(positive("a", "a"), (), expr(0) <= a), steps())
     assert "at least one part" in refusal(all_of(), EveryPart(()))
-    assert "not a kind" in refusal(Statement(), NormalForm())
+    assert "is not a way to decide" in refusal(Unheard(), NormalForm())
     with pytest.raises(ValueError, match="<="):
         Relation(("num", "1"), "=", ("num", "1"))
 

@@ -13,10 +13,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.constants import gamma_less_than, gamma_value, hyperbolic_constants
-from lyapcheck.check.critical import peak_of_h
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.constants import gamma_less_than, gamma_value, hyperbolic_constants
+from lyapcheck.check.numbers.critical import peak_of_h
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.bound import PRINTED, GammaBound, gamma_of
 from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.conditions import Check, Conditions, check_10p, check_19

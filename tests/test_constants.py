@@ -11,9 +11,9 @@ from flint import arb, ctx, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.constants import gamma_less_than, hyperbolic_constants
-from lyapcheck.check.critical import bracketed_root, peak_of_h, peaks_of_dh
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.constants import gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.critical import bracketed_root, peak_of_h, peaks_of_dh
+from lyapcheck.check.numbers.enclosure import Enclosure
 
 DIGITS = 40
 
@@ -177,7 +177,7 @@ def test_gamma_less_than_decides_however_close_the_bound_is(m, exponent, sign):
 
 def test_equality_is_recognised_by_a_common_positive_root():
     """γ_m² is irrational for the m tried, so equality is planted: R vanishes at the peak of a stand-in."""
-    from lyapcheck.check import constants
+    from lyapcheck.check.numbers import constants
 
     assert constants._has_positive_root(constants.fmpq_poly([-2, 0, 1]))
     assert not constants._has_positive_root(constants.fmpq_poly([1, 1]))

@@ -11,9 +11,9 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check import balls
-from lyapcheck.check.constants import hyperbolic_constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers import balls
+from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 
 rationals = st.fractions(max_denominator=10**12)
 widths = st.fractions(min_value=0, max_denominator=10**9)

@@ -14,7 +14,7 @@ from lyapcheck.admissible.compute import epsilon, round_down
 from lyapcheck.admissible.consistency import Contradiction, require_consistent
 from lyapcheck.admissible.formats import FORMATS, renderer
 from lyapcheck.admissible.result import EpsilonResult
-from lyapcheck.check.states import confirms_positive
+from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError

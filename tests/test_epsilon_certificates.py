@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 
 from lyapcheck.admissible import epsilon
 from lyapcheck.admissible.certificates import certificates
-from lyapcheck.check.certificates import Refused
-from lyapcheck.check.certificates.document import Certificate, digest_of, judge, parse, read
+from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
+from lyapcheck.check.refusal import Refused
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.robots import load

@@ -12,15 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from lyapcheck.check.functions import variables
+from lyapcheck.check.expressions.expression import variables
+from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.explain import explain
 from lyapcheck.claims.explain_formats import renderer
-from lyapcheck.claims.expression_text import expression_text
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
-from lyapcheck.claims.statement_text import statement_text
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.cli.main import build_app
 from lyapcheck.errors import InputError
@@ -230,5 +229,5 @@ def test_the_statements_of_every_proof_can_be_written_out():
             except Lacking:
                 continue
             parts = statement.parts if isinstance(statement, AllOf) else (("", statement),)
-            written += any(statement_text(part) for _, part in parts)
+            written += any(part.text() for _, part in parts)
     assert written > 100

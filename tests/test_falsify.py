@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lyapcheck.check.states import State, confirms_positive, rate
+from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.control import GainSet
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from lyapcheck import family
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.errors import InputError
 
 MEMBERS = (1, 2, 3, 10, 317)

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family
-from lyapcheck.check import balls
-from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.numbers import balls
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 
 MEMBERS = (1, 2, 3, 5, 10, 50, 100, 317, 513, 1000)
 FORMS = {"h": balls.h, "dh": balls.dh, "potential": balls.potential, "secant": balls.secant}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import load_robot, named_family
-from lyapcheck.check.stability import proves
+from lyapcheck.check.loop import proves
 from lyapcheck.cli import main as cli
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from robot_cases import BUILT_IN
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family, hyperbolic, named, names
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.arm import ArmIntervals, coriolis

@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.intervals import Interval, cosine, inverse_one_plus, norm, sine, unit_vector
 from lyapcheck.intervals.definite import positive_definite
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import family, robots
-from lyapcheck.check import states
+from lyapcheck.check.loop import states
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
 from lyapcheck.lyapunov.numeric import LyapunovNumeric

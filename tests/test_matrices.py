@@ -10,7 +10,7 @@ from flint import arb, fmpq, fmpq_mat
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check import matrices
+from lyapcheck.check.numbers import matrices
 
 Rows = list[list[Fraction]]
 numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from robot_cases import BUILT_IN, relaxed
 from urdf_texts import ARMS
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.constant import Task

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from lyapcheck.admissible import epsilon
-from lyapcheck.check.stability import proves
+from lyapcheck.check.loop import proves
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError

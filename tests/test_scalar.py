@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family, robots
-from lyapcheck.check.matrices import is_positive_definite
-from lyapcheck.check.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.scalar import ScalarForm, certifies
+from lyapcheck.check.numbers.matrices import is_positive_definite
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, root_above, scalar_form, sharp_form
 from lyapcheck.robots.numeric import NumericModel

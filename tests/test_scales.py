@@ -9,10 +9,10 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.asymptotic import Asymptotic, X, exactly
-from lyapcheck.check.functions import Tree, ball, evaluate
-from lyapcheck.check.inequality import positive_near_zero, sign_everywhere
-from lyapcheck.check.scales import ScaleAlgebra, sign_beside, sign_from
+from lyapcheck.check.expressions.asymptotic import Asymptotic, X, exactly
+from lyapcheck.check.expressions.expression import Tree, ball, evaluate
+from lyapcheck.check.expressions.inequality import positive_near_zero, sign_everywhere
+from lyapcheck.check.expressions.scales import ScaleAlgebra, sign_beside, sign_from
 from lyapcheck.claims import (
     Expr,
     atan,

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.check.balls import precision
-from lyapcheck.check.states import State, confirms_positive
+from lyapcheck.check.loop.states import State, confirms_positive
+from lyapcheck.check.numbers.balls import precision
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import Number
 from lyapcheck.search.falsify import falsify

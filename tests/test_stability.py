@@ -13,16 +13,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from lyapcheck.check import stability
-from lyapcheck.check.balls import precision
-from lyapcheck.check.enclosure import dyadic
-from lyapcheck.check.harmonics import christoffel, derivative, harmonics, mirrored
-from lyapcheck.check.stability import BrokenTree, Closure, leaves, proves, proves_part
-from lyapcheck.check.stability.arithmetic import BALLS, SPANS, Arithmetic
-from lyapcheck.check.stability.boxes import halves
-from lyapcheck.check.stability.schur import Evaluator
-from lyapcheck.check.stability.span import Span
-from lyapcheck.check.states import State, rate
+from lyapcheck.check.loop import BrokenTree, Closure, leaves, proves, proves_part
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
+from lyapcheck.check.loop.boxes import Box, halves
+from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.loop.span import Span
+from lyapcheck.check.loop.states import State, rate
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import dyadic
+from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, mirrored
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import RobotModel, load
@@ -114,7 +113,7 @@ def grown(case: Closure, deepest: int) -> str:
     with precision(64):
         evaluator = Evaluator(case, BALLS)
 
-        def grow(box: stability.Box, depth: int) -> str:
+        def grow(box: Box, depth: int) -> str:
             if depth == deepest or evaluator.proves(box):
                 return "."
             side = max(range(len(box)), key=lambda i: box[i][1] - box[i][0])

@@ -10,8 +10,7 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.states import (
+from lyapcheck.check.loop.states import (
     Arm,
     Controller,
     Functions,
@@ -23,6 +22,7 @@ from lyapcheck.check.states import (
     slope,
     value,
 )
+from lyapcheck.check.numbers.balls import precision, to_arb
 
 F = Fraction
 LINEAR = Functions(lambda x: x, lambda x: arb(1), lambda x: x * x / 2)

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from robot_cases import BUILT_IN
 
-from lyapcheck.check.stability import Closure
+from lyapcheck.check.loop import Closure
 from lyapcheck.control import GainSet
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load

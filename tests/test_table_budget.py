@@ -11,7 +11,7 @@ import pytest
 from flint import arb
 from typer.testing import CliRunner
 
-from lyapcheck.check.balls import precision
+from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError

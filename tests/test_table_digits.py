@@ -14,8 +14,8 @@ import mpmath
 import pytest
 from flint import arb
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.family.table import build_table
 from lyapcheck.family.table_formats import renderer
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.check.scalar import certifies
+from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
@@ -297,8 +297,8 @@ def test_impossible_requests_are_refused_by_name(change, keys):
 
 def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
     """The proof that a promise broke is about the same dV/dt and τ as the samples show."""
-    from lyapcheck.check.balls import precision
-    from lyapcheck.check.states import State, rate
+    from lyapcheck.check.loop.states import State, rate
+    from lyapcheck.check.numbers.balls import precision
     from lyapcheck.simulate.confirm import Sample, exceeds, rises, torques, turning
 
     run, setting = run_of(eps0=0.3, points=21, stop=False), Setting(TABLE2[0], robots.load("buap3"))

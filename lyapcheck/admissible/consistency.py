@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.states import confirms_positive
+from lyapcheck.check.loop.states import confirms_positive
 
 if TYPE_CHECKING:
     from lyapcheck.search.falsify import Witness

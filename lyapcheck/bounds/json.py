@@ -9,7 +9,7 @@ from fractions import Fraction
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:

@@ -3,10 +3,11 @@
 A proof script needs nothing but the names below.
 """
 
-from lyapcheck.check.certificates.every_n import EveryN
-from lyapcheck.check.certificates.rules.loop_rate import loop_closed, rate_bound
-from lyapcheck.check.certificates.statements import Relation
-from lyapcheck.check.certificates.theorems import ClosedLoop
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.statement import Relation
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.check.theorems.rate import loop_closed, rate_bound
 from lyapcheck.claims.arms import (
     coriolis_matrix,
     determinant,
@@ -51,7 +52,17 @@ from lyapcheck.claims.expressions import (
     total,
     var,
 )
-from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, every_n, rate, zero_vector
+from lyapcheck.claims.letters import (
+    AnyMatrix,
+    AnyVector,
+    any_matrix,
+    any_vector,
+    at_most_every_n,
+    diagonal,
+    every_n,
+    rate,
+    zero_vector,
+)
 from lyapcheck.claims.products import (
     apply,
     combined,
@@ -74,9 +85,7 @@ from lyapcheck.claims.statements import (
     ForSmall,
     Identity,
     Implies,
-    Majorant,
     NormBound,
-    NormChain,
     Statement,
     Theorem,
     TrigonometricBound,
@@ -89,10 +98,9 @@ from lyapcheck.claims.statements import (
     for_all,
     identity,
     implies,
-    majorant,
+    loop_property,
     nonnegative,
     norm_bound,
-    norm_chain,
     positive,
     reals,
     theorem,
@@ -105,6 +113,7 @@ __all__ = [
     "AnyVector",
     "ArmBounds",
     "Body",
+    "BoundEveryN",
     "Case",
     "Claim",
     "ClaimResult",
@@ -121,9 +130,7 @@ __all__ = [
     "Identity",
     "Implies",
     "Lacking",
-    "Majorant",
     "NormBound",
-    "NormChain",
     "Proof",
     "ProofResult",
     "Relation",
@@ -139,6 +146,7 @@ __all__ = [
     "any_matrix",
     "any_vector",
     "apply",
+    "at_most_every_n",
     "atan",
     "below",
     "bodies",
@@ -151,6 +159,7 @@ __all__ = [
     "decreasing",
     "determinant",
     "dh",
+    "diagonal",
     "diff",
     "dot",
     "entry_floors",
@@ -170,12 +179,11 @@ __all__ = [
     "leading_minors",
     "log",
     "loop_closed",
-    "majorant",
+    "loop_property",
     "mass_matrix",
     "matrix",
     "nonnegative",
     "norm_bound",
-    "norm_chain",
     "pi",
     "plus",
     "positive",

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from lyapcheck.check.certificates.statements import Relation
-from lyapcheck.check.functions import Tree, derivative
+from lyapcheck.check.expressions.expression import Tree, derivative
+from lyapcheck.check.statement import Relation
 
 Operand = "Expr | Fraction | int | str | Decimal"
 

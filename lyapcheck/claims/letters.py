@@ -1,4 +1,4 @@
-"""Writing identities between vectors and matrices that hold for every n, with the usual operators.
+"""Writing what holds between vectors and matrices for every n, with the usual operators.
 
 The functions of ``claims.products`` take these letters as well as lists of entries.
 """
@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lyapcheck.check.certificates.every_n import EveryN, Given
-from lyapcheck.check.functions import Tree
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.every_n import EveryN, Given
 from lyapcheck.claims.expressions import Expr, expr
 
 
@@ -56,6 +58,11 @@ class AnyMatrix:
 
 
 Letter = Expr | AnyVector | AnyMatrix
+Rates = Iterable[tuple[Letter, Letter]]
+Motions = Iterable[tuple[AnyMatrix, AnyVector, AnyVector]]
+Norm = tuple[Letter | tuple[Letter, ...], object]
+Least = tuple[Expr, object]
+SORTS = {"var": "number", "vec": "vector", "mat": "matrix"}
 
 
 def any_vector(name: str) -> AnyVector:
@@ -74,9 +81,7 @@ def diagonal(x: AnyVector) -> AnyMatrix:
     Raises:
         ValueError: it is a sum or a product.
     """
-    if x.tree[0] != "vec":
-        raise ValueError("diag is of a letter, not of a sum or product; give that a letter of its own")
-    return AnyMatrix(("diag", x.tree[1]))
+    return AnyMatrix(("diag", _name("diagonal", x, "vec")))
 
 
 def zero_vector() -> AnyVector:
@@ -93,8 +98,9 @@ def every_n(
     left: Expr,
     right: Expr,
     symmetric: Iterable[AnyMatrix] = (),
-    rates: Iterable[tuple[Letter, Letter]] = (),
-    given: Iterable[tuple[AnyMatrix, AnyVector, AnyVector]] = (),
+    rates: Rates = (),
+    given: Motions = (),
+    positive: Iterable[Expr] = (),
 ) -> EveryN:
     """``left = right`` for every n and all values of the letters.
 
@@ -104,11 +110,68 @@ def every_n(
         symmetric: the matrices with Aᵀ = A.
         rates: the letters that move, or stand still, each with its derivative by time.
         given: A, x and b with A x = b.
+        positive: the numbers that are > 0; the others are real.
+
+    Raises:
+        ValueError: something stands where only a letter may.
     """
     return EveryN(
         left.tree,
         expr(right).tree,
-        tuple(str(matrix.tree[1]) for matrix in symmetric),
+        tuple(_name("symmetric", matrix, "mat") for matrix in symmetric),
         tuple((letter.tree, value.tree) for letter, value in rates),
-        tuple(Given(a.tree[1], x.tree[1], b.tree) for a, x, b in given),
+        _given(given),
+        tuple(_name("positive", number, "var") for number in positive),
     )
+
+
+def at_most_every_n(
+    left: Expr,
+    right: object,
+    norms: Iterable[Norm] = (),
+    least: Iterable[Least] = (),
+    symmetric: Iterable[AnyMatrix] = (),
+    rates: Rates = (),
+    given: Motions = (),
+) -> BoundEveryN:
+    """``left <= right`` for every n, by norms: what is known of the letters is printed with the statement.
+
+    Args:
+        left: a number made of the letters, as in :func:`every_n`; its numbers are >= 0.
+        right: an expression in numbers >= 0 and constants.
+        norms: pairs of a letter and what its norm is at most; of several letters, the product of their norms.
+            The norm of a matrix is the spectral one, that of ``diagonal(x)`` the largest |x_i|.
+        least: pairs of a number and what it is at least.
+        symmetric: as in :func:`every_n`; so are ``rates`` and ``given``.
+        rates: the letters that move, each with its derivative by time.
+        given: A, x and b with A x = b.
+
+    Raises:
+        ValueError: something stands where only a letter may.
+    """
+    groups = ((known if isinstance(known, tuple) else (known,), size) for known, size in norms)
+    return BoundEveryN(
+        left=left.tree,
+        right=expr(right).tree,
+        symmetric=tuple(_name("symmetric", matrix, "mat") for matrix in symmetric),
+        rates=tuple((letter.tree, value.tree) for letter, value in rates),
+        given=_given(given),
+        norms=tuple((tuple(letter.tree for letter in group), expr(size).tree) for group, size in groups),
+        least=tuple((number.tree, expr(size).tree) for number, size in least),
+    )
+
+
+def _given(motions: Motions) -> tuple[Given, ...]:
+    return tuple(Given(_name("given", a, "mat"), _name("given", x, "vec"), b.tree) for a, x, b in motions)
+
+
+def _name(use: str, letter: Letter, kind: str) -> str:
+    """The name of a letter of one sort.
+
+    Raises:
+        ValueError: it is no such letter.
+    """
+    if letter.tree[0] != kind:
+        shown = expression_text(letter.tree)
+        raise ValueError(f"{use}: {shown} is not the letter of a {SORTS[kind]}; give it a letter of its own")
+    return str(letter.tree[1])

@@ -11,18 +11,24 @@ References: ``reyes2019family`` (11), (13), (15), (21).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar
 
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.claims.bounds import FamilyBounds
-from lyapcheck.claims.expressions import Expr, diff, expr, total, var
+from lyapcheck.claims.expressions import Expr, expr, var
 from lyapcheck.claims.letters import (
     AnyMatrix,
     AnyVector,
-    Letter,
+    Least,
+    Norm,
+    Rates,
     any_matrix,
     any_vector,
+    at_most_every_n,
+    diagonal,
     every_n,
     rate,
     zero_vector,
@@ -40,7 +46,6 @@ from lyapcheck.claims.products import (
     transpose,
     vector,
 )
-from lyapcheck.claims.statements import Majorant, majorant
 
 V = TypeVar("V", Vector, AnyVector)
 A = TypeVar("A", Matrix, AnyMatrix)
@@ -48,7 +53,10 @@ A = TypeVar("A", Matrix, AnyMatrix)
 
 @dataclass(frozen=True)
 class Loop(Generic[V, A]):
-    """The letters: ``h`` stands for h(e), ``dh`` for h'(e), ``hw`` for h(w), ``a`` for ẇ."""
+    """The letters: ``h`` stands for h(e), ``dh`` for h'(e), ``hw`` for h(w), ``a`` for ẇ.
+
+    ``u`` is e/r, ``s`` is 1/(1 + r) and ``eps`` is ε: as these formulas say, or letters of their own.
+    """
 
     w: V
     a: V
@@ -60,15 +68,13 @@ class Loop(Generic[V, A]):
     kp: V
     kv: V
     b: V
+    u: V
     M: A
     C: A
     r: Expr
     eps0: Expr
-
-    @property
-    def eps(self) -> Expr:
-        """ε = ε₀/(1 + r)."""
-        return self.eps0 / (1 + self.r)
+    s: Expr
+    eps: Expr
 
     @property
     def y(self) -> V:
@@ -78,24 +84,35 @@ class Loop(Generic[V, A]):
     @property
     def along(self) -> Expr:
         """êᵀw."""
-        return dot(self.e, self.w) / self.r
+        return dot(self.u, self.w)
 
 
 Entries = Loop[Vector, Matrix]
 Letters = Loop[AnyVector, AnyMatrix]
-NAMES = ("w", "a", "e", "h", "dh", "U", "hw", "kp", "kv", "b")
+NAMES = {"a": "dw", "kp": "Kp", "kv": "Kv", "b": "B"} | {
+    name: name for name in ("w", "e", "h", "dh", "U", "hw")
+}
+R, EPS0 = var("r"), var("eps0")
 
 
 def loop(n: int) -> Entries:
     """The letters for n joints; M is symmetric, C any matrix."""
-    own = {name: vector(name, n) for name in NAMES}
-    return Loop(**own, M=matrix("M", n, symmetric=True), C=matrix("C", n), r=var("r"), eps0=var("eps0"))
+    own: dict[str, Any] = {field: vector(name, n) for field, name in NAMES.items()}
+    own |= {"M": matrix("M", n, symmetric=True), "C": matrix("C", n), "u": [x / R for x in own["e"]]}
+    return Loop(**own, r=R, eps0=EPS0, s=1 / (1 + R), eps=EPS0 / (1 + R))
 
 
 def letters() -> Letters:
     """The letters for every number of joints."""
-    own = {name: any_vector(name) for name in NAMES}
-    return Loop(**own, M=any_matrix("M"), C=any_matrix("C"), r=var("r"), eps0=var("eps0"))
+    short = short_letters()
+    return replace(short, u=short.e.times(1 / R), s=1 / (1 + R), eps=EPS0 / (1 + R))
+
+
+def short_letters() -> Letters:
+    """The same with letters for e/r, 1/(1 + r) and ε, whose sizes are known."""
+    own: dict[str, Any] = {field: any_vector(name) for field, name in NAMES.items()}
+    own |= {"M": any_matrix("M"), "C": any_matrix("C"), "u": any_vector("u")}
+    return Loop(**own, r=R, eps0=EPS0, s=var("s"), eps=var("eps"))
 
 
 def energy(s: Loop[V, A]) -> Expr:
@@ -103,27 +120,25 @@ def energy(s: Loop[V, A]) -> Expr:
     return form(s.y, s.M, s.y) / 2 + dot(s.kp, s.U)
 
 
-def chain_rule(s: Entries, function: Expr) -> Expr:
-    """The derivative of a function of the letters along the loop, ẇ = a left as it is.
+def along(s: Letters, function: Expr, equals: Expr) -> EveryN:
+    """For every n and r > 0: a function has this derivative along the loop.
 
     ṙ = −êᵀw has no value at e = 0; where h = 0 as well, it enters V's derivative only in products with h.
     """
-    joints = range(len(s.w))
-    rates = {f"w{i + 1}": s.a[i] for i in joints}
-    rates |= {f"h{i + 1}": -s.dh[i] * s.w[i] for i in joints}
-    rates |= {f"U{i + 1}": -s.h[i] * s.w[i] for i in joints}
-    rates |= {f"M{i + 1}{j + 1}": s.C[i][j] + s.C[j][i] for i in joints for j in range(i, len(s.w))}
-    rates["r"] = -s.along
-    return total(diff(function, name) * rate for name, rate in rates.items())
+    rates, motion = (*moving(s), (s.e, -s.w), (s.r, -s.along), (s.eps0, expr(0))), (s.M, s.a, force(s))
+    return every_n(rate(function), equals, (s.M,), rates, (motion,), (s.r,))
 
 
-def along(s: Letters, function: Expr, equals: Expr) -> EveryN:
-    """For every n: a function has this derivative along the loop; the rates are those of ``chain_rule``."""
-    still = [(x, zero_vector()) for x in (s.kp, s.kv, s.b)]
-    moving = [(s.w, s.a), (s.e, -s.w), (s.h, -scaled(s.dh, s.w)), (s.U, -scaled(s.h, s.w))]
-    scalars = [(s.r, -s.along), (s.eps0, expr(0))]
-    rates: list[tuple[Letter, Letter]] = [*scalars, *moving, *still, (s.M, s.C + s.C.T)]
-    return every_n(rate(function), equals, (s.M,), rates, [(s.M, s.a, force(s))])
+def moving(s: Letters) -> Rates:
+    """The derivatives of all letters but e, r and ε; ẇ is a letter, Ṁ = C + Cᵀ and the gains stand still."""
+    still = ((x, zero_vector()) for x in (s.kp, s.kv, s.b))
+    return (
+        (s.w, s.a),
+        (s.h, -scaled(s.dh, s.w)),
+        (s.U, -scaled(s.h, s.w)),
+        (s.M, s.C + s.C.T),
+        *still,
+    )
 
 
 def inertia(s: Loop[V, A]) -> V:
@@ -146,41 +161,56 @@ def terms(s: Loop[V, A]) -> list[Expr]:
         -dot(w, scaled(s.kv, s.hw)),
         -dot(w, scaled(s.b, w)),
         eps * form(dw, s.M, w),
-        -eps / (1 + s.r) * s.along * form(h, s.M, w),
+        -eps * s.s * s.along * form(h, s.M, w),
         -eps * form(h, transpose(s.C), w),
         -eps * dot(h, scaled(s.kp, h)),
         eps * dot(h, scaled(s.b, w)),
         eps * dot(h, scaled(s.kv, s.hw)),
         eps**2 * form(h, plus(s.C, transpose(s.C)), h) / 2,
-        eps**2 / (1 + s.r) * s.along * form(h, s.M, h),
+        eps**2 * s.s * s.along * form(h, s.M, h),
         -(eps**2) * form(dw, s.M, h),
     ]
 
 
-def rate_with(s: Loop[V, A], moved: V) -> Expr:
-    """dV/dt with Mẇ replaced by a vector: yᵀ(Mẇ − M d(εh)/dt) + ½yᵀ(C + Cᵀ)y − Σ k_pi h(e_i) w_i."""
-    turned = combined(moved, -s.eps / (1 + s.r) * s.along, apply(s.M, s.h))
-    pull = combined(turned, s.eps, apply(s.M, scaled(s.dh, s.w)))
-    turning = form(s.y, plus(s.C, transpose(s.C)), s.y) / 2
-    return dot(s.y, pull) + turning - dot(s.w, scaled(s.kp, s.h))
+def term_at_most(
+    s: Letters, k: int, right: Expr, norms: Iterable[Norm] = (), least: Iterable[Least] = ()
+) -> BoundEveryN:
+    """Term k of (15) is at most an expression for every n, by what is known of its letters."""
+    return at_most_every_n(terms(s)[k - 1], right, norms, least)
 
 
-def norms(known: FamilyBounds) -> dict[str, tuple[Majorant, ...]]:
-    """What is known of the norm of each factor in ``terms``, in a = ‖h(e)‖, w = ‖w‖, v = ‖q̇‖ and constants.
+def rate_at_most(s: Letters, right: Expr, norms: Iterable[Norm], least: Iterable[Least]) -> BoundEveryN:
+    """dV/dt is at most an expression for every n; ``s`` are short letters, for which ε̇ = ε s êᵀw."""
+    rates = (*moving(s), (s.eps, s.eps * s.s * s.along))
+    return at_most_every_n(rate(energy(s)), right, norms, least, (s.M,), rates, ((s.M, s.a, force(s)),))
 
-    ``beta``, ``kc``, ``b_max`` and ``kv_max`` are the bounds of M, C, B and K_v.
+
+def known_norms(s: Letters, known: FamilyBounds) -> dict[str, Norm]:
+    """What is known of the norms of the letters, in a = ‖h(e)‖, b = ‖w‖ and the constants of the loop.
+
+    ``h`` bounds h(e) by a, ``reach`` by √nγ and ``share`` h(e)/(1 + r) by G.
     """
+    a, b, beta, kc, kv_max, b_max = map(var, ("a", "b", "beta", "kc", "kv_max", "b_max"))
     return {
-        "eps": (majorant(eps=1),),
-        "ê·w": (majorant(w=1),),
-        "h(e)": (majorant(a=1), majorant(known.reach)),
-        "h(e)/(1+r)": (majorant(known.G),),
-        "h(w)": (majorant(known.L, w=1),),
-        "h'(e)∘w": (majorant(known.rho, w=1),),
-        "w": (majorant(w=1),),
-        "M": (majorant(beta=1),),
-        "C(q,w)": (majorant(kc=1, w=1),),
-        "C(q,q̇)": (majorant(kc=1, v=1),),
-        "K_v": (majorant(kv_max=1),),
-        "B": (majorant(b_max=1),),
+        "u": (s.u, 1),
+        "w": (s.w, b),
+        "h": (s.h, a),
+        "reach": (s.h, known.reach),
+        "share": ((s.s, s.h), known.G),
+        "hw": (s.hw, known.L * b),
+        "dh": (diagonal(s.dh), known.rho),
+        "K_v": (diagonal(s.kv), kv_max),
+        "B": (diagonal(s.b), b_max),
+        "M": (s.M, beta),
+        "C": (s.C, kc * b),
+    }
+
+
+def known_least(s: Letters) -> dict[str, Least]:
+    """What is known of forms: h has the sign of its argument, and the least eigenvalues of B and K_p."""
+    a, b, b_min, kp = map(var, ("a", "b", "b_min", "kp"))
+    return {
+        "damping": (dot(s.w, scaled(s.kv, s.hw)), 0),
+        "friction": (dot(s.w, scaled(s.b, s.w)), b_min * b**2),
+        "gain": (dot(s.h, scaled(s.kp, s.h)), kp * a**2),
     }

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.certificates.statements import DampingBelow, Decreasing
+from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.claims.case import lacking
+from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import expr
 
 __all__ = ["DampingBelow", "Decreasing", "damping_below", "decreasing"]
@@ -23,8 +24,9 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
 
     Raises:
         Lacking: the gains are for another number of joints, or h is unbounded.
+        ValueError: ε₀ is no exact number.
     """
-    from lyapcheck.admissible.certificates import statement
+    from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.setting import Setting
 
     if len(gains.kp) != robot.n:
@@ -32,7 +34,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
     setting = Setting(gains, robot, ranges)
     if not setting.family.bounded:
         raise lacking("h is unbounded; give gains of a bounded family")
-    return statement(setting.closure(Fraction(expr(eps0).tree[1])))
+    return statement_of(setting.closure(exact_value(eps0)))
 
 
 def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:

@@ -1,4 +1,4 @@
-"""How a proof script writes its statements; what they are made of is in ``check.certificates.statements``."""
+"""How a proof script writes its statements; what they are made of is in ``check.kinds``."""
 
 from __future__ import annotations
 
@@ -6,24 +6,20 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.certificates.statements import (
-    Agrees,
-    AllOf,
-    Constant,
-    ForAll,
-    ForSmall,
-    Identity,
-    Implies,
-    Majorant,
-    NormBound,
-    NormChain,
-    Relation,
-    Statement,
-    TrigonometricBound,
-    TrigonometricPositive,
-    Variable,
-)
-from lyapcheck.check.certificates.theorems import ClosedLoop, Theorem
+from lyapcheck.check.kinds.agrees import Agrees
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.loop_property import LoopProperty
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.statement import Relation, Statement, Variable
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import Expr, expr
 
 __all__ = [
@@ -34,10 +30,8 @@ __all__ = [
     "ForSmall",
     "Identity",
     "Implies",
-    "Majorant",
     "Missing",
     "NormBound",
-    "NormChain",
     "Relation",
     "Statement",
     "Theorem",
@@ -51,10 +45,9 @@ __all__ = [
     "for_all",
     "identity",
     "implies",
-    "majorant",
+    "loop_property",
     "nonnegative",
     "norm_bound",
-    "norm_chain",
     "positive",
     "reals",
     "theorem",
@@ -62,15 +55,15 @@ __all__ = [
 
 
 @dataclass(frozen=True)
-class Missing(Statement):
+class Missing:
     """A statement that this case cannot give: a gain set or a robot is lacking."""
 
     reason: str
 
 
-def identity(left: object, right: object) -> Identity:
-    """``left = right`` for all values of the variables."""
-    return Identity(expr(left).tree, expr(right).tree)
+def identity(left: object, right: object, variables: tuple[Variable, ...] = ()) -> Identity:
+    """``left = right`` for all values of the variables; those that ``variables`` does not name are real."""
+    return Identity(expr(left).tree, expr(right).tree, variables)
 
 
 def for_all(
@@ -122,37 +115,32 @@ def agrees(formula: Expr, printed: str, solve_for: str | None = None, **inputs: 
     return Agrees(formula.tree, tuple(sorted(inputs.items())), printed, solve_for)
 
 
-def _exact(value: object) -> Fraction:
-    """The rational value of an exact number."""
-    return Fraction(expr(value).tree[1])
-
-
 def _end(value: object | None) -> Fraction | None:
-    return None if value is None else _exact(value)
-
-
-def majorant(constant: object = 1, **powers: int) -> Majorant:
-    """``constant · Π symbol^power``."""
-    return Majorant(expr(constant).tree, tuple(sorted(powers.items())))
-
-
-def norm_chain(
-    factors: Iterable[tuple[Majorant, ...]], bound: Majorant, smaller: tuple[tuple[str, str], ...] = ()
-) -> NormChain:
-    """A product of factors is at most a bound."""
-    return NormChain(tuple(factors), bound, smaller)
+    return None if value is None else exact_value(value)
 
 
 def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> TrigonometricBound:
     """Polynomials in sines and cosines are bounded, or bounded by given numbers."""
     trees = [entry.tree for entry in entries]
-    limits = [None] * len(trees) if by is None else [_exact(b) for b in by]
+    limits = [None] * len(trees) if by is None else [exact_value(b) for b in by]
     return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
 
 
 def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
     """Polynomials in sines and cosines are positive for all angles."""
     return TrigonometricPositive(tuple(entry.tree for entry in entries))
+
+
+def loop_property(name: str, function: tuple[Expr, Expr, Expr], desired: bool = False) -> LoopProperty:
+    """A property of the loop that (6) closes, or (21) if ``desired``, or of V of (13) along it, for every n.
+
+    Args:
+        name: one of those of ``check.kinds.loop_property``, such as ``V is positive definite``.
+        function: h, h' and U in x.
+        desired: whether the loop is that of (21).
+    """
+    h, slope, potential = function
+    return LoopProperty(name, h.tree, slope.tree, potential.tree, desired)
 
 
 def theorem(name: str, loop: ClosedLoop, **hypotheses: str) -> Theorem:

@@ -31,7 +31,7 @@ class Eps0:
         if not self.certified:
             return self.number or 0.0
         from lyapcheck.admissible import epsilon
-        from lyapcheck.check.enclosure import Enclosure
+        from lyapcheck.check.numbers.enclosure import Enclosure
 
         advance(0.0, f"{gain_set.name}: what ε₀ is certified")
         found = epsilon(gain_set, model, max_boxes=MAX_BOXES).certified

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.arm import arm_constants
 from lyapcheck.lyapunov.scalar import RobotBounds
 from lyapcheck.robots import RobotModel

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.maximise import Progress, maximise
 from lyapcheck.constants.outside import ceiling
 from lyapcheck.constants.torus import PI_ABOVE, Reach, Torus

@@ -12,7 +12,7 @@ from lyapcheck.records import Record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from lyapcheck.check.enclosure import Enclosure
+    from lyapcheck.check.numbers.enclosure import Enclosure
     from lyapcheck.control.gains import GainSet
 
 PRINTED = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}

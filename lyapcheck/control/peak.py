@@ -1,7 +1,7 @@
 """γ_m between two integers over a power of two, in integers alone: enough to decide all but equality.
 
 The peak of h_m is where u = sinh²x is the only positive root of P(u) = u^m − 2m u − (2m − 1), for m ≥ 2 (see
-``lyapcheck.check.critical``), and there γ_m = (2m(1 + u) − 1)/(2m √(u(1 + u))).
+``lyapcheck.check.numbers.critical``), and there γ_m = (2m(1 + u) − 1)/(2m √(u(1 + u))).
 
 Soundness: Newton's method only proposes u; it lies between two numbers at which P has certainly opposite
 signs, as powers are taken twice, rounded down and rounded up.

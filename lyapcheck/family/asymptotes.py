@@ -18,9 +18,9 @@ from math import ceil, log
 
 from flint import arb
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.constants import Constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 
 
 @dataclass(frozen=True)

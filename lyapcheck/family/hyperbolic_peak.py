@@ -14,8 +14,8 @@ from typing import Any
 
 from flint import arb, arb_series, ctx
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.family.arithmetic import Arithmetic
 
 _TERMS = 13

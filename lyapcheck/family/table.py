@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.constants import Constants, gamma_less_than, hyperbolic_constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 
 PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
@@ -77,7 +77,7 @@ def build_table(
     Raises:
         ValueError: an m or ``digits`` below 1.
 
-    Soundness: see ``lyapcheck.check.constants``; digits are cut off from an enclosure, never rounded.
+    Soundness: see ``lyapcheck.check.numbers.constants``; digits are cut off from an enclosure, never rounded.
 
     References: (6), (7) and (8) of reyes2019family.
 

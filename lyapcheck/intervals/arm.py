@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from lyapcheck.check.harmonics import (
+from lyapcheck.check.numbers.harmonics import (
     Gaussian,
     Harmonic,
     Harmonics,

@@ -9,8 +9,8 @@ from functools import lru_cache
 import numpy as np
 from flint import arb
 
-from lyapcheck.check.critical import peak_of_h, peaks_of_dh
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.intervals.functions import widened
 from lyapcheck.intervals.interval import Array, Interval

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import arb, fmpq, fmpq_mpoly
 
-from lyapcheck.check.enclosure import Enclosure, ball_of
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.files import decimal_text
 from lyapcheck.robot_report.properties import Finding, Property
 from lyapcheck.robots import RobotModel, trig

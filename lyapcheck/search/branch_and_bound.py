@@ -1,6 +1,6 @@
 """Branch and bound for dV/dt < 0 at every state of an arm, origin and infinity included.
 
-P(q, e) of ``lyapcheck.check.stability`` must be positive definite for all q on the torus, all e, and all
+P(q, e) of ``lyapcheck.check.loop`` must be positive definite for all q on the torus, all e, and all
 values of what is uncertain about the arm. Boxes are enclosed in intervals, kept if P ≻ 0, else halved.
 
 - **Infinity.** For ‖e‖ ≥ R the scalar form proves dV/dt < 0; boxes outside that ball are not looked at.
@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.harmonics import Uncertain, derivative, largest
-from lyapcheck.check.scalar import certifies
+from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.intervals.family import dh_range, h_range
 from lyapcheck.search.cover import Outcome, Progress, cover
 from lyapcheck.search.schur import Problem
@@ -41,7 +41,7 @@ def certify(
         on_progress: told the share of the volume decided.
         deadline: by the monotonic clock, s.
 
-    Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.stability.proves``.
+    Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.loop.proves``.
     """
     closure = problem.closure
     if certifies(closure.tail, closure.eps0):

@@ -13,9 +13,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from lyapcheck.check.certificates.proofs import BoxTree
-from lyapcheck.check.decay import Disturbance, Estimate, rest_errors
-from lyapcheck.check.decay.margin import Margin
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.decay import Disturbance, Estimate, rest_errors
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.search.decay_input import Start, start_of, torques_of
 from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
 from lyapcheck.search.levels import Slopes, falling

@@ -12,9 +12,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.states import State, confirms_positive, rate
+from lyapcheck.check.loop.states import State, confirms_positive, rate
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.search.sample import (
     States,
     fastest_directions,
@@ -94,7 +94,7 @@ def falsify(
     Returns:
         the witness; ``None`` when no state was confirmed, which proves nothing.
 
-    Soundness: the witness is proved by `lyapcheck.check.states` from exact data; nothing says that no
+    Soundness: the witness is proved by `lyapcheck.check.loop.states` from exact data; nothing says that no
         smaller ε₀ fails.
     """
     tell = on_progress or (lambda fraction, note: None)

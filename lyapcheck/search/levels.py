@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.decay import Estimate
+from lyapcheck.check.loop.decay import Estimate
 from lyapcheck.family import Family
 
 Array = NDArray[np.float64]

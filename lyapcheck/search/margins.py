@@ -10,10 +10,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.certificates.proofs import BoxTree, RadialBounds
-from lyapcheck.check.decay import Margin, shown
-from lyapcheck.check.stability import Closure
-from lyapcheck.check.stability.radial import Radial
+from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
+from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop.decay import Margin, shown
+from lyapcheck.check.loop.radial import Radial
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.radial import holds_radially, radial_data
@@ -81,13 +81,13 @@ def margin_at(
 def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
     """The margin at the largest share of its ε₀ for which the checker accepts a proof.
 
-    Soundness: ``lyapcheck.check.decay.shown`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.loop.decay.shown`` has accepted what is handed back.
     """
     for share in SHARES:
         eps0 = _short(margin.closure.eps0 * share)
         tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
         by = _data(setting, tried, max_boxes)
-        if by is not None and shown(tried, by, jobs):
+        if by is not None and shown(tried, setting.inertia_proof, by, jobs):
             return Shown(tried, by)
     return None
 

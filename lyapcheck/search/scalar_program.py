@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.scalar import ScalarForm, certifies
 
 DIGITS = 9
 """Significant digits of the ε₀ handed back."""
@@ -30,7 +30,7 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
     Args:
         form: Θ', or ``None`` for an unbounded function.
 
-    Soundness: ``lyapcheck.check.scalar.certifies`` alone decides.
+    Soundness: ``lyapcheck.check.loop.scalar.certifies`` alone decides.
     """
     if form is None:
         return ScalarResult(None, None, "none", "h is unbounded, and the scalar form needs its bound γ")

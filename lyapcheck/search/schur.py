@@ -1,4 +1,4 @@
-"""P of ``lyapcheck.check.stability`` over many boxes at once, as intervals.
+"""P of ``lyapcheck.check.loop`` over many boxes at once, as intervals.
 
 What is found positive definite here is only a proposal: the checker looks at every box again, in balls.
 """
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.stability import Closure
+from lyapcheck.check.loop import Closure
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmIntervals, coriolis

@@ -1,6 +1,6 @@
 """Weights Λ in y = w − εΛh: a convex program over worst states, guided by counterexamples.
 
-P of ``lyapcheck.check.stability`` is, but for its last part, linear in λ = ε₀Λ: with s = 1/(1+r),
+P of ``lyapcheck.check.loop`` is, but for its last part, linear in λ = ε₀Λ: with s = 1/(1+r),
 
     P(λ) = B + ½ s (S(λ) + S(λ)ᵀ) − ¼ s Σ_i (λ_i/k_i) x_i x_iᵀ,   x_i the rows of B + s S,
 
@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.certificates.proofs import BoxTree
-from lyapcheck.check.stability import proves
+from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import MAX_BOXES, Proof
+from lyapcheck.search.certified import MAX_BOXES
 from lyapcheck.search.cover import Progress
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
@@ -95,7 +95,7 @@ def weighted_epsilon(
         seed: of the sampled states.
         on_progress: told the share done.
 
-    Soundness: ``lyapcheck.check.stability`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
     tell = on_progress or (lambda fraction, note: None)
     found, states = _proposal(setting, float(eps0), seed, lambda f, note: tell(0.5 * f, note))
@@ -107,8 +107,9 @@ def weighted_epsilon(
             continue
         outcome = certify(Problem(closure, setting.ranged), max(0, max_boxes // len(SHARES)))
         looked_at += outcome.boxes
-        if outcome.proved and proves(closure, outcome.tree, jobs):
-            return Weighted(Proof(closure, BoxTree(outcome.tree)), states, looked_at)
+        proof = Proof(closure, BoxTree(outcome.tree), setting.inertia_proof) if outcome.proved else None
+        if proof is not None and proof.accepted(jobs):
+            return Weighted(proof, states, looked_at)
     return None
 
 

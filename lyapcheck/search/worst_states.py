@@ -9,7 +9,7 @@ Four programs, all smooth, all started from the best of many sampled states:
 
 and, for a given ε₀, ``steepest``: max of dV/dt / ‖z‖², ‖z‖² = ε‖h(e)‖² + ‖w‖².
 
-Soundness: none; what is found is a candidate for `lyapcheck.check.states`.
+Soundness: none; what is found is a candidate for `lyapcheck.check.loop.states`.
 """
 
 from __future__ import annotations

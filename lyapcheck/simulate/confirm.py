@@ -14,8 +14,8 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.states import State, rate
+from lyapcheck.check.loop.states import State, rate
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.search.setting import Setting
 
 BITS = (128, 256, 512)

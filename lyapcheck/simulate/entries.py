@@ -8,7 +8,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import product
 
-from lyapcheck.check.fourier import Fourier, constant, cosine, sine, size
+from lyapcheck.check.numbers.fourier import Fourier, constant, cosine, sine, size
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import evaluate_all
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.scalar import ScalarForm
+from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.bounds import robot_bounds
 from lyapcheck.files import round_down

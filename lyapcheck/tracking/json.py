@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files import decimal_text
 from lyapcheck.simulate.render import SCHEMA
 from lyapcheck.tracking.run import TrackingRun

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.states import State, value
+from lyapcheck.check.loop.states import State, value
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.constants import robot_constants
 from lyapcheck.simulate.entries import coriolis_squares, gravity_sizes, mass_sizes
 from lyapcheck.tracking.reference.base import BITS, above

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from lyapcheck.check.balls import precision, to_arb
-from lyapcheck.check.constants import Constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.limits import Limits
 from lyapcheck.family.table import Budget, Table
 from lyapcheck.robots import load

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 
-from lyapcheck.check.constants import hyperbolic_constants
-from lyapcheck.check.harmonics import harmonics, largest
+from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.robots import RobotModel, trig
 
 DIGITS = 30

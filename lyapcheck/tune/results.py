@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.tune.targets import Targets

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.bound import GammaBound
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.thresholds import Threshold, scaled

@@ -33,15 +33,12 @@ from lyapcheck.claims import (
     log,
     loop_closed,
     loops,
-    majorant,
     nonnegative,
     norm_bound,
-    norm_chain,
     pi,
     positive,
     rate,
     rate_bound,
-    reals,
     theorem,
     total,
     var,
@@ -52,6 +49,8 @@ from lyapcheck.control import GainSet
 proof = Proof("arctan", "arctan in place of h: global asymptotic stability for every arm and all gains")
 
 x = var("x")
+NAMES = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
+"""‖h(q̃)‖, ‖q̇‖, ε and the constants of the loop."""
 U = x * atan(x) - log(1 + x**2) / 2
 
 
@@ -186,16 +185,14 @@ def _(case):
 
 @proof.claim("rate", "dV/dt is the sum of eleven terms", section=LYAPUNOV, uses=["potential", "smooth"])
 def _(case):
-    s, any_n = loops.loop(case.n), loops.letters()
+    s = loops.letters()
     return all_of(
-        chain_rule=identity(loops.chain_rule(s, loops.energy(s)), loops.rate_with(s, loops.inertia(s))),
-        terms=identity(loops.rate_with(s, loops.force(s)), total(loops.terms(s))),
-        every_n=loops.along(any_n, loops.energy(any_n), total(loops.terms(any_n))),
-        rate_of_the_norm=loops.along(any_n, any_n.r**2, rate(dot(any_n.e, any_n.e))),
+        terms=loops.along(s, loops.energy(s), total(loops.terms(s))),
+        rate_of_the_norm=loops.along(s, s.r**2, rate(dot(s.e, s.e))),
     )
 
 
-# Norms: products of factors whose bounds are known ----------------------------------------------------------
+# Norms for every n: each term is at most a product of norms, by what is said of its letters -----------------
 
 
 @proof.claim(
@@ -205,32 +202,26 @@ def _(case):
     uses=["rate", "sign", "bound", "slope", "steep", "share"],
 )
 def _(case):
-    known, n = known_of(case), case.n
-    norms = loops.norms(known)
+    known, s = known_of(case), loops.short_letters()
+    norms, least = loops.known_norms(s, known), loops.known_least(s)
+    a, b, eps, kp, b_min, b_max, kv_max, beta, kc = map(var, NAMES)
 
-    def chain(names, constant=1, **powers):
-        return norm_chain([norms[name] for name in names.split()], majorant(constant, **powers))
+    def term(k, bound, names, forms=""):
+        known_here = [norms[name] for name in names.split()], [least[name] for name in forms.split()]
+        return loops.term_at_most(s, k, bound, *known_here)
 
-    k, t, w, a, over = (vector(name, n) for name in ("kv", "t", "w", "h", "c"))
-    least, eps = var("least"), var("eps")
-    indices = range(1, n + 1)
-    variables = positive("least", "eps") + nonnegative(*(f"c{i}" for i in indices))
-    excess_w = total((least + c) * x_i**2 for c, x_i in zip(over, w, strict=True))
-    excess_a = total((least + c) * x_i**2 for c, x_i in zip(over, a, strict=True))
     return all_of(
-        term_1=implies(nonnegative(*(f"{s}{i}" for s in ("kv", "t") for i in indices)), (), -dot(k, t) <= 0),
-        term_2=implies(variables + reals(*(f"w{i}" for i in indices)), (), -excess_w <= -least * dot(w, w)),
-        term_3=chain("eps h'(e)∘w M w", known.rho, eps=1, beta=1, w=2),
-        term_4=chain("eps ê·w h(e)/(1+r) M w", known.G, eps=1, beta=1, w=2),
-        term_5=chain("eps h(e) C(q,w) w", known.reach, eps=1, kc=1, w=2),
-        term_6=implies(
-            variables + reals(*(f"h{i}" for i in indices)), (), -eps * excess_a <= -eps * least * dot(a, a)
-        ),
-        term_7=chain("eps h(e) B w", eps=1, b_max=1, a=1, w=1),
-        term_8=chain("eps h(e) K_v h(w)", known.L, eps=1, kv_max=1, a=1, w=1),
-        term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=2, kc=1, a=1, w=1),
-        term_10=chain("eps eps ê·w h(e)/(1+r) M h(e)", known.G, eps=2, beta=1, a=1, w=1),
-        term_11=chain("eps eps h'(e)∘w M h(e)", known.rho, eps=2, beta=1, a=1, w=1),
+        term_1=term(1, expr(0), "", "damping"),
+        term_2=term(2, -b_min * b**2, "w", "friction"),
+        term_3=term(3, eps * known.rho * beta * b**2, "dh M w"),
+        term_4=term(4, eps * known.G * beta * b**2, "u share M w"),
+        term_5=term(5, eps * known.reach * kc * b**2, "reach C w"),
+        term_6=term(6, -eps * kp * a**2, "h", "gain"),
+        term_7=term(7, eps * b_max * a * b, "h B w"),
+        term_8=term(8, eps * known.L * kv_max * a * b, "h K_v hw"),
+        term_9=term(9, eps**2 * known.reach * kc * a * b, "h reach C"),
+        term_10=term(10, eps**2 * known.G * beta * a * b, "u w share h M"),
+        term_11=term(11, eps**2 * known.rho * beta * a * b, "dh w h M"),
     )
 
 
@@ -244,8 +235,7 @@ def theta(eps, k, b_min, c, d):
 )
 def _(case):
     known = known_of(case)
-    names = ("a", "b", "eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc")
-    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(var, names)
+    a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(var, NAMES)
     c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
     squares = -b_min * b**2 - eps * k * a**2
     squares += eps * (known.rho * beta + known.G * beta + known.reach * kc) * b**2

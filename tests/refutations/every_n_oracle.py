@@ -13,7 +13,7 @@ import mpmath
 import numpy as np
 from mpmath import mp, mpf
 
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.grammar import letters
 
 SIZE, SEED = 3, 20190301

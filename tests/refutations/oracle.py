@@ -15,7 +15,7 @@ import mpmath
 import numpy as np
 from mpmath import mp, mpf
 
-from lyapcheck.check.certificates.every_n import EveryN
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.claims.statements import (
     Agrees,
     Constant,

@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.claims import (
     Constant,
     Implies,

@@ -1,10 +1,10 @@
 """Identities between vectors and matrices that hold for every n.
 
-Beside the expressions of ``check.functions``, there are vectors of Rⁿ and n × n matrices:
+Beside the expressions of ``check.expressions``, there are vectors of Rⁿ and n × n matrices:
 
     vectors    ("vec", "w")  ("sum", x, y, ...)  ("scale", s, x)  ("apply", A, x)
     matrices   ("mat", "M")  ("diag", "w")  ("transpose", A)  ("sum", A, B, ...)  ("scale", s, A)
-    numbers    ("dot", x, y)  ("rate", s)   and the operations of ``check.functions``
+    numbers    ("dot", x, y)  ("rate", s)   and the operations of ``check.expressions``
 
 ``sum`` of nothing is 0, ``diag`` is the diagonal matrix of a vector, ``rate`` the derivative by time.
 

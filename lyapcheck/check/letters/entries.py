@@ -8,8 +8,8 @@ from functools import cached_property
 
 from flint import fmpq
 
-from lyapcheck.check.functions import Algebra, Tree, Unsupported, derivative, evaluate, variables
-from lyapcheck.check.polynomials import rational
+from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, derivative, evaluate, variables
+from lyapcheck.check.numbers.polynomials import rational
 
 ZERO: Tree = ("num", "0")
 Vector = list[Tree]
@@ -67,6 +67,14 @@ class Entries:
             return [[_sum([part[i][j] for part in parts]) for j in self.joints] for i in self.joints]
         factor = self.number(rest[0])
         return [[("mul", factor, entry) for entry in row] for row in self.matrix(rest[1])]
+
+    def names(self, letter: Tree) -> list[str]:
+        """The variables of a letter: one for a number, one an entry of a vector or a matrix."""
+        if letter[0] == "var":
+            return [letter[1]]
+        if letter[0] == "mat":
+            return [entry[1] for row in self.matrix(letter) for entry in row]
+        return [entry[1] for entry in self.vector(("vec", letter[1]))]
 
     def _name(self, name: str, i: int, j: int) -> str:
         if name in self.symmetric:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from lyapcheck.check.certificates.refusal import require
-from lyapcheck.check.certificates.trees import MAX_DEPTH, MAX_NAME, SHAPES
-from lyapcheck.check.functions import Tree
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.grammar import MAX_DEPTH, MAX_NAME, SHAPES
+from lyapcheck.check.refusal import require
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 LETTERS = {"number": "var", "vector": "vec", "matrix": "mat"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from lyapcheck.check.functions import LEAVES, Tree, Unsupported
+from lyapcheck.check.expressions.expression import LEAVES, Tree, Unsupported
 
 ZERO: Tree = ("num", "0")
 NOTHING: Tree = ("sum",)

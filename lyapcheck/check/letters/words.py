@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby, product
 
-from lyapcheck.check.functions import Tree, Unsupported
+from lyapcheck.check.expressions.expression import Tree, Unsupported
 from lyapcheck.check.letters.rates import rate
 
 Letter = tuple[str, str]
@@ -60,10 +60,11 @@ class Words:
             return self.number(rate(tree[1], self.rates))
         if tree[0] == "dot":
             left, right = self.expand(tree[1]), self.expand(tree[2])
-            whole = {
-                (*self.transposed(x), *y): ("mul", s, t)
+            # one word may come from several pairs: their coefficients add up
+            whole = _collected(
+                ((*self.transposed(x), *y), ("mul", s, t))
                 for (x, s), (y, t) in product(left.items(), right.items())
-            }
+            )
             return _total(("mul", c, self._variable(word)) for word, c in self._settled(whole))
         return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
 
@@ -77,7 +78,7 @@ class Words:
         if kind in ("vec", "diag", "mat"):
             return {((kind, rest[0]),): ONE}
         if kind == "transpose":
-            return {self.transposed(word): c for word, c in self.expand(rest[0]).items()}
+            return _collected((self.transposed(word), c) for word, c in self.expand(rest[0]).items())
         if kind == "sum":
             return _collected(pair for part in rest for pair in self.expand(part).items())
         if kind == "scale":

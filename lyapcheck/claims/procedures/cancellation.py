@@ -8,8 +8,7 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_mpoly
 
-from lyapcheck.check.certificates.proofs import Monomial, Multiple, SignIdentity
-from lyapcheck.check.certificates.rules.signs import Exponents, Signs
+from lyapcheck.check.kinds.signs import Exponents, Monomial, Multiple, SignIdentity, Signs
 
 
 @dataclass(frozen=True)

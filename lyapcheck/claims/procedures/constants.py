@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from flint import ctx
 
-from lyapcheck.check.certificates.proofs import ExactNumbers, Proof, SeparateBalls
-from lyapcheck.check.certificates.rules.numbers import exact_truth
-from lyapcheck.check.certificates.statements import Constant, Relation
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.functions import ball
-from lyapcheck.check.witness import Sides, holds
+from lyapcheck.check.expressions.expression import ball
+from lyapcheck.check.expressions.witness import Sides, holds
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls, exact_truth
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import witness_data
 

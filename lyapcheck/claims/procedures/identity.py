@@ -9,11 +9,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 
-from lyapcheck.check.certificates.proofs import NormalForm
-from lyapcheck.check.certificates.rules.identity import gap_of
-from lyapcheck.check.certificates.statements import Identity
-from lyapcheck.check.functions import Unsupported, variables
-from lyapcheck.check.normal_form import is_zero
+from lyapcheck.check.expressions.expression import Unsupported, variables
+from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.kinds.identity import Identity, NormalForm, gap_of
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 

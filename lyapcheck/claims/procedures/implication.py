@@ -9,11 +9,11 @@ References: ``stengle1974nullstellensatz`` (the certificates are its simplest me
 
 from __future__ import annotations
 
-from lyapcheck.check.certificates.proofs import SignIdentity
-from lyapcheck.check.certificates.rules.signs import Signs
-from lyapcheck.check.certificates.statements import Implies, Variable
-from lyapcheck.check.functions import LEAVES, Tree, Unsupported
-from lyapcheck.check.witness import Comparison
+from lyapcheck.check.expressions.expression import LEAVES, Tree, Unsupported
+from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.kinds.implies import Implies, signs_of
+from lyapcheck.check.kinds.signs import SignIdentity, Signs
+from lyapcheck.check.statement import Variable
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.search import Failure, first_refutation, witness_data, witness_of
@@ -87,7 +87,7 @@ def _bound(variable: Variable) -> Comparison:
 
 def _signs(statement: Implies) -> Signs | None:
     try:
-        return Signs(statement)
+        return signs_of(statement)
     except Unsupported:
         return None
 

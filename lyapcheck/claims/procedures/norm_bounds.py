@@ -8,83 +8,131 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from flint import fmpq
+from flint import arb, ctx
 
-from lyapcheck.check.certificates.every_n import BoundEveryN, Cover, CoveredTerms
-from lyapcheck.check.certificates.refusal import Refused
-from lyapcheck.check.certificates.rules.norm_bounds import (
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
+from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.kinds.bound_every_n import (
+    BoundEveryN,
+    Cover,
+    CoveredTerms,
     Term,
+    at_size,
     bound_of,
+    drawn_entries,
     terms_in_words,
-    terms_of,
+    within,
     written_letters,
 )
-from lyapcheck.check.certificates.well_formed import require_well_formed
-from lyapcheck.check.functions import Tree, Unsupported
+from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
-from lyapcheck.claims.finding import Finding, shown, still_open
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.refusal import Refused
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import BITS, point_of
 
 METHOD = "norms for every n"
-Spare = dict[tuple[tuple[str, int], ...], fmpq]
+TRIES = 60
+Sizes = dict[tuple[int, ...], arb]
+"""A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""
+Option = tuple[Cover, Tree, Sizes]
+Choice = tuple[tuple[Cover, Tree], ...]
 
 
 def find_bound_every_n(statement: BoundEveryN) -> Finding:
     """Choose covers term by term, going back where the bound has no room left."""
     try:
-        require_well_formed(statement)
+        statement.require_well_formed()
         found, words = terms_in_words(statement)
-        spare = {_key(powers): c for c, powers in terms_of(statement.right)}
+        names = sorted(statement.numbers)
+        spare = _sizes(statement.right, names)
+        options = [list(_options(statement, words, term, names)) for term in found]
     except (Refused, Unsupported) as problem:
         return still_open(f"{problem}; write both sides as polynomials in the letters", METHOD)
-    covers = _chosen(statement, words, found, spare)
-    if covers is None:
-        return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
-    return shown(CoveredTerms(covers), f"{METHOD}: every term within its part of the bound")
+    for chosen in _chosen(options, spare):
+        if within(statement, [bound for _, bound in chosen]):
+            proof = CoveredTerms(tuple(cover for cover, _ in chosen))
+            return shown(proof, f"{METHOD}: every term within its part of the bound")
+    against = _against(statement)
+    if against is not None:
+        return against
+    return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
 
 
-def _chosen(
-    statement: BoundEveryN, words: Words, terms: list[Term], spare: Spare
-) -> tuple[Cover, ...] | None:
-    """A cover of each term, such that what is left of the bound has no negative coefficient."""
-    if not terms:
-        return () if all(c >= 0 for c in spare.values()) else None
-    for cover, bound in _covers(statement, words, terms[0]):
-        left = dict(spare)
-        for c, powers in terms_of(bound):
-            left[_key(powers)] = left.get(_key(powers), fmpq(0)) - c
-            if c > 0 and left[_key(powers)] < 0:
-                break
-        else:
-            rest = _chosen(statement, words, terms[1:], left)
-            if rest is not None:
-                return (cover, *rest)
+def _against(statement: BoundEveryN) -> Finding | None:
+    """Entries that meet all bounds of the norms and break the statement."""
+    for n, point, sign in drawn_entries(statement, TRIES):
+        if sign < 0:
+            left, right = at_size(statement, n)[0]
+            balls = {name: ball_of(x) for name, x in point.items()}
+            with ctx.workprec(BITS):
+                sides = (Enclosure.from_arb(ball(side, balls)).decimals(12) for side in (left, right))
+            data = dict(zip(("left", "right"), map(list, sides), strict=True)) | {"operator": "<="}
+            shown_at = {"n": str(n), **{name: str(x) for name, x in sorted(point.items())}}
+            proof = EntriesWitness(n, point_of(point))
+            return broken(proof, f"{METHOD}: entries that break the bound", {"point": shown_at, **data})
     return None
 
 
-def _covers(statement: BoundEveryN, words: Words, term: Term) -> Iterator[tuple[Cover, Tree]]:
+def _chosen(options: list[list[Option]], spare: Sizes) -> Iterator[Choice]:
+    """Covers of the terms such that no coefficient of what is left of the bound is surely negative."""
+    if not options:
+        if not any(c < 0 for c in spare.values()):
+            yield ()
+        return
+    for cover, bound, sizes in options[0]:
+        left = dict(spare)
+        for key, c in sizes.items():
+            left[key] = left.get(key, arb(0)) - c
+            if c > 0 and left[key] < 0:
+                break
+        else:
+            yield from (((cover, bound), *rest) for rest in _chosen(options[1:], left))
+
+
+def _options(statement: BoundEveryN, words: Words, term: Term, names: list[str]) -> Iterator[Option]:
     """The covers of a term, each with the bound that it gives."""
     least = (Cover((), k) for k in range(len(statement.least)))
     written = written_letters(words, term[1])
     norms = (Cover(choice) for letters in written for choice in _norms(statement, letters))
     for cover in (*least, *dict.fromkeys(norms)):
         try:
-            yield cover, bound_of(statement, words, term, cover)
+            bound = bound_of(statement, words, term, cover)
+            yield cover, bound, _sizes(bound, names)
         except (Refused, ValueError):
             continue
 
 
-def _norms(statement: BoundEveryN, letters: Counter[Tree]) -> Iterator[tuple[int, ...]]:
-    """The ways to cover all letters that are not numbers, each by one of the norms known."""
+def _norms(statement: BoundEveryN, letters: Counter[Tree], start: int = 0) -> Iterator[tuple[int, ...]]:
+    """The ways to cover all letters that are not numbers, and any of the numbers, by the norms known."""
     first = min((letter for letter in letters if letter[0] != "var"), default=None)
     if first is None:
         yield ()
-        return
     for index, (known, _) in enumerate(statement.norms):
         taken = Counter(known)
-        if first in taken and taken <= letters:
-            for rest in _norms(statement, letters - taken):
+        wanted = first in taken if first is not None else index >= start
+        if wanted and taken <= letters:
+            for rest in _norms(statement, letters - taken, index if first is None else 0):
                 yield (index, *rest)
 
 
-def _key(powers: dict[str, int]) -> tuple[tuple[str, int], ...]:
-    return tuple(sorted(powers.items()))
+def _sizes(tree: Tree, names: list[str]) -> Sizes:
+    """A polynomial in the numbers of a statement, whose coefficients may contain constants such as √3.
+
+    Raises:
+        Unsupported: it is no such polynomial.
+    """
+    ratio, algebra = normal_form(tree)
+    constants = algebra.constants()
+    if not ratio.bottom.is_constant() or len(constants) < len(algebra.uses):
+        raise Unsupported("a bound is not a polynomial in its numbers")
+    lead = arb(ratio.bottom.leading_coefficient())
+    found: Sizes = {}
+    for exponents, c in ratio.top.to_dict().items():
+        powers = {name: int(e) for name, e in zip(algebra.names, exponents, strict=False)}
+        key = tuple(powers.get(name, 0) for name in names)
+        size = arb(c) / lead
+        for index, constant in constants.items():
+            size *= constant ** int(exponents[index])
+        found[key] = found.get(key, arb(0)) + size
+    return found

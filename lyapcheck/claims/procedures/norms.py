@@ -14,9 +14,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from lyapcheck.check.certificates.proofs import EqualEntries, OneEntry, Proof, Supremum
-from lyapcheck.check.certificates.rules import norms as rules
-from lyapcheck.check.certificates.statements import ForAll, NormBound, Relation
+from lyapcheck.check.kinds import norm_bound as rules
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.norm_bound import EqualEntries, NormBound, OneEntry, Supremum
+from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample

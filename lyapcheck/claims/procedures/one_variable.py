@@ -12,17 +12,25 @@ from fractions import Fraction
 
 from flint import ctx
 
-from lyapcheck.check.certificates.proofs import Boxes, Piece, Pieces, Sturm
-from lyapcheck.check.certificates.rules.interval import (
+from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.inequality import (
+    positive_from,
+    positive_near_zero,
+    positive_on_box,
+    sign_everywhere,
+)
+from lyapcheck.check.kinds.for_all import (
     ZERO_BOX,
-    Domain,
+    Boxes,
+    ForAll,
+    Piece,
+    Pieces,
+    Stretch,
+    Sturm,
     pieces,
     zero_is_left_out,
     zero_must_be_positive,
 )
-from lyapcheck.check.certificates.statements import ForAll
-from lyapcheck.check.functions import Tree, Unsupported
-from lyapcheck.check.inequality import positive_from, positive_near_zero, positive_on_box, sign_everywhere
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
 
@@ -81,7 +89,7 @@ def valleys(statement: ForAll) -> list[Fraction]:
     return lowest_points(statement.relation, statement.variable, low, high)
 
 
-def _prove(statement: ForAll, domain: Domain) -> Piece:
+def _prove(statement: ForAll, domain: Stretch) -> Piece:
     """The step that proves one piece; raises :class:`_Open` with what to try next."""
     tree, low, high = domain
     strict, at_zero = statement.relation.strict, zero_must_be_positive(statement, low)
@@ -97,7 +105,7 @@ def _prove(statement: ForAll, domain: Domain) -> Piece:
     return _boxes(statement, domain)
 
 
-def _boxes(statement: ForAll, domain: Domain) -> Boxes:
+def _boxes(statement: ForAll, domain: Stretch) -> Boxes:
     tree, low, high = domain
     name, start, end = statement.variable, low, high
     if low == 0:

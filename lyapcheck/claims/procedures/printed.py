@@ -13,11 +13,18 @@ from itertools import product
 
 from flint import ctx
 
-from lyapcheck.check.certificates.proofs import Corners, OutsideRounding, PrintedInputs
-from lyapcheck.check.certificates.rules.printed import at_corner, at_printed, over_all, printed_range
-from lyapcheck.check.certificates.statements import Agrees
-from lyapcheck.check.enclosure import Enclosure, ball_of
-from lyapcheck.check.functions import ball, variables
+from lyapcheck.check.expressions.expression import ball, variables
+from lyapcheck.check.kinds.agrees import (
+    Agrees,
+    Corners,
+    OutsideRounding,
+    PrintedInputs,
+    at_corner,
+    at_printed,
+    over_all,
+    printed_range,
+)
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 
 METHOD = "arithmetic on printed numbers"

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.check.certificates.statements import Relation, Variable
-from lyapcheck.check.functions import Algebra, Tree, evaluate
+from lyapcheck.check.expressions.expression import Algebra, Tree, evaluate
+from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.claims.procedures.search import Point
 
 SEED = 20190561

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.certificates import proofs
-from lyapcheck.check.enclosure import Enclosure
-from lyapcheck.check.functions import Unsupported
-from lyapcheck.check.witness import Comparison, Sides, refutation
+from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.expressions.witness import Comparison, Sides, refutation
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.statement import Point as Coordinates
+from lyapcheck.check.statement import Witness
 
 BITS = 192
 LARGEST = 4096
@@ -39,12 +40,12 @@ def _can_be_written(side: Enclosure) -> bool:
     return size == 0 or abs(size.numerator.bit_length() - size.denominator.bit_length()) <= LARGEST
 
 
-def witness_of(failure: Failure) -> proofs.Witness:
+def witness_of(failure: Failure) -> Witness:
     """The failure as the checker replays it."""
-    return proofs.Witness(point_of(failure[1]), BITS)
+    return Witness(point_of(failure[1]), BITS)
 
 
-def point_of(point: Point) -> proofs.Point:
+def point_of(point: Point) -> Coordinates:
     """A point as certificates write it."""
     return tuple(sorted(point.items()))
 

@@ -7,10 +7,8 @@ positive and free of t. That value is the leading term, and its sign is an impli
 
 from __future__ import annotations
 
-from lyapcheck.check.certificates.proofs import LeadingTerm
-from lyapcheck.check.certificates.rules.small import leading_term, signs_of
-from lyapcheck.check.certificates.statements import ForSmall
-from lyapcheck.check.functions import Unsupported
+from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm, leading_term, signs_of
 from lyapcheck.claims.finding import Finding, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT

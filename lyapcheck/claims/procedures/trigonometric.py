@@ -10,16 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 
-from lyapcheck.check.certificates.proofs import EntryWitness, FourierBounds
-from lyapcheck.check.certificates.rules.trigonometric import above_zero, largest, lowest, within
-from lyapcheck.check.certificates.statements import (
-    Implies,
-    Relation,
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.trigonometric import (
+    EntryWitness,
+    FourierBounds,
     TrigonometricBound,
     TrigonometricPositive,
+    above_zero,
+    largest,
+    lowest,
+    within,
 )
-from lyapcheck.check.fourier import is_bounded
-from lyapcheck.check.functions import Tree, Unsupported, variables
+from lyapcheck.check.numbers.fourier import is_bounded
+from lyapcheck.check.statement import Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.implication import counterexample, sampled
 from lyapcheck.claims.procedures.search import BITS, point_of, witness_data

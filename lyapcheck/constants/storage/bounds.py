@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from flint import arb, ctx, fmpq
 
-from lyapcheck.check.matrices import balls_positive_definite
+from lyapcheck.check.numbers.matrices import balls_positive_definite
 from lyapcheck.constants.storage.exact import Exact, exact
 from lyapcheck.constants.storage.hinges import hinges
 from lyapcheck.constants.storage.kinetic import kinetic
@@ -30,8 +30,8 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
     Returns:
         By the name of the constant a function that gives the bound, or ``None`` where none was certified.
 
-    Soundness: the forms are rational, the slacks are exact, and `lyapcheck.check.matrices` shows in balls
-        that they are positive definite; what the solver of semidefinite programs says is not relied on.
+    Soundness: the forms are rational, the slacks are exact, and `lyapcheck.check.numbers.matrices` shows in
+        balls that they are positive definite; what the solver of semidefinite programs says is not relied on.
     """
     bodies, fall = hinges(chain)
     makers: dict[str, Callable[[], Problem]] = {

@@ -20,7 +20,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 from numpy.typing import NDArray
 
-from lyapcheck.check.matrices import balls_positive_definite
+from lyapcheck.check.numbers.matrices import balls_positive_definite
 from lyapcheck.constants.storage import head, lift
 from lyapcheck.constants.storage.exact import Exact, rounded, zeros
 from lyapcheck.constants.storage.hinges import Hinge

@@ -7,8 +7,8 @@ from typing import Any
 
 from flint import arb
 
-from lyapcheck.check import members
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers import members
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms
 from lyapcheck.family.elementary import ElementaryFamily, NumericForms

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from lyapcheck.check import balls
-from lyapcheck.check.constants import hyperbolic_constants
+from lyapcheck.check.numbers import balls
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
 from lyapcheck.family.hyperbolic_drivers import as_graph, on_array
 from lyapcheck.family.registry import require_member

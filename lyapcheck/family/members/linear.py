@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
 from lyapcheck.family.registry import require_none
 

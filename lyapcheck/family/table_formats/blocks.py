@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.check.constants import Constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.table import PRINTED_GAMMA, Table, printed_bounds, slope_at_zero
 
 INFINITY, NONE = "∞", "none"

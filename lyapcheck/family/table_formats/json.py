@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from lyapcheck.check.constants import Constants
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.asymptotes import Asymptotes
 from lyapcheck.family.table import PRINTED_GAMMA, Table, printed_bounds, slope_at_zero
 

@@ -11,8 +11,8 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
-from lyapcheck.check.balls import precision
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import Enclosure
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
-from lyapcheck.check.balls import precision, to_arb
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.tracking.reference.base import BITS, SECONDS, Reference, Suprema, above, angles
 
 Array = NDArray[np.float64]

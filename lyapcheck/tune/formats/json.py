@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files import decimal_text
 from lyapcheck.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet, Tuning
 

@@ -1,0 +1,208 @@
+"""One certificate as a JSON document: a claim, its statement, the verdict and the proof, under a digest.
+
+    {"schema", "claim": {"id", "says", "m", "n", "proof"}, "statement": {"kind", …}, "verdict", "grade",
+     "proof": {"rule", …}, "uses": {claim id: digest of its certificate}, "versions", "digest"}
+
+The digest is the SHA-256 of the document without it, as JSON with sorted keys and no spaces, in UTF-8. So a
+certificate fixes, through the digests under ``uses``, all that it rests on.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NoReturn
+
+from lyapcheck.check.codec import from_json, is_text, require_keys, to_json
+from lyapcheck.check.expressions.grammar import MAX_NAME
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import Accepted, verify
+
+SCHEMA = "lyapcheck/certificate/1"
+MAX_INTEGER = 20
+TOO_DEEP = f"is nested deeper than {MAX_NESTING} levels"
+DIGEST = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True)
+class About:
+    """The claim that a certificate is about: its id and words, its m and n, and the proof script."""
+
+    id: str
+    says: str
+    m: int | None
+    n: int | None
+    proof: str
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A claim with its statement, what is said to be shown, and the proof.
+
+    ``uses`` gives, for each claim that this one rests on, the digest of its certificate; a refutation has
+    none. ``grade`` is that of this step alone.
+    """
+
+    claim: About
+    statement: Statement
+    verdict: str
+    grade: str
+    proof: Proof
+    uses: Mapping[str, str] = field(default_factory=dict)
+    versions: Mapping[str, str] = field(default_factory=dict)
+
+    def content(self) -> dict[str, Any]:
+        """The document without its digest."""
+        return {
+            "schema": SCHEMA,
+            "claim": to_json(self.claim),
+            "statement": to_json(self.statement),
+            "verdict": self.verdict,
+            "grade": self.grade,
+            "proof": to_json(self.proof),
+            "uses": dict(self.uses),
+            "versions": dict(self.versions),
+        }
+
+    @cached_property
+    def digest(self) -> str:
+        """The digest of the document."""
+        return digest_of(self.content())
+
+    def text(self) -> str:
+        """The document as it is written to a file: the same bytes for the same certificate."""
+        document = {**self.content(), "digest": self.digest}
+        lines = (f"{json.dumps(key)}: {canonical(document[key])}" for key in sorted(document))
+        return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def canonical(value: Any) -> str:
+    """JSON with sorted keys and no spaces."""
+    return json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+
+
+def digest_of(content: dict[str, Any]) -> str:
+    """The SHA-256 of the canonical JSON."""
+    return hashlib.sha256(canonical(content).encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def parse(text: str) -> Any:
+    """The JSON value of a text, without floats, duplicate keys or endless integers.
+
+    Raises:
+        ValueError: the text is not JSON.
+        Refused: it is, but of a kind that no certificate contains.
+    """
+    require(len(text) <= MAX_BYTES, "size", len(text), f"is above {MAX_BYTES} characters")
+    try:
+        value = json.loads(
+            text,
+            parse_float=_no_float,
+            parse_constant=_no_float,
+            parse_int=_integer,
+            object_pairs_hook=_object,
+        )
+    except RecursionError:
+        raise Refused("document", "", TOO_DEEP) from None
+    _require_shallow(value)
+    return value
+
+
+def _require_shallow(value: Any) -> None:
+    """Refuse what is nested too deeply for all that follows; level by level, as this must not nest either."""
+    level: list[Any] = [[value]]
+    depth = 0
+    while level:
+        require(depth <= MAX_NESTING, "document", "", TOO_DEEP)
+        whole = (part.values() if isinstance(part, dict) else part for part in level)
+        level = [part for inner in whole for part in inner if isinstance(part, (dict, list))]
+        depth += 1
+
+
+def read(data: Any) -> Certificate:
+    """A certificate from its JSON value; the proof in it is not judged.
+
+    Raises:
+        Refused: the value is not a certificate of this schema, or its digest is another one.
+    """
+    require(isinstance(data, dict), "document", data, "must be an object")
+    require(data.get("schema") == SCHEMA, "schema", data.get("schema"), f"must be {SCHEMA}")
+    content = {key: value for key, value in data.items() if key != "digest"}
+    require(
+        data.get("digest") == digest_of(content), "digest", data.get("digest"), "is not that of the content"
+    )
+    require_keys(
+        content,
+        {"schema", "claim", "statement", "verdict", "grade", "proof", "uses", "versions"},
+        "document",
+    )
+    for digest in (uses := _texts(content["uses"], "uses")).values():
+        require(DIGEST.fullmatch(digest) is not None, "uses", digest, "is not a digest")
+    claim = from_json(About, content["claim"], "claim")
+    for name in (claim.id, *uses):
+        require(len(name) <= MAX_NAME, "id of a claim", name, f"is longer than {MAX_NAME} characters")
+    return Certificate(
+        claim,
+        from_json(Statement, content["statement"], "statement"),
+        from_json(str, content["verdict"], "verdict"),
+        from_json(str, content["grade"], "grade"),
+        from_json(Proof, content["proof"], "proof"),
+        uses,
+        _texts(content["versions"], "versions"),
+    )
+
+
+def judge(certificate: Certificate) -> Accepted:
+    """What a certificate shows, given what it uses.
+
+    Raises:
+        Refused: its proof shows nothing, or something else than it says.
+    """
+    accepted = verify(certificate.statement, certificate.proof)
+    for name in ("verdict", "grade"):
+        said, found = getattr(certificate, name), getattr(accepted, name)
+        require(said == found, name, said, f"the proof gives {found}")
+    if accepted.verdict == "refuted":
+        require(not certificate.uses, "uses", ", ".join(certificate.uses), "a refutation rests on nothing")
+        return accepted
+    for theorem in theorems_of(certificate.statement):
+        for hypothesis, claim in theorem.hypotheses:
+            require(claim in certificate.uses, hypothesis, claim, "the hypothesis is not among the uses")
+    return accepted
+
+
+def theorems_of(statement: Statement) -> list[Theorem]:
+    """The theorems that a statement applies."""
+    if isinstance(statement, AllOf):
+        return [theorem for _, part in statement.parts for theorem in theorems_of(part)]
+    return [statement] if isinstance(statement, Theorem) else []
+
+
+def _texts(data: Any, where: str) -> dict[str, str]:
+    require(isinstance(data, dict), where, data, "must be an object")
+    for key in data:
+        require(is_text(key), where, key, "is not plain Unicode text in NFC")
+    return {key: from_json(str, value, f"{where}.{key}") for key, value in data.items()}
+
+
+def _no_float(text: str) -> NoReturn:
+    raise Refused("number", text, "must be an integer, or a fraction as text")
+
+
+def _integer(text: str) -> int:
+    require(len(text) <= MAX_INTEGER, "number", text, "is too long an integer; fractions are text")
+    return int(text)
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    require(len(found) == len(pairs), "object", ", ".join(key for key, _ in pairs), "has a key twice")
+    return found

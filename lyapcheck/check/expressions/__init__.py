@@ -1,0 +1,1 @@
+"""Expressions of real variables as data: their grammar, values, normal forms and signs."""

@@ -1,0 +1,225 @@
+"""Functions next to infinity as sums in the scale  e^{ax} x^b (ln x)^j,  enclosed on a half-line [X, ∞).
+
+An :class:`Asymptotic` is a finite sum  Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k}  in which each c_k is either
+an exact number (a Laurent polynomial in π) or lies in a ball for every x >= X. Sums and products keep that
+form. Exact coefficients cancel exactly, so that functions which agree to some order at infinity can be told
+apart by the next one.
+
+References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from flint import arb
+
+from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.numbers.enclosure import ball_of
+
+Key = tuple[Fraction, Fraction, int]
+"""(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
+
+ONE: Key = (Fraction(0), Fraction(0), 0)
+X: Key = (Fraction(0), Fraction(1), 0)
+LOG_X: Key = (Fraction(0), Fraction(0), 1)
+ORDER = 12
+"""The order of Taylor polynomials."""
+TERMS = 16
+"""How many terms are kept; lower ones are taken into the last."""
+
+
+class Open(Exception):
+    """X is too small, or the scale too coarse, to say anything."""
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """A number that lies in a ball; ``exact`` gives its powers of π if it is the same known one for all x."""
+
+    ball: arb
+    exact: tuple[tuple[int, Fraction], ...] | None = None
+
+    def __add__(self, other: Coefficient) -> Coefficient:
+        if self.exact is None or other.exact is None:
+            return Coefficient(self.ball + other.ball)
+        return exactly(_collected([*self.exact, *other.exact]))
+
+    def __mul__(self, other: Coefficient) -> Coefficient:
+        if self.exact is None or other.exact is None:
+            return Coefficient(self.ball * other.ball)
+        return exactly(_collected((p + q, c * d) for p, c in self.exact for q, d in other.exact))
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the number is exactly zero."""
+        return self.exact == ()
+
+    def inverse(self) -> Coefficient:
+        """1/c, exact for one power of π."""
+        if self.exact is not None and len(self.exact) == 1:
+            ((p, c),) = self.exact
+            return exactly({-p: 1 / c})
+        return Coefficient(1 / self.ball)
+
+    def root(self) -> Coefficient:
+        """√c, exact for an even power of π with a rational square before it."""
+        if self.exact is not None and len(self.exact) == 1:
+            ((p, c),) = self.exact
+            top, bottom = isqrt(max(c.numerator, 0)), isqrt(c.denominator)
+            if p % 2 == 0 and Fraction(top**2, bottom**2) == c:
+                return exactly({p // 2: Fraction(top, bottom)})
+        return Coefficient(self.ball.sqrt())
+
+    def as_rational(self) -> Fraction | None:
+        """The value, if it is known to be rational."""
+        if self.exact is None or any(p for p, _ in self.exact):
+            return None
+        return sum((c for _, c in self.exact), Fraction(0))
+
+
+def _collected(terms: Iterable[tuple[int, Fraction]]) -> dict[int, Fraction]:
+    found: dict[int, Fraction] = {}
+    for p, c in terms:
+        found[p] = found.get(p, Fraction(0)) + c
+    return found
+
+
+def exactly(powers: dict[int, Fraction]) -> Coefficient:
+    """Σ c π^p."""
+    kept = tuple(sorted((p, c) for p, c in powers.items() if c))
+    ball = arb(0)
+    for p, c in kept:
+        ball += ball_of(c) * (arb.pi() ** p if p else 1)
+    return Coefficient(ball, kept)
+
+
+@dataclass(frozen=True)
+class Asymptotic:
+    """Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k} for x >= start, the dominant term first."""
+
+    terms: tuple[tuple[Key, Coefficient], ...]
+    start: Fraction
+
+    def __add__(self, other: Asymptotic) -> Asymptotic:
+        return summed([*self.terms, *other.terms], self.start)
+
+    def __mul__(self, other: Asymptotic) -> Asymptotic:
+        return summed(
+            [(_times(k, n), c * d) for k, c in self.terms for n, d in other.terms],
+            self.start,
+        )
+
+    def __neg__(self) -> Asymptotic:
+        return self.scaled(exactly({0: Fraction(-1)}))
+
+    def __sub__(self, other: Asymptotic) -> Asymptotic:
+        return self + (-other)
+
+    def __truediv__(self, other: Asymptotic) -> Asymptotic:
+        """By  1/(1 + u) = 1 − u + … + (−u)^K/(1 + u)."""
+        key, c, small = other.leading()
+        result = constant(Coefficient(1 / (1 + small.enclosure())), self.start)
+        for _ in range(ORDER):
+            result = constant(exactly({0: Fraction(1)}), self.start) - result * small
+        return self * result.scaled(c.inverse(), power_of(key, Fraction(-1)))
+
+    def scaled(self, by: Coefficient, key: Key = ONE) -> Asymptotic:
+        """The product with one term."""
+        return Asymptotic(tuple((_times(k, key), c * by) for k, c in self.terms), self.start)
+
+    def leading(self) -> tuple[Key, Coefficient, Asymptotic]:
+        """c, M and u with  f = c M (1 + u),  |u| < 1, where c is not 0."""
+        if not self.terms:
+            raise Open("a function that is zero")
+        (key, c), *rest = self.terms
+        if not (c.ball > 0 or c.ball < 0):
+            raise Open("the sign of the leading coefficient")
+        small = Asymptotic(tuple(rest), self.start).scaled(c.inverse(), power_of(key, Fraction(-1)))
+        if not abs(small.enclosure()) < 1:
+            raise Open("the leading term does not dominate yet")
+        return key, c, small
+
+    def enclosure(self) -> arb:
+        """A ball that contains every value; for functions whose terms are bounded."""
+        return sum((c.ball * _bounded(key, self.start) for key, c in self.terms), arb(0))
+
+    def parts(self) -> tuple[list[tuple[Key, Coefficient]], Coefficient, Asymptotic]:
+        """The terms that are not bounded, the constant one, and what tends to 0."""
+        large = [(key, c) for key, c in self.terms if key > ONE]
+        limit = dict(self.terms).get(ONE, exactly({}))
+        small = tuple((key, c) for key, c in self.terms if key < ONE)
+        return large, limit, Asymptotic(small, self.start)
+
+    def sign(self) -> int:
+        """The sign that the function keeps on [start, ∞).
+
+        Raises:
+            Open: where that is not shown.
+        """
+        _, c, _ = self.leading()
+        return 1 if c.ball > 0 else -1
+
+
+def _times(a: Key, b: Key) -> Key:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def power_of(key: Key, exponent: Fraction) -> Key:
+    """The scale function to a power.
+
+    Raises:
+        Unsupported: ln x would get an exponent that is not an integer.
+    """
+    logs = key[2] * exponent
+    if logs.denominator != 1:
+        raise Unsupported("a fractional power of a logarithm")
+    return key[0] * exponent, key[1] * exponent, int(logs)
+
+
+def _bounded(key: Key, start: Fraction) -> arb:
+    """A ball that contains e^{ax} x^b (ln x)^j for all x >= start.
+
+    Its logarithmic derivative a + b/x + j/(x ln x) is at most what it is at ``start`` with the negative ones
+    of b and j left out where something else is negative, and each such bound falls with x. Where that is not
+    negative, x^b (ln x)^j still is at most its largest value, (j/(−be))^j.
+    """
+    if key == ONE:
+        return arb(1)
+    if key > ONE:
+        raise Open("a term that grows")
+    a, b, j = key
+    x = ball_of(start)
+    log = x.log()
+    if a < 0:
+        slope = ball_of(a) + ball_of(max(b, Fraction(0))) / x + max(j, 0) / (x * log)
+    else:
+        slope = ball_of(b) + max(j, 0) / log if b < 0 else arb(j)
+    if slope <= 0:
+        return arb(0).union((ball_of(a) * x + ball_of(b) * log).exp() * log**j)
+    if a < 0:
+        raise Open("a term that does not fall yet")
+    return arb(0).union((ball_of(j / -b) / arb(1).exp()) ** j)
+
+
+def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
+    """The sum of terms; the lowest ones are taken into the last that is kept."""
+    found: dict[Key, Coefficient] = {}
+    for key, c in terms:
+        found[key] = found[key] + c if key in found else c
+    kept = [(key, found[key]) for key in sorted(found, reverse=True) if not found[key].is_zero]
+    if len(kept) > TERMS:
+        last = kept[TERMS - 1][0]
+        rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(
+            exactly({0: Fraction(1)}), power_of(last, Fraction(-1))
+        )
+        kept = [*kept[: TERMS - 1], (last, Coefficient(rest.enclosure()))]
+    return Asymptotic(tuple(kept), start)
+
+
+def constant(c: Coefficient, start: Fraction) -> Asymptotic:
+    """A function that is one number, or lies in one ball."""
+    return Asymptotic(() if c.is_zero else ((ONE, c),), start)

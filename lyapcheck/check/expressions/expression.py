@@ -1,0 +1,270 @@
+"""Elementary expressions as plain data, evaluated in balls and in power series.
+
+An expression is a nested tuple (a list, once it has been through JSON):
+
+    ("num", "3/2")  ("var", "x")  ("pi",)  ("gamma", m)  ("rho", m)  ("L", m)
+    ("add", a, b, ...)  ("mul", a, b, ...)  ("neg", a)  ("div", a, b)  ("pow", a, k)      k = 0, 1, 2, ...
+    ("sin", a) and the other names of ``FUNCTIONS``
+    ("h", m, a)  ("dh", m, a)  ("potential", m, a)   the hyperbolic family, by its formulas
+
+One walk, :func:`evaluate`, serves every arithmetic: an :class:`Algebra` says what a number, a constant and a
+function are in it.
+
+References: ``reyes2019family`` (6), (8), (12).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from flint import arb, arb_series, ctx, fmpq
+
+from lyapcheck.check.numbers.constants import hyperbolic_constants
+
+Tree = tuple[Any, ...]
+
+FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
+FAMILY = ("h", "dh", "potential")
+CONSTANTS = ("gamma", "rho", "L")
+LEAVES = ("num", "var", "pi", *CONSTANTS)
+
+
+class Unsupported(ValueError):
+    """An arithmetic cannot express a node; never a statement about truth."""
+
+
+class Algebra:
+    """The arithmetic of real balls at the current precision of flint."""
+
+    def number(self, value: Fraction) -> Any:
+        """The element for a rational number."""
+        return arb(fmpq(value.numerator, value.denominator))
+
+    def constant(self, name: str, m: int) -> Any:
+        """The element for γ_m, ρ_m or L_m."""
+        return family_constant(name, m)
+
+    def pi(self) -> Any:
+        """The element for π."""
+        return arb.pi()
+
+    def function(self, name: str, value: Any) -> Any:
+        """An elementary function of an element."""
+        return abs(value) if name == "abs" else getattr(value, name)()
+
+
+class SeriesAlgebra(Algebra):
+    """Truncated power series with balls as coefficients, to the length that ``ctx.cap`` allows."""
+
+    def number(self, value: Fraction) -> Any:
+        """The constant series."""
+        return arb_series([super().number(value)])
+
+    def constant(self, name: str, m: int) -> Any:
+        """The constant series of γ_m, ρ_m or L_m."""
+        return arb_series([super().constant(name, m)])
+
+    def pi(self) -> Any:
+        """The constant series π."""
+        return arb_series([arb.pi()])
+
+    def function(self, name: str, value: Any) -> Any:
+        """An elementary function of a series; the hyperbolic ones by the exponential."""
+        if name in ("sinh", "cosh", "tanh"):
+            grow = value.exp()
+            fall = (-value).exp()
+            top = grow + fall if name == "cosh" else grow - fall
+            return top / (grow + fall) if name == "tanh" else top / 2
+        if name == "abs":
+            raise Unsupported("abs has no power series")
+        return getattr(value, name)()
+
+
+def evaluate(tree: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
+    """The value of an expression with the variables replaced by elements of an algebra.
+
+    Raises:
+        Unsupported: for a node that is not in the list above or that the algebra cannot express.
+    """
+    return _Evaluation(values, algebra).of(tree)
+
+
+class _Evaluation:
+    """One evaluation: a node that stands in several places of an expression is worked out once."""
+
+    def __init__(self, values: Mapping[str, Any], algebra: Algebra) -> None:
+        self.values = values
+        self.algebra = algebra
+        # the node is kept beside its value, so that its id stays its own
+        self.known: dict[int, tuple[Tree, Any]] = {}
+
+    def of(self, tree: Tree) -> Any:
+        kind, *rest = tree
+        if kind in LEAVES:
+            return _leaf(kind, rest, self.values, self.algebra)
+        if id(tree) not in self.known:
+            self.known[id(tree)] = tree, self._worked_out(kind, rest)
+        return self.known[id(tree)][1]
+
+    def _worked_out(self, kind: str, rest: list[Any]) -> Any:
+        if kind in FAMILY:
+            return self.of(family_formula(kind, *rest))
+        if kind == "pow":
+            return power(self.of(rest[0]), rest[1], self.algebra)
+        return _combine(kind, [self.of(part) for part in rest], self.algebra)
+
+
+def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:
+    if kind == "num":
+        return algebra.number(Fraction(rest[0]))
+    if kind == "var":
+        return values[rest[0]]
+    return algebra.pi() if kind == "pi" else algebra.constant(kind, rest[0])
+
+
+def _combine(kind: str, parts: list[Any], algebra: Algebra) -> Any:
+    if kind == "neg":
+        return -parts[0]
+    if kind == "div":
+        return parts[0] / parts[1]
+    if kind in ("add", "mul"):
+        result = parts[0]
+        for part in parts[1:]:
+            result = result + part if kind == "add" else result * part
+        return result
+    if kind in FUNCTIONS:
+        return algebra.function(kind, parts[0])
+    raise Unsupported(f"unknown operation {kind!r}")
+
+
+def power(base: Any, exponent: int, algebra: Algebra) -> Any:
+    """``base ** exponent`` by repeated multiplication (flint's own power of a ball around zero is NaN)."""
+    if not isinstance(exponent, int) or exponent < 0:
+        raise Unsupported(f"exponent {exponent!r} is not a natural number")
+    result = None
+    while exponent:
+        if exponent & 1:
+            result = base if result is None else result * base
+        exponent >>= 1
+        base = base * base if exponent else base
+    return algebra.number(Fraction(1)) if result is None else result
+
+
+def family_formula(kind: str, m: int, argument: Tree) -> Tree:
+    """h_m, h_m' or U_m of an expression, spelled out as the paper prints them in (6), (8) and (12)."""
+    s: Tree = ("sinh", argument)
+    bottom: Tree = ("add", ("num", "1"), ("pow", s, 2 * m))
+    if kind == "h":
+        return ("div", ("mul", ("pow", s, 2 * m - 1), ("cosh", argument)), bottom)
+    if kind == "potential":
+        return ("div", ("log", bottom), ("num", str(2 * m)))
+    top: Tree = (
+        "add",
+        ("mul", ("num", str(2 * m - 1)), ("pow", s, 2 * m - 2)),
+        ("mul", ("num", str(2 * m)), ("pow", s, 2 * m)),
+        ("neg", ("pow", s, 4 * m - 2)),
+    )
+    return ("div", top, ("pow", bottom, 2))
+
+
+@lru_cache(maxsize=1024)
+def _constant_at(name: str, m: int, digits: int) -> arb:
+    return getattr(hyperbolic_constants(m, digits), name).to_arb()
+
+
+def family_constant(name: str, m: int) -> arb:
+    """A ball for γ_m, ρ_m or L_m, about as tight as the current precision."""
+    return _constant_at(name, m, max(30, ctx.prec * 3 // 10))
+
+
+def ball(tree: Tree, values: Mapping[str, arb] | None = None) -> arb:
+    """An enclosure of an expression at ball arguments; not finite where it is undefined."""
+    return evaluate(tree, values or {}, Algebra())
+
+
+def taylor(tree: Tree, name: str, centre: arb, order: int) -> list[arb]:
+    """The Taylor coefficients 0 … order of an expression of one variable about every point of a ball.
+
+    With a ball X as ``centre`` entry k encloses f^(k)(x)/k! for every x in X, which makes the last one a
+    remainder in Lagrange's form.
+    """
+    cap, ctx.cap = ctx.cap, order + 1
+    try:
+        series = evaluate(tree, {name: arb_series([centre, 1])}, SeriesAlgebra())
+        found = list(series.coeffs())[: order + 1]
+    finally:
+        ctx.cap = cap
+    return found + [arb(0)] * (order + 1 - len(found))
+
+
+def derivative(tree: Tree, name: str) -> Tree:
+    """The derivative of an expression with respect to a variable, as an expression."""
+    kind, *rest = tree
+    if kind in LEAVES:
+        return ("num", "1" if (kind, rest) == ("var", [name]) else "0")
+    if kind in FAMILY:
+        return derivative(family_formula(kind, *rest), name)
+    if kind in ("mul", "div", "pow"):
+        return _product_rule(kind, rest, name)
+    slopes = [derivative(part, name) for part in rest]
+    return (kind, *slopes) if kind in ("add", "neg") else ("mul", _outer_derivative(kind, rest[0]), slopes[0])
+
+
+def _product_rule(kind: str, rest: list[Any], name: str) -> Tree:
+    if kind == "mul":
+        slopes = [("mul", *rest[:i], derivative(part, name), *rest[i + 1 :]) for i, part in enumerate(rest)]
+        return ("add", *slopes)
+    a, b = rest
+    if kind == "pow":
+        return ("mul", ("num", str(b)), ("pow", a, b - 1), derivative(a, name)) if b else ("num", "0")
+    top = ("add", ("mul", derivative(a, name), b), ("neg", ("mul", a, derivative(b, name))))
+    return ("div", top, ("pow", b, 2))
+
+
+def _outer_derivative(kind: str, a: Tree) -> Tree:
+    one: Tree = ("num", "1")
+    square: Tree = ("pow", a, 2)
+    table: dict[str, Tree] = {
+        "exp": ("exp", a),
+        "log": ("div", one, a),
+        "sqrt": ("div", one, ("mul", ("num", "2"), ("sqrt", a))),
+        "sin": ("cos", a),
+        "cos": ("neg", ("sin", a)),
+        "tan": ("add", one, ("pow", ("tan", a), 2)),
+        "sinh": ("cosh", a),
+        "cosh": ("sinh", a),
+        "tanh": ("add", one, ("neg", ("pow", ("tanh", a), 2))),
+        "atan": ("div", one, ("add", one, square)),
+        "asin": ("div", one, ("sqrt", ("add", one, ("neg", square)))),
+        "acos": ("neg", ("div", one, ("sqrt", ("add", one, ("neg", square))))),
+    }
+    if kind not in table:
+        raise Unsupported(f"{kind} is not differentiable")
+    return table[kind]
+
+
+def substitute(tree: Tree, values: Mapping[str, Tree]) -> Tree:
+    """An expression with expressions in place of some variables."""
+    if tree[0] == "var":
+        return values.get(tree[1], tree)
+    return tuple(substitute(part, values) if isinstance(part, tuple) else part for part in tree)
+
+
+def variables(tree: Sequence[Any]) -> set[str]:
+    """The names of the variables of an expression."""
+    return {node[1] for node in nodes(tree) if node[0] == "var"}
+
+
+def nodes(*trees: Sequence[Any]) -> Iterator[Sequence[Any]]:
+    """All nodes of expressions; one that stands in several places, as the same object, comes once."""
+    waiting, seen = list(trees), set(map(id, trees))
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for part in node[1:]:
+            if isinstance(part, (tuple, list)) and id(part) not in seen:
+                seen.add(id(part))
+                waiting.append(part)

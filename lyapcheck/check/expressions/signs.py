@@ -1,0 +1,290 @@
+"""The signs that an expression takes over a domain, by rules that see them in its form.
+
+An answer lists signs that *may* occur; leaving one out is a proof that it does not, at any point of the
+domain at which the expression is defined.
+
+References: ``sturm1829``; ``tucker2011validated``, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
+
+from lyapcheck.check.expressions.domain import REALS, Domain, Interval
+from lyapcheck.check.expressions.expression import (
+    CONSTANTS,
+    FAMILY,
+    Tree,
+    Unsupported,
+    ball,
+    family_formula,
+    nodes,
+    variables,
+)
+from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational
+
+Signs = frozenset[int]
+ANY: Signs = frozenset((-1, 0, 1))
+PLUS: Signs = frozenset((1,))
+NOT_NEGATIVE: Signs = frozenset((0, 1))
+ZERO: Signs = frozenset((0,))
+MINUS: Signs = frozenset((-1,))
+ODD = ("sinh", "tanh", "atan", "asin")
+"""Functions with the sign of their argument."""
+BITS = (64, 256, 1024)
+HALVINGS = 10
+MOST_PIECES = 2000
+MOST_PARTS = 400
+
+
+def never(tree: Tree, unwanted: Signs, domain: Domain) -> bool:
+    """Whether an expression takes none of some signs where it is defined; ``False`` says nothing.
+
+    Args:
+        tree: numbers, or the dot products and derivatives of ``check.letters``, of which little is seen.
+        unwanted: the signs that it must not take.
+        domain: the ranges of its variables.
+    """
+    found = _Reader(domain, deep=False).of(tree)
+    if found & unwanted:
+        found &= by_value(tree, domain)
+    if found & unwanted:
+        found &= _Reader(domain, deep=True).of(tree)
+    return not found & unwanted
+
+
+class _Reader:
+    """One expression over one domain; a node that stands in several places is looked at once.
+
+    With ``deep`` every part is also looked at by its values, and not by its form alone.
+    """
+
+    def __init__(self, domain: Domain, deep: bool) -> None:
+        self.domain, self.deep = domain, deep
+        self.known: dict[int, tuple[Tree, Signs]] = {}
+
+    def of(self, tree: Tree) -> Signs:
+        if id(tree) not in self.known:
+            found = self._by_form(tree)
+            if self.deep and len(found) > 1 and len(self.known) < MOST_PARTS:
+                found &= by_value(tree, self.domain)
+            self.known[id(tree)] = tree, found
+        return self.known[id(tree)][1]
+
+    def _by_form(self, tree: Tree) -> Signs:
+        kind, *rest = tree
+        if kind == "num":
+            return frozenset([_sign(Fraction(rest[0]))])
+        if kind == "var":
+            return self.domain.get(rest[0], REALS).signs()
+        if kind in CONSTANTS or kind in ("pi", "exp", "cosh"):
+            return PLUS
+        if kind in FAMILY:
+            return self.of(family_formula(kind, *rest))
+        if kind in ODD:
+            return self.of(rest[0])
+        rule = RULES.get(kind)
+        return ANY if rule is None else rule(self, rest)
+
+
+def by_value(tree: Tree, domain: Domain) -> Signs:
+    """What the normal form, exact signs of polynomials and balls leave of all signs."""
+    if any(node[0] in ("dot", "rate") for node in nodes(tree)):
+        return ANY
+    names = variables(tree)
+    if not names:
+        return _of_number(tree)
+    found = _of_polynomial(tree, domain) & _of_all_values(tree, names, domain)
+    if len(found) > 1 and len(names) == 1:
+        (name,) = names
+        found &= _over_pieces(tree, name, domain.get(name, REALS))
+    return found
+
+
+def _sum(reader: _Reader, rest: list[Any]) -> Signs:
+    parts = [reader.of(part) for part in rest]
+    for sign in (1, -1):
+        if all(part <= {0, sign} for part in parts):
+            return frozenset([sign]) if any(part == {sign} for part in parts) else frozenset([0, sign])
+    return ANY
+
+
+def _product(reader: _Reader, rest: list[Any]) -> Signs:
+    found = PLUS
+    for part in rest:
+        found = frozenset(a * b for a, b in product(found, reader.of(part)))
+    return found
+
+
+def _quotient(reader: _Reader, rest: list[Any]) -> Signs:
+    top, bottom = reader.of(rest[0]), reader.of(rest[1]) - {0}
+    return frozenset(a * b for a, b in product(top, bottom))
+
+
+def _power(reader: _Reader, rest: list[Any]) -> Signs:
+    base, k = reader.of(rest[0]), rest[1]
+    return frozenset(sign**k for sign in base)
+
+
+def _absolute(reader: _Reader, rest: list[Any]) -> Signs:
+    return frozenset(abs(sign) for sign in reader.of(rest[0]))
+
+
+def _root(reader: _Reader, rest: list[Any]) -> Signs:
+    return reader.of(rest[0]) & NOT_NEGATIVE
+
+
+def _dot(reader: _Reader, rest: list[Any]) -> Signs:
+    return NOT_NEGATIVE if rest[0] == rest[1] else ANY
+
+
+RULES: dict[str, Callable[[_Reader, list[Any]], Signs]] = {
+    "neg": lambda reader, rest: frozenset(-sign for sign in reader.of(rest[0])),
+    "add": _sum,
+    "mul": _product,
+    "div": _quotient,
+    "pow": _power,
+    "abs": _absolute,
+    "sqrt": _root,
+    "acos": lambda reader, rest: NOT_NEGATIVE,
+    "dot": _dot,
+}
+
+
+def _sign(value: Fraction | fmpq) -> int:
+    return int(value > 0) - int(value < 0)
+
+
+def _of_number(tree: Tree) -> Signs:
+    """The sign of a number: exactly where its normal form is rational, else by a ball that avoids 0."""
+    try:
+        ratio, algebra = normal_form(tree)
+        if ratio.top == 0:
+            return frozenset([0])
+        if not algebra.uses:
+            return frozenset([_sign(ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient())])
+    except (Unsupported, ZeroDivisionError):
+        pass
+    for bits in BITS:
+        with ctx.workprec(bits):
+            found = _sign_of(ball(tree))
+            if len(found) == 1:
+                return found
+    return ANY
+
+
+def _of_all_values(tree: Tree, names: set[str], domain: Domain) -> Signs:
+    """The sign of the ball over the whole domain, in which a sine lies between −1 and 1."""
+    with ctx.workprec(BITS[0]):
+        return _sign_of(ball(tree, {name: _ball_over(domain.get(name, REALS)) for name in names}))
+
+
+def _ball_over(interval: Interval) -> arb:
+    """A ball that contains an interval; the whole line where that has no end."""
+    if interval.low is None or interval.high is None:
+        return arb("0 +/- inf")
+    return ball_of(interval.low).union(ball_of(interval.high))
+
+
+def _sign_of(value: arb) -> Signs:
+    if value > 0:
+        return PLUS
+    if value < 0:
+        return MINUS
+    return NOT_NEGATIVE if value >= 0 else ANY
+
+
+def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
+    """The signs of a quotient of polynomials, by its coefficients or, in one variable, by Sturm's theorem."""
+    try:
+        ratio, algebra = normal_form(tree)
+    except (Unsupported, ZeroDivisionError):
+        return ANY
+    if ratio.top == 0:
+        return frozenset([0])
+    top, bottom = (_of_terms(part, algebra, domain) for part in (ratio.top, ratio.bottom))
+    found = frozenset(a * b for a, b in product(top, bottom - {0}))
+    if len(found) > 1 and not algebra.uses and len(algebra.names) == 1:
+        interval = domain.get(algebra.names[0], REALS)
+        found &= _by_sturm(_in_one(ratio.top) * _in_one(ratio.bottom), interval)
+    return found
+
+
+def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) -> Signs:
+    """The signs that the terms show, once variables and constants are counted from their lower bounds."""
+    lows: dict[int, Fraction | None] = {}
+    strict: dict[int, bool] = {}
+    for i, name in enumerate(algebra.names):
+        interval = domain.get(name, REALS)
+        lows[i], strict[i] = interval.low, interval.open_low
+    with ctx.workprec(BITS[0]):
+        for i, number in algebra.constants().items():
+            lows[i], strict[i] = Fraction(int(Enclosure.from_arb(number).lower * 16), 16), False
+    generators = list(algebra.ring.gens())
+    for i, low in lows.items():
+        if low:
+            generators[i] += algebra.ring.constant(rational(low))
+    shifted = polynomial.compose(*generators, ctx=algebra.ring).to_dict()
+
+    def of_monomial(exponents: tuple[int, ...]) -> Signs:
+        found = PLUS
+        for i, e in enumerate(exponents):
+            if e:
+                own = ANY if lows.get(i) is None else PLUS if strict[i] else NOT_NEGATIVE
+                found = frozenset(a * b ** int(e) for a, b in product(found, own))
+        return found
+
+    parts = [frozenset(_sign(c) * s for s in of_monomial(e)) for e, c in shifted.items()]
+    for sign in (1, -1):
+        if all(part <= {0, sign} for part in parts):
+            return frozenset([sign]) if any(part == {sign} for part in parts) else frozenset([0, sign])
+    return ANY
+
+
+def _in_one(polynomial: fmpq_mpoly) -> fmpq_poly:
+    """A polynomial in the first generator alone."""
+    found = [fmpq(0)] * (1 + max((int(e[0]) for e in polynomial.monoms()), default=0))
+    for exponents, c in polynomial.to_dict().items():
+        found[int(exponents[0])] = c
+    return fmpq_poly(found)
+
+
+def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:
+    low, high = interval.low, interval.high
+    for sign in (1, -1):
+        if positive_on(sign * polynomial, low, high, interval.open_low, interval.open_high):
+            return frozenset([sign])
+        if nonnegative_on(sign * polynomial, low, high):
+            return frozenset([0, sign])
+    return ANY
+
+
+def _over_pieces(tree: Tree, name: str, interval: Interval) -> Signs:
+    """The sign over a bounded interval, cut until each piece shows it in balls."""
+    if interval.low is None or interval.high is None:
+        return ANY
+    found: set[int] = set()
+    waiting = [(interval.low, interval.high, 0)]
+    count = 0
+    while waiting:
+        low, high, depth = waiting.pop()
+        count += 1
+        with ctx.workprec(BITS[0]):
+            value = _sign_of(ball(tree, {name: ball_of(low).union(ball_of(high))}))
+        if len(value) == 1:
+            found |= value
+        elif depth == HALVINGS or count > MOST_PIECES or low == high:
+            return ANY
+        else:
+            middle = (low + high) / 2
+            waiting += [(low, middle, depth + 1), (middle, high, depth + 1)]
+        if len(found) > 1:
+            return ANY
+    return frozenset(found)

@@ -1,0 +1,142 @@
+"""Expressions as a reader writes them: sums, products and powers with as few brackets as they need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, LEAVES, Tree
+
+SUM, PRODUCT, POWER, ATOM = range(4)
+"""How tightly the outermost operation of a text binds."""
+
+NAMES = {
+    "pi": "π",
+    "gamma": "γ_{}",
+    "rho": "ρ_{}",
+    "L": "L_{}",
+    "h": "h_{}",
+    "dh": "h_{}′",
+    "potential": "U_{}",
+    "log": "ln",
+}
+DECIMALS = 6
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+Text = tuple[str, int]
+
+
+def expression_text(tree: Tree) -> str:
+    """The expression on one line."""
+    return _text(tree)[0]
+
+
+def _text(tree: Tree) -> Text:
+    kind, *rest = tree
+    if kind in LEAVES:
+        return _leaf(kind, rest)
+    if kind in FAMILY:
+        return f"{NAMES[kind].format(rest[0])}({expression_text(rest[1])})", ATOM
+    shape = SHAPES.get(kind)
+    if shape is not None:
+        return shape(rest)
+    if kind == "abs":
+        return f"|{expression_text(rest[0])}|", ATOM
+    return f"{NAMES.get(kind, kind)}({expression_text(rest[0])})", ATOM
+
+
+def _leaf(kind: str, rest: list[Any]) -> Text:
+    if kind == "num":
+        return _number(Fraction(rest[0]))
+    if kind == "var":
+        return str(rest[0]), ATOM
+    return NAMES[kind].format(rest[0]) if kind in CONSTANTS else NAMES[kind], ATOM
+
+
+def _number(value: Fraction) -> Text:
+    shown = number_text(value)
+    return shown, SUM if value < 0 else PRODUCT if "/" in shown else ATOM
+
+
+def number_text(value: Fraction) -> str:
+    """A decimal where a short one says it exactly, a fraction otherwise."""
+    scaled = value * 10**DECIMALS
+    if scaled.denominator != 1 or value.denominator == 1:
+        return str(value).replace("-", "−")
+    digits = str(abs(scaled.numerator)).rjust(DECIMALS + 1, "0")
+    sign = "−" if value < 0 else ""
+    return f"{sign}{digits[:-DECIMALS]}.{digits[-DECIMALS:]}".rstrip("0")
+
+
+def diagonal_text(entries: Iterable[Fraction]) -> str:
+    """``diag(a, b, …)``."""
+    return f"diag({', '.join(map(number_text, entries))})"
+
+
+def _root(rest: list[Any]) -> Text:
+    text, binding = _text(rest[0])
+    return (f"√{text}" if binding == ATOM and text.isalnum() else f"√({text})"), ATOM
+
+
+def _sum(rest: list[Any]) -> Text:
+    first, *others = rest
+    text = expression_text(first)
+    for part in others:
+        shown = _text(part)[0]
+        text += f" − {shown[1:]}" if shown.startswith("−") else f" + {shown}"
+    return text, SUM
+
+
+def _product(rest: list[Any]) -> Text:
+    return "·".join(_bracketed(part, PRODUCT) for part in rest), PRODUCT
+
+
+def _quotient(rest: list[Any]) -> Text:
+    return f"{_bracketed(rest[0], PRODUCT)}/{_bracketed(rest[1], POWER)}", PRODUCT
+
+
+def _negative(rest: list[Any]) -> Text:
+    return f"−{_bracketed(rest[0], PRODUCT)}", SUM
+
+
+def _power(rest: list[Any]) -> Text:
+    if rest[1] == 1:
+        return _text(rest[0])
+    return f"{_bracketed(rest[0], ATOM)}{str(rest[1]).translate(SUPERSCRIPTS)}", POWER
+
+
+def _vector_sum(rest: list[Any]) -> Text:
+    return _sum(rest) if rest else ("0", ATOM)
+
+
+def _dot(rest: list[Any]) -> Text:
+    return f"{_transposed(rest[:1])[0]}·{_bracketed(rest[1], PRODUCT)}", PRODUCT
+
+
+def _transposed(rest: list[Any]) -> Text:
+    return f"{_bracketed(rest[0], ATOM)}ᵀ", POWER
+
+
+def _bracketed(tree: Tree, least: int) -> str:
+    text, binding = _text(tree)
+    return text if binding >= least else f"({text})"
+
+
+SHAPES: dict[str, Callable[[list[Any]], Text]] = {
+    "add": _sum,
+    "mul": _product,
+    "div": _quotient,
+    "neg": _negative,
+    "pow": _power,
+    "sqrt": _root,
+    "vec": lambda rest: (rest[0], ATOM),
+    "mat": lambda rest: (rest[0], ATOM),
+    "diag": lambda rest: (f"diag({rest[0]})", ATOM),
+    "rate": lambda rest: (f"d/dt({expression_text(rest[0])})", ATOM),
+    "sum": _vector_sum,
+    "scale": _product,
+    "apply": _product,
+    "dot": _dot,
+    "transpose": _transposed,
+}

@@ -1,0 +1,70 @@
+"""Conjunctions: a proof of every part, or a refutation of one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
+
+
+@dataclass(frozen=True)
+class AllOf(Statement):
+    """Every part holds; each part has a name for the report."""
+
+    parts: tuple[tuple[str, Statement], ...]
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None of its own."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What the parts take for granted."""
+        return tuple(dict.fromkeys(line for _, part in self.parts for line in part.granted))
+
+    def text(self) -> str:
+        """The parts by name, in one line."""
+        return "; ".join(f"{name}: {part.text()}" for name, part in self.parts)
+
+
+@dataclass(frozen=True)
+class EveryPart(Proof):
+    """A proof of each part, in order."""
+
+    rule = "every part"
+    parts: tuple[Proof, ...]
+
+
+@dataclass(frozen=True)
+class OnePart(Proof):
+    """A refutation of one part."""
+
+    rule = "one part"
+    part: int
+    proof: Proof
+
+
+@rule(AllOf, EveryPart)
+def by_every_part(statement: AllOf, proof: EveryPart) -> Accepted:
+    """Soundness: each part by its own proof."""
+    require(len(proof.parts) == len(statement.parts), "parts", len(proof.parts), "is not one proof per part")
+    pairs = zip(statement.parts, proof.parts, strict=True)
+    return Accepted("proved", weakest([require_proved(part, own, name) for (name, part), own in pairs]))
+
+
+@rule(AllOf, OnePart)
+def by_one_part(statement: AllOf, proof: OnePart) -> Accepted:
+    """Soundness: one false part makes the whole false."""
+    require(0 <= proof.part < len(statement.parts), "part", proof.part, "does not exist")
+    name, part = statement.parts[proof.part]
+    found = verify(part, proof.proof)
+    require(found.verdict == "refuted", name, found.verdict, "must be refuted")
+    return found

@@ -1,0 +1,305 @@
+"""Upper bounds for every n: each term in words is at most a product of norms.
+
+|xᵀ A … y| <= ‖x‖ ‖A‖ … ‖y‖ with Euclidean and spectral norms, by the Cauchy–Schwarz inequality; the spectral
+norm of Aᵀ is that of A.
+
+References: ``reyes2019family`` (15), (16).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice, product
+from random import Random
+
+from flint import fmpq
+
+from lyapcheck.check.expressions.defined import require_defined_at
+from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.expressions.grammar import require_expressions
+from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.every_n import (
+    DRAWN_SIZES,
+    MAX_SIZE,
+    EntriesWitness,
+    Equation,
+    EveryN,
+    Given,
+    known_text,
+    rates_fit,
+    solved_at,
+    words_of,
+)
+from lyapcheck.check.kinds.every_n import at_size as identity_at_size
+from lyapcheck.check.kinds.parts import require_distinct
+from lyapcheck.check.kinds.signs import Signs
+from lyapcheck.check.letters.entries import Entries
+from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
+from lyapcheck.check.letters.points import Norms, compared, drawn
+from lyapcheck.check.letters.points import Point as Drawn
+from lyapcheck.check.letters.words import Words
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.replay import coordinates
+from lyapcheck.check.statement import Proof, Relation, Statement, Variable
+from lyapcheck.check.verify import Accepted, rule
+
+
+@dataclass(frozen=True)
+class BoundEveryN(Statement):
+    """``left <= right`` for every n, from bounds of norms; ``left`` is as in :class:`EveryN`.
+
+    ``norms`` says of some letters together that the product of their norms is at most an expression, the norm
+    of a number being its size. ``least`` says that a number is at least an expression. The variables of these
+    expressions and of ``right``, and the numbers among the letters of ``left``, are >= 0.
+    """
+
+    left: Tree
+    right: Tree
+    symmetric: tuple[str, ...]
+    rates: tuple[tuple[Tree, Tree], ...]
+    given: tuple[Given, ...]
+    norms: tuple[tuple[tuple[Tree, ...], Tree], ...]
+    least: tuple[tuple[Tree, Tree], ...]
+
+    @property
+    def identity(self) -> EveryN:
+        """``left = 0`` with the same letters."""
+        return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        self.identity.require_well_formed()
+        used = letters(self.left)
+        for known, size in self.norms:
+            for letter in known:
+                sort = next((sort for sort, kind in LETTERS.items() if letter[:1] == (kind,)), "matrix")
+                require_sort(letter, sort)
+                require(
+                    letters(letter) == {letter} or letter[0] == "diag", "norms", letter, "is not a letter"
+                )
+                used |= letters(letter)
+            require_expressions([size])
+        for number, size in self.least:
+            require_sort(number, "number")
+            require_expressions([size])
+            used |= letters(number)
+        sizes = (self.right, *(size for _, size in (*self.norms, *self.least)))
+        require_expressions(sizes)
+        used |= {("var", name) for size in sizes for name in variables(size)}
+        require_distinct("letters", sorted(name for _, name in used))
+
+    def terms_with_values(self) -> Iterator[Tree]:
+        """All its expressions."""
+        yield from (tree for tree, _ in self.identity.terms())
+        yield self.right
+        for known, size in self.norms:
+            yield from (*known, size)
+        for number, size in self.least:
+            yield from (number, size)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """All its expressions, with numbers that are not negative."""
+        domain = dict.fromkeys(self.numbers, NONNEGATIVE)
+        return [(tree, domain) for tree in self.terms_with_values()]
+
+    @property
+    def numbers(self) -> set[str]:
+        """The numbers that occur, all of them >= 0."""
+        return {name for tree in self.terms_with_values() for name in variables(tree)}
+
+    def text(self) -> str:
+        """The statement in one line."""
+        sides = f"{expression_text(self.left)} ≤ {expression_text(self.right)}"
+        norms = [
+            f"{''.join(f'‖{expression_text(letter)}‖' for letter in known)} ≤ {expression_text(size)}"
+            for known, size in self.norms
+        ]
+        least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in self.least]
+        return f"{sides} for every n{known_text(self.identity)}, {', '.join(norms + least)}"
+
+
+@dataclass(frozen=True)
+class Cover:
+    """How one term is bounded: which ``norms`` cover its letters, or which ``least`` is its one word."""
+
+    norms: tuple[int, ...]
+    least: int | None = None
+
+
+@dataclass(frozen=True)
+class CoveredTerms(Proof):
+    """A cover of each term of ``left`` in words, the terms in the order of their exponents."""
+
+    rule = "covered terms"
+    covers: tuple[Cover, ...]
+
+
+ZERO: Tree = ("num", "0")
+TRIES = 400
+"""How often entries are drawn for each n: not all meet the bounds."""
+ENOUGH = 4
+"""Entries at which a bound that is proved is evaluated."""
+Term = tuple[fmpq, dict[str, int]]
+"""A coefficient, and the power of each variable."""
+
+
+@rule(BoundEveryN, CoveredTerms)
+def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
+    """Soundness: ``left`` is the sum of its terms, each at most its bound; ``right`` exceeds them together.
+
+    All terms of the difference have coefficients >= 0, variables >= 0 and, with the lower bounds of numbers
+    such as γ_m put in, constants >= 0.
+    """
+    require(rates_fit(statement.identity), "rates", "", "a symmetric matrix must have a symmetric derivative")
+    found, words = terms_in_words(statement)
+    require(len(proof.covers) == len(found), "covers", len(proof.covers), f"must be {len(found)}, one a term")
+    bounds = [bound_of(statement, words, *pair) for pair in zip(found, proof.covers, strict=True)]
+    require(within(statement, bounds), "right", "", "is not shown to exceed the sum of the bounds")
+    evaluated = [sign for _, _, sign in islice(drawn_entries(statement, TRIES), ENOUGH)]
+    require(-1 not in evaluated, "entries", "", "that were drawn exceed the bound: the words are at fault")
+    require(len(evaluated) > 0, "entries", "", "that meet the bounds of the norms were not found")
+    return Accepted("proved", "exact")
+
+
+def within(statement: BoundEveryN, bounds: Iterable[Tree]) -> bool:
+    """Whether ``right`` plainly exceeds the sum of some bounds."""
+    spare = Relation(("add", ZERO, *bounds), "<=", statement.right)
+    numbers = tuple(Variable(name, Fraction(0), strict=False) for name in sorted(statement.numbers))
+    signs = Signs(numbers, (), spare)
+    return signs.is_nonnegative(signs.conclusion)
+
+
+@rule(BoundEveryN, EntriesWitness)
+def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
+    """Soundness: entries at one n that meet all that is supposed, and the left side exceeds the right."""
+    require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
+    sides, equations = at_size(statement, proof.n)
+    point = coordinates(proof.point, names_at(statement, proof.n))
+    for name in sorted(statement.numbers):
+        require(point[name] >= 0, name, point[name], "must not be negative")
+    for tree in (side for pair in (sides, *equations) for side in pair):
+        require_defined_at(tree, point)
+    given = all(compared(*pair, point) == 0 for pair in equations)
+    require(given, "point", proof.n, "breaks what is given")
+    require(norms_at(statement, proof.n).hold(point), "point", proof.n, "breaks a bound of the norms")
+    require(compared(*sides, point) == -1, "point", proof.n, "does not exceed the bound")
+    return Accepted("refuted", "enclosure")
+
+
+def at_size(statement: BoundEveryN, n: int) -> tuple[Equation, list[Equation]]:
+    """Both sides at one n, and the equations that are given there."""
+    (left, _), equations = identity_at_size(statement.identity, n)
+    return (left, statement.right), equations
+
+
+def norms_at(statement: BoundEveryN, n: int) -> Norms:
+    """The bounds of norms at one n."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    return Norms(entries, statement.norms, statement.least)
+
+
+def names_at(statement: BoundEveryN, n: int) -> set[str]:
+    """The variables of both sides and of all bounds at one n."""
+    (left, right), equations = at_size(statement, n)
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    found = statement.numbers | variables(left) | variables(right)
+    found |= {name for pair in equations for side in pair for name in variables(side)}
+    for letter in (letter for letters_of, _ in statement.norms for letter in letters_of):
+        found |= set(entries.names(letter))
+    for number, _ in statement.least:
+        found |= variables(entries.number(number))
+    return found
+
+
+def drawn_entries(statement: BoundEveryN, tries: int) -> Iterator[tuple[int, Drawn, int]]:
+    """n, random exact entries that meet all bounds, and there the sign of right − left."""
+    random = Random(repr(statement))
+    written = {name for kind, name in letters(statement.left) if kind == "var"}
+    only_bounds = frozenset(statement.numbers - written)
+    at = {n: (at_size(statement, n), norms_at(statement, n), names_at(statement, n)) for n in DRAWN_SIZES}
+    for _ in range(tries):
+        for n, ((sides, equations), norms, names) in at.items():
+            try:
+                point = norms.shrunk(drawn(names, statement.numbers, random))
+                point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
+                given = all(compared(*pair, point) == 0 for pair in equations)
+                sign = compared(*sides, point) if given and norms.hold(point) else None
+            except (ZeroDivisionError, Unsupported):
+                continue
+            if sign is not None:
+                yield n, point, sign
+
+
+def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:
+    """The terms of the left side."""
+    words = words_of(statement.identity)
+    return terms_of(words.number(statement.left)), words
+
+
+def terms_of(tree: Tree) -> list[Term]:
+    """The terms of a polynomial in the order of their exponents.
+
+    Raises:
+        Refused: it is no polynomial.
+    """
+    ratio, algebra = normal_form(tree)
+    plain = not algebra.uses and ratio.bottom.is_constant()
+    require(plain, "expression", "", "is not a polynomial in its variables and words")
+    lead = ratio.bottom.leading_coefficient()
+    names = algebra.names
+    return [
+        (c / lead, {name: int(e) for name, e in zip(names, exponents, strict=False) if e})
+        for exponents, c in sorted(ratio.top.to_dict().items())
+    ]
+
+
+def bound_of(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
+    """What a term is at most, by a cover.
+
+    Raises:
+        Refused: the cover does not fit the term.
+    """
+    c, powers = term
+    if cover.least is not None:
+        return _by_least(statement, words, term, cover)
+    for index in cover.norms:
+        require(0 <= index < len(statement.norms), "cover", index, "does not exist")
+    covered = Counter(letter for index in cover.norms for letter in statement.norms[index][0])
+    left = (letters - covered for letters in written_letters(words, powers) if covered <= letters)
+    rest = next((some for some in left if all(letter[0] == "var" for letter in some)), None)
+    if rest is None:
+        raise Refused("cover", cover.norms, "does not cover the letters of its term")
+    sizes = (statement.norms[index][1] for index in cover.norms)
+    return ("mul", ("num", str(abs(c))), *sizes, *rest.elements())
+
+
+def written_letters(words: Words, powers: dict[str, int]) -> Iterator[Counter[Tree]]:
+    """The letters of a term, for each way in which its words came up."""
+    plain = Counter({("var", name): k for name, k in powers.items() if name not in words.seen})
+    written = [sorted(words.seen[name]) for name, k in powers.items() if name in words.seen for _ in range(k)]
+    for choice in product(*written):
+        yield plain + Counter(_letter(*letter) for word in choice for letter in word)
+
+
+def _letter(kind: str, name: str) -> Tree:
+    return ("mat" if kind == "transposed" else kind, name)
+
+
+def _by_least(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
+    """A negative multiple of a number that is at least something."""
+    c, powers = term
+    require(c < 0 and not cover.norms, "cover", cover.least, "is for terms with a minus")
+    index = cover.least
+    assert index is not None
+    require(0 <= index < len(statement.least), "cover", index, "does not exist")
+    number, least = statement.least[index]
+    [(factor, word)] = terms_of(words.number(number))
+    rest = Counter(powers) - Counter(word)
+    fits = factor == 1 and Counter(word) <= Counter(powers) and not set(rest) & set(words.seen)
+    require(fits, "cover", index, "is not the word of its term")
+    return ("mul", ("num", str(c)), least, *(("var", name) for name in rest.elements()))

@@ -1,0 +1,84 @@
+"""Relations between numbers: exactly where the difference is rational, else by balls that do not touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flint import ctx
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.witness import holds
+from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.replay import require_bits
+from lyapcheck.check.statement import Proof, Relation, Statement
+from lyapcheck.check.verify import Accepted, rule
+
+
+@dataclass(frozen=True)
+class Constant(Statement):
+    """A relation between numbers."""
+
+    relation: Relation
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        require_relations([self.relation], [])
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides."""
+        return terms_of([self.relation], {})
+
+    def text(self) -> str:
+        """The statement in one line."""
+        return relation_text(self.relation)
+
+
+@dataclass(frozen=True)
+class ExactNumbers(Proof):
+    """The difference of both sides is rational, or its normal form is zero."""
+
+    rule = "exact numbers"
+
+
+@dataclass(frozen=True)
+class SeparateBalls(Proof):
+    """Both sides lie in balls of ``bits`` that tell them apart."""
+
+    rule = "separate balls"
+    bits: int
+
+
+@rule(Constant, ExactNumbers)
+def by_exact_numbers(statement: Constant, proof: ExactNumbers) -> Accepted:
+    """Soundness: the sign of one rational number."""
+    truth = exact_truth(statement.relation)
+    if truth is None:
+        raise Refused("difference", "", "of both sides is not rational")
+    return Accepted("proved" if truth else "refuted", "exact")
+
+
+@rule(Constant, SeparateBalls)
+def by_separate_balls(statement: Constant, proof: SeparateBalls) -> Accepted:
+    """Soundness: the ball of the difference does not touch 0."""
+    with ctx.workprec(require_bits(proof.bits)):
+        truth = holds(statement.relation.comparison, {})
+    if truth is None:
+        raise Refused("bits", proof.bits, "are too few to tell both sides apart")
+    return Accepted("proved" if truth else "refuted", "enclosure")
+
+
+def exact_truth(relation: Relation) -> bool | None:
+    """The truth of a relation between numbers whose difference is rational, else ``None``."""
+    try:
+        ratio, algebra = normal_form(relation.gap)
+    except Unsupported:
+        return None
+    if ratio.top == 0:
+        return not relation.strict
+    if algebra.uses and not (ratio.top.is_constant() and ratio.bottom.is_constant()):
+        return None
+    gap = ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient()
+    return bool(gap > 0)

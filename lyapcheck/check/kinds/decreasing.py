@@ -1,0 +1,232 @@
+"""dV/dt < 0 at every state but the origin: by a tree of boxes, and against it by one state.
+
+References: ``reyes2019family`` (11), (12), (15).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.text import diagonal_text, number_text
+from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
+from lyapcheck.check.loop import Closure, proves, sharing
+from lyapcheck.check.loop.radial import Radial, proves_radially
+from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
+from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
+
+
+@dataclass(frozen=True)
+class Decreasing(Statement):
+    """M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
+
+    V of (13) is then positive definite and radially unbounded, so that the origin is globally asymptotically
+    stable by Lyapunov's direct method (``kelly2005control``, chapter 2).
+
+    ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B, N·m·s/rad; ``parameters`` the
+    range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀;
+    ``coupling`` is the diagonal of Λ in y = w − εΛh, empty for (13).
+    """
+
+    mass: tuple[tuple[Monomials, ...], ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
+    family: str
+    m: int | None
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
+    eps0: Fraction
+    coupling: tuple[Fraction, ...]
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        require_mass(self.mass, self.parameters)
+        n = len(self.mass)
+        for subject in ("viscous", "kp", "kv"):
+            size = len(getattr(self, subject))
+            require(size == n, subject, size, f"must be {n}, one a joint")
+        coupling = len(self.coupling)
+        require(coupling in (0, n), "coupling", coupling, f"must be empty or {n}, one a joint")
+        for low, high in self.viscous:
+            require(low <= high, "range", f"[{low}, {high}]", "is empty")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None: M, h and V have values everywhere."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What ties the numbers to a robot."""
+        return (
+            "the robot is (1) with this M(q), C by Christoffel symbols, and B, whose ranges hold its numbers",
+            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+        )
+
+    def text(self) -> str:
+        """The statement in one line."""
+        weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
+        member_m = "" if self.m is None else f"_{self.m}"
+        friction = ", ".join(_ends_text(ends) for ends in self.viscous)
+        return (
+            "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
+            f"asymptotically stable by Lyapunov's direct method: for B = diag({friction}), "
+            f"h = {self.family}{member_m}, K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
+            f"ε₀ = {number_text(self.eps0)}{weights} and {mass_text(self.mass, self.parameters)}"
+        )
+
+
+@dataclass(frozen=True)
+class BoxTree(Proof):
+    """A tree of boxes of (q, e): in preorder, a digit for the side that is cut, a dot for a leaf."""
+
+    rule = "tree of boxes"
+    tree: str
+
+
+@dataclass(frozen=True)
+class RadialBounds(Proof):
+    """Bounds of the parts of dV/dt in ‖e‖ alone: weights, μ, ν, boxes of some angles behind them, cuts."""
+
+    rule = "bounds in ‖e‖"
+    weights: tuple[Fraction, ...]
+    inertia: Fraction
+    lowest: Fraction
+    angles: tuple[int, ...]
+    tree: str
+    cuts: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class PositiveAndDecreasing(Proof):
+    """A proof of M(q) ≻ 0, and boxes or bounds by which dV/dt < 0."""
+
+    rule = "M positive and V decreasing"
+    inertia: Proof
+    rate: Proof
+
+
+@dataclass(frozen=True)
+class StateWitness(Proof):
+    """An arm within the ranges and a state of it at which dV/dt > 0."""
+
+    rule = "state"
+    viscous: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
+    q: tuple[Fraction, ...]
+    e: tuple[Fraction, ...]
+    w: tuple[Fraction, ...]
+
+
+@rule(Decreasing, PositiveAndDecreasing)
+def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
+    """Soundness: M ≻ 0 by a proof of its own, dV/dt < 0 by ``lyapcheck.check.loop``."""
+    positive = require_proved(
+        MassAbove(statement.mass, statement.parameters, Fraction(0)), proof.inertia, "M ≻ 0"
+    )
+    closure = closure_of(statement)
+    require(closure.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
+    if isinstance(proof.rate, BoxTree):
+        shown = proves(closure, proof.rate.tree, sharing())
+        require(
+            shown, "tree", f"of {proof.rate.tree.count('.')} boxes", "has a box on which P ≻ 0 is not shown"
+        )
+    elif isinstance(proof.rate, RadialBounds):
+        shown = proves_radially(closure, radial_of(proof.rate))
+        require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
+    else:
+        raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
+    return Accepted("proved", weakest([positive, "enclosure"]))
+
+
+def mass_positive(statement: Decreasing) -> MassAbove:
+    """M(q) ≻ 0 for the arm of a statement."""
+    return MassAbove(statement.mass, statement.parameters, Fraction(0))
+
+
+def radial_of(bounds: RadialBounds) -> Radial:
+    """The bounds as the checker of them takes them."""
+    return Radial(bounds.weights, bounds.inertia, bounds.lowest, bounds.angles, bounds.tree, bounds.cuts)
+
+
+@rule(Decreasing, PostureWitness)
+def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
+    """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
+    found = verify(mass_positive(statement), proof)
+    require(found.verdict == "refuted", "M ≻ 0", found.verdict, "must be refuted")
+    return found
+
+
+@rule(Decreasing, StateWitness)
+def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
+    """Soundness: dV/dt > 0 in balls, by the plain chain rule, at one state of one arm within the ranges."""
+    require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
+    _require_within("viscous", proof.viscous, statement.viscous)
+    _require_within("parameters", proof.parameters, statement.parameters)
+    mass = tuple(
+        tuple(_at(entry, 2 * len(statement.mass), proof.parameters) for entry in row)
+        for row in statement.mass
+    )
+    known = member(statement.family, statement.m)
+    controller = Controller(known.functions, statement.kp, statement.kv)
+    state = State(proof.q, proof.e, proof.w)
+    if not confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state):
+        raise Refused("state", "", "does not show dV/dt > 0")
+    return Accepted("refuted", "enclosure")
+
+
+def closure_of(statement: Decreasing) -> Closure:
+    """The statement as the checker of trees takes it."""
+    return Closure(
+        arm=Arm(statement.mass, tuple(low for low, _ in statement.viscous)),
+        family=statement.family,
+        m=statement.m,
+        kp=statement.kp,
+        kv=statement.kv,
+        eps0=statement.eps0,
+        parameters=statement.parameters,
+        viscous=statement.viscous,
+        coupling=statement.coupling,
+    )
+
+
+def statement_of(closure: Closure) -> Decreasing:
+    """What has to be proved of a closed loop."""
+    return Decreasing(
+        mass=closure.arm.mass,
+        viscous=closure.friction,
+        parameters=closure.parameters,
+        family=closure.family,
+        m=closure.m,
+        kp=closure.kp,
+        kv=closure.kv,
+        eps0=closure.eps0,
+        coupling=closure.coupling,
+    )
+
+
+def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[Ends]) -> None:
+    require(len(values) == len(ranges), subject, len(values), f"must be {len(ranges)}")
+    for value, (low, high) in zip(values, ranges, strict=True):
+        require(low <= value <= high, subject, value, f"must be between {low} and {high}")
+
+
+def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
+    """The entry with numbers for the parameters."""
+    found = []
+    for powers, coefficient in entry:
+        value = coefficient
+        for parameter, power in zip(parameters, powers[angles:], strict=True):
+            value *= parameter**power
+        found.append((powers[:angles], value))
+    return tuple(found)
+
+
+def _ends_text(ends: Ends) -> str:
+    low, high = map(number_text, ends)
+    return low if low == high else f"{low} … {high}"

@@ -1,0 +1,216 @@
+"""Identities for every n: equal normal forms in words, or entries at which both sides differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from random import Random
+
+from lyapcheck.check.expressions.defined import require_defined_at
+from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.kinds.parts import require_distinct
+from lyapcheck.check.letters.entries import Entries, exact
+from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
+from lyapcheck.check.letters.points import Point as Drawn
+from lyapcheck.check.letters.points import compared, drawn, solved
+from lyapcheck.check.letters.words import Words
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.replay import coordinates
+from lyapcheck.check.statement import Point, Proof, Statement
+from lyapcheck.check.verify import Accepted, rule
+
+
+@dataclass(frozen=True)
+class Given:
+    """``A x = equals`` for a matrix A and a vector x."""
+
+    matrix: str
+    vector: str
+    equals: Tree
+
+
+@dataclass(frozen=True)
+class EveryN(Statement):
+    """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
+
+    ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The letters are
+    functions of time with the derivatives ``rates``, pairs (letter, derivative), and ``given`` holds; apart
+    from that they are free.
+    """
+
+    left: Tree
+    right: Tree
+    symmetric: tuple[str, ...] = ()
+    rates: tuple[tuple[Tree, Tree], ...] = ()
+    given: tuple[Given, ...] = ()
+    positive: tuple[str, ...] = ()
+
+    def require_well_formed(self) -> None:
+        """One name for one letter; what is given is solved for vectors that it does not contain itself."""
+        require_sort(self.left, "number", rate=True)
+        require_sort(self.right, "number", rate=True)
+        used = letters(self.left) | letters(self.right)
+        sorts = {letter: sort for sort, letter in LETTERS.items()}
+        for letter, value in self.rates:
+            require(len(letter) == 2 and letter[0] in sorts, "rates", letter, "has no derivative of its own")
+            for tree in (letter, value):
+                require_sort(tree, sorts[letter[0]])
+                used |= letters(tree)
+        for known in self.given:
+            require_sort(("mat", known.matrix), "matrix")
+            require_sort(known.equals, "vector")
+            used |= letters(known.equals) | {("mat", known.matrix), ("vec", known.vector)}
+            solved = {("vec", other.vector) for other in self.given}
+            require(not solved & letters(known.equals), "given", known.vector, "occurs on a right side")
+        require_distinct("letters", sorted(name for _, name in used))
+        require_distinct("rates", [letter[1] for letter, _ in self.rates])
+        require_distinct("given", [f"{known.matrix} {known.vector}" for known in self.given])
+        require_distinct("positive", list(self.positive))
+        for name in self.positive:
+            require(("var", name) in used, "positive", name, "is not a number of the statement")
+        require_distinct("symmetric", list(self.symmetric))
+        for name in self.symmetric:
+            require(("mat", name) in used, "symmetric", name, "is not a matrix of the self")
+
+    @property
+    def domain(self) -> dict[str, Interval]:
+        """The ranges of the numbers."""
+        return dict.fromkeys(self.positive, POSITIVE)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides, the derivatives and what is given."""
+        known = (*(value for _, value in self.rates), *(one.equals for one in self.given))
+        return [(tree, self.domain) for tree in (self.left, self.right, *known)]
+
+    def text(self) -> str:
+        """The statement in one line."""
+        sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
+        return f"{sides} for every n{known_text(self)}"
+
+
+@dataclass(frozen=True)
+class EntriesWitness(Proof):
+    """An n and rational entries at which all that is given holds and both sides differ."""
+
+    rule = "entries"
+    n: int
+    point: Point
+
+
+MAX_SIZE = 6
+DRAWN_SIZES = (1, 2, 3)
+TRIES = 12
+"""How often entries are drawn for each n: some make a matrix singular."""
+
+
+Equation = tuple[Tree, Tree]
+
+
+@rule(EveryN, NormalForm)
+def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
+    """Soundness: see :meth:`Words.number`; a zero normal form in words is zero whatever the words are."""
+    require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
+    require(is_zero(in_words(statement)), "normal form", "", "that of the difference is not zero")
+    for sign in signs_at_entries(statement):
+        require(sign == 0, "entries", "", "that were drawn make both sides differ: the words are at fault")
+    return Accepted("proved", "exact")
+
+
+@rule(EveryN, EntriesWitness)
+def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
+    """Soundness: exact arithmetic at one n, with the derivatives taken entry by entry."""
+    require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
+    sides, given = at_size(statement, proof.n)
+    point = coordinates(proof.point, names_at(sides, given))
+    for name in statement.positive:
+        require(point[name] > 0, name, point[name], "must be positive")
+    for tree in (side for pair in (sides, *given) for side in pair):
+        require_defined_at(tree, point)
+    for left, right in given:
+        require(exact(left, point) == exact(right, point), "point", proof.n, "breaks what is given")
+    require(exact(sides[0], point) != exact(sides[1], point), "point", proof.n, "gives equal sides")
+    return Accepted("refuted", "exact")
+
+
+def in_words(statement: EveryN) -> Tree:
+    """The difference of both sides as an expression in words."""
+    words = words_of(statement)
+    return ("add", words.number(statement.right), ("neg", words.number(statement.left)))
+
+
+def rates_fit(statement: EveryN) -> bool:
+    """Whether the derivative of each symmetric matrix is symmetric, word by word."""
+    words = words_of(statement)
+    changes = [value for (_, name), value in statement.rates if name in statement.symmetric]
+    skew = (words.expand(("sum", a, ("scale", ("num", "-1"), ("transpose", a)))) for a in changes)
+    return all(is_zero(coefficient) for word in skew for coefficient in word.values())
+
+
+def at_size(statement: EveryN, n: int) -> tuple[Equation, list[Equation]]:
+    """Both sides at one n, and the equations that are given there, as ordinary expressions."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    given: list[Equation] = []
+    for known in statement.given:
+        left = entries.vector(("apply", ("mat", known.matrix), ("vec", known.vector)))
+        given += zip(left, entries.vector(known.equals), strict=True)
+    for (_, name), value in statement.rates:
+        if name in statement.symmetric:
+            rows = entries.matrix(value)
+            given += [(rows[i][j], rows[j][i]) for i in range(n) for j in range(i)]
+    return (entries.number(statement.left), entries.number(statement.right)), given
+
+
+def names_at(sides: Equation, given: list[Equation]) -> set[str]:
+    """The variables of both sides and of what is given."""
+    return set().union(*(variables(tree) for pair in (sides, *given) for tree in pair))
+
+
+def words_of(statement: EveryN) -> Words:
+    """The words of a statement."""
+    given = {(known.matrix, known.vector): known.equals for known in statement.given}
+    return Words(statement.symmetric, dict(statement.rates), given)
+
+
+def known_text(statement: EveryN) -> str:
+    """What is known of the letters."""
+    known = [f"{name}ᵀ = {name}" for name in statement.symmetric]
+    known += [f"{name} > 0" for name in statement.positive]
+    known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
+    known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
+    return f", with {', '.join(known)}" if known else ""
+
+
+def signs_at_entries(statement: EveryN) -> Iterator[int]:
+    """The sign of right − left at random exact entries for some n, as ``letters.points`` finds them.
+
+    Raises:
+        Refused: no entries were found that meet what is supposed.
+    """
+    random = Random(repr(statement))
+    for n in DRAWN_SIZES:
+        (left, right), equations = at_size(statement, n)
+        names = names_at((left, right), equations)
+        for _ in range(TRIES):
+            try:
+                point = solved_at(statement, n, drawn(names, statement.positive, random))
+                given = all(compared(*pair, point) == 0 for pair in equations)
+                sign = compared(left, right, point) if given else None
+            except (ZeroDivisionError, Unsupported):
+                continue
+            if sign is not None:
+                yield sign
+                break
+        else:
+            raise Refused(
+                "n", n, "no entries were found at which both sides have values that can be compared"
+            )
+
+
+def solved_at(statement: EveryN, n: int, point: Drawn) -> Drawn:
+    """The point with the vectors that are given by a matrix put where that is met."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    return solved(entries, ((one.matrix, one.vector, one.equals) for one in statement.given), point)

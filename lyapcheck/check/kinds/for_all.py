@@ -1,0 +1,211 @@
+"""Inequalities in one variable: the domain is cut at 0, its left part reflected, each piece proved by itself.
+
+References: ``tucker2011validated``, chapters 3 and 5; ``sturm1829``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import ClassVar
+
+from flint import ctx
+
+from lyapcheck.check.expressions.domain import Domain, Interval
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.inequality import (
+    positive_from,
+    positive_near_zero,
+    positive_on_box,
+    sign_everywhere,
+)
+from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.replay import coordinates, require_bits, require_failure
+from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.verify import Accepted, rule, weakest
+
+
+@dataclass(frozen=True)
+class ForAll(Statement):
+    """A relation for every value of one variable in the interval from low to high (None: unbounded)."""
+
+    relation: Relation
+    low: Fraction | None = None
+    high: Fraction | None = None
+    open_low: bool = False
+    open_high: bool = False
+    variable: str = "x"
+
+    def require_well_formed(self) -> None:
+        """Refuse what the rules should not have to look at."""
+        require_relations([self.relation], [self.variable])
+        low, high = self.low, self.high
+        if low is not None and high is not None:
+            closed = not self.open_low and not self.open_high
+            require(low < high or (low == high and closed), "interval", f"{low}, {high}", "is empty")
+
+    @property
+    def interval(self) -> Interval:
+        """The domain."""
+        return Interval(self.low, self.high, self.open_low, self.open_high)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """Both sides over the interval."""
+        return terms_of([self.relation], {self.variable: self.interval})
+
+    def text(self) -> str:
+        """The statement in one line."""
+        low = "−∞" if self.low is None else number_text(self.low)
+        high = "∞" if self.high is None else number_text(self.high)
+        left = "(" if self.open_low or self.low is None else "["
+        right = ")" if self.open_high or self.high is None else "]"
+        return f"{relation_text(self.relation)} for all {self.variable} in {left}{low}, {high}{right}"
+
+
+class Piece:
+    """How the sign of a function of one variable is shown on one part of its domain."""
+
+    rule: ClassVar[str]
+
+
+@dataclass(frozen=True)
+class Sturm(Piece):
+    """By Sturm's theorem: the function is a quotient of polynomials in x alone or in exp(x) alone."""
+
+    rule = "Sturm"
+
+
+@dataclass(frozen=True)
+class Boxes(Piece):
+    """By Taylor's formula on the boxes between neighbouring ``cuts``.
+
+    With ``from_zero``, the first Taylor coefficient that is not zero gives the sign from 0 to the first cut;
+    with ``to_infinity``, the dominant term gives it beyond the last cut.
+    """
+
+    rule = "Taylor boxes"
+    cuts: tuple[Fraction, ...]
+    from_zero: bool
+    to_infinity: bool
+    bits: int
+
+
+@dataclass(frozen=True)
+class Pieces(Proof):
+    """One proof for each piece of the domain: the part right of 0, then the part left of it, reflected."""
+
+    rule = "pieces of the domain"
+    pieces: tuple[Piece, ...]
+
+
+MAX_CUTS = 20_000
+
+
+Stretch = tuple[Tree, Fraction, Fraction | None]
+"""The gap on [low, high] with 0 <= low; ``None`` is infinity."""
+
+
+@rule(ForAll, Witness)
+def by_witness(statement: ForAll, proof: Witness) -> Accepted:
+    """Soundness: the point lies in the domain and the relation fails there in balls."""
+    point = coordinates(proof.point, [statement.variable])
+    x = point[statement.variable]
+    below = statement.low is not None and (x < statement.low or (x == statement.low and statement.open_low))
+    above = statement.high is not None and (
+        x > statement.high or (x == statement.high and statement.open_high)
+    )
+    require(not below and not above, "point", x, "lies outside the domain")
+    require_failure(statement.relation.comparison, point, proof.bits)
+    return Accepted("refuted", "enclosure")
+
+
+@rule(ForAll, Pieces)
+def by_pieces(statement: ForAll, proof: Pieces) -> Accepted:
+    """Soundness: the pieces cover the domain, and each is shown to keep its sign."""
+    domains = list(pieces(statement))
+    require(len(proof.pieces) == len(domains), "pieces", len(proof.pieces), f"must be {len(domains)}")
+    return Accepted(
+        "proved", weakest(_shown(statement, *pair) for pair in zip(domains, proof.pieces, strict=True))
+    )
+
+
+def pieces(statement: ForAll) -> Iterator[Stretch]:
+    """The gap on pieces [low, high] with 0 <= low, which together cover the domain."""
+    low, high, zero = statement.low, statement.high, Fraction(0)
+    gap = statement.relation.gap
+    if high is None or high > 0 or low == 0:
+        yield gap, max(low, zero) if low is not None else zero, high
+    if low is None or low < 0:
+        start = max(-high, zero) if high is not None else zero
+        yield reflected(gap, statement.variable), start, None if low is None else -low
+
+
+def reflected(tree: Tree, name: str) -> Tree:
+    """The expression with −x for x."""
+    if tree[0] == "var":
+        return ("neg", tree) if tree[1] == name else tree
+    return (tree[0], *(reflected(part, name) if isinstance(part, tuple) else part for part in tree[1:]))
+
+
+def zero_is_left_out(statement: ForAll) -> bool:
+    """Whether 0 is an open end of the domain."""
+    return (statement.low == 0 and statement.open_low) or (statement.high == 0 and statement.open_high)
+
+
+def zero_must_be_positive(statement: ForAll, low: Fraction) -> bool:
+    """Whether a piece that begins at ``low`` has to show a strict inequality at 0."""
+    return statement.relation.strict and low == 0 and not zero_is_left_out(statement)
+
+
+def _shown(statement: ForAll, domain: Stretch, piece: Piece) -> str:
+    """The grade of the proof on one piece."""
+    if isinstance(piece, Boxes):
+        with ctx.workprec(require_bits(piece.bits)):
+            _require_boxes(statement, domain, piece)
+        return "enclosure"
+    require(isinstance(piece, Sturm), "piece", piece.rule, "is not known")
+    tree, low, high = domain
+    require(not zero_must_be_positive(statement, low), "piece", "Sturm", "does not show > at 0")
+    holds = sign_everywhere(tree, statement.variable, low, high, statement.relation.strict)
+    require(holds, "piece", "Sturm", "does not give the sign")
+    return "exact"
+
+
+def _require_boxes(statement: ForAll, domain: Stretch, piece: Boxes) -> None:
+    (tree, low, high), cuts, name = domain, piece.cuts, statement.variable
+    require(1 <= len(cuts) <= MAX_CUTS, "cuts", len(cuts), f"must be from 1 to {MAX_CUTS}")
+    if piece.from_zero:
+        require(low == 0 < cuts[0], "first cut", cuts[0], "must lie above 0, where the piece begins")
+        defined = not zero_is_left_out(statement)
+        near = positive_near_zero(tree, name, cuts[0], zero_included=defined)
+        require(near, "first cut", cuts[0], "is too far from 0")
+        if zero_must_be_positive(statement, low):
+            require(
+                positive_on_box(tree, name, low, ZERO_BOX), "value at 0", 0, "is not shown to be positive"
+            )
+    else:
+        require(cuts[0] <= low, "first cut", cuts[0], f"leaves out {low}")
+    if piece.to_infinity:
+        require(cuts[-1] >= 1, "last cut", cuts[-1], "must be at least 1")
+        require(positive_from(tree, name, cuts[-1]), "last cut", cuts[-1], "no term dominates from there on")
+    elif high is None or cuts[-1] < high:
+        raise Refused("last cut", cuts[-1], f"leaves out {'infinity' if high is None else high}")
+    for left, right in pairwise(cuts):
+        require(left < right, "cuts", f"{left}, {right}", "must rise")
+        require(positive_on_box(tree, name, left, right), "box", f"[{left}, {right}]", "the sign is open")
+    _require_point(tree, name, piece)
+
+
+def _require_point(tree: Tree, name: str, piece: Boxes) -> None:
+    """A single cut is a domain of one point, unless 0 and infinity meet there."""
+    if len(piece.cuts) == 1 and not (piece.from_zero or piece.to_infinity):
+        x = piece.cuts[0]
+        require(positive_on_box(tree, name, x, x), "point", x, "the sign is open")
+
+
+ZERO_BOX = Fraction(1, 1024)
+"""How far from 0 a value is enclosed to show that it is positive at 0."""

@@ -1,0 +1,178 @@
+"""Random exact entries at one n that meet what a statement for every n supposes.
+
+Statements that are proved in words are evaluated here once more, entry by entry, by arithmetic that shares
+nothing with the words; and where a statement is false, such entries may show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+from random import Random
+
+from flint import arb, ctx, fmpq_mat
+
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
+from lyapcheck.check.letters.entries import Entries, exact
+from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.numbers.polynomials import rational
+
+Point = dict[str, Fraction]
+BITS = 256
+MOST = 12
+"""Entries are quotients of whole numbers up to this."""
+
+
+def drawn(names: Iterable[str], positive: Iterable[str], random: Random) -> Point:
+    """A number for each name, never 0; about half of the letters are given positive entries alone."""
+    above, point = frozenset(positive), {}
+    upright: dict[str, bool] = {}
+    for name in sorted(names):
+        letter = name.split("[")[0]
+        if letter not in upright:
+            upright[letter] = letter in above or random.random() < 1 / 2
+        value = Fraction(random.randint(1, MOST), random.randint(1, MOST))
+        point[name] = value if upright[letter] or random.random() < 1 / 2 else -value
+    return point
+
+
+def solved(entries: Entries, given: Iterable[tuple[str, str, Tree]], point: Point) -> Point:
+    """The point with x, for each A x = b that is given, put at A⁻¹ b.
+
+    Raises:
+        ZeroDivisionError: some A is singular there.
+        Unsupported: b leaves the rational numbers.
+    """
+    for matrix, vector, equals in given:
+        a = fmpq_mat([[_at(tree, point) for tree in row] for row in entries.matrix(("mat", matrix))])
+        b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(equals)])
+        found = a.solve(b).entries()
+        for (_, name), value in zip(entries.vector(("vec", vector)), found, strict=True):
+            point = point | {name: Fraction(int(value.p), int(value.q))}
+    return point
+
+
+def _at(entry: Tree, point: Point) -> object:
+    return rational(point[entry[1]])
+
+
+def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
+    """The sign of right − left at a point: exactly in ℚ, else by balls; ``None`` where these do not tell.
+
+    Balls that agree to half of their bits count as equal.
+
+    Raises:
+        ZeroDivisionError: there is no value.
+    """
+    gap: Tree = ("add", right, ("neg", left))
+    try:
+        value = exact(gap, point)
+        return int(value > 0) - int(value < 0)
+    except Unsupported:
+        pass
+    with ctx.workprec(BITS):
+        balls = {name: ball_of(value) for name, value in point.items()}
+        found, size = ball(gap, balls), ball(("add", ("abs", left), ("abs", right)), balls)
+        if found > 0 or found < 0:
+            return 1 if found > 0 else -1
+        small = abs(found) < (1 + size) * arb(2) ** (-BITS // 2)
+        return 0 if small else None
+
+
+@dataclass(frozen=True)
+class Norms:
+    """Products of norms and their bounds at one n, as :class:`BoundEveryN` states them.
+
+    Args:
+        entries: the letters entry by entry.
+        norms: letters, and what the product of their norms is at most.
+        least: numbers, and what they are at least.
+    """
+
+    entries: Entries
+    norms: tuple[tuple[tuple[Tree, ...], Tree], ...]
+    least: tuple[tuple[Tree, Tree], ...]
+
+    def hold(self, point: Mapping[str, Fraction]) -> bool:
+        """Whether all bounds are met, as balls show; a full matrix is taken at its Frobenius norm."""
+        with ctx.workprec(BITS):
+            balls = {name: ball_of(value) for name, value in point.items()}
+            for letters, size in self.norms:
+                bound = ball(size, balls)
+                if not (bound >= 0 and ball_of(self.squared(letters, point)) <= bound * bound):
+                    return False
+        for number, size in self.least:
+            if compared(size, self.entries.number(number), point) not in (0, 1):
+                return False
+        return True
+
+    def squared(self, letters: Iterable[Tree], point: Mapping[str, Fraction]) -> Fraction:
+        """The square of a product of norms, from above."""
+        product = Fraction(1)
+        for letter in letters:
+            product *= self._square(letter, point)
+        return product
+
+    def _square(self, letter: Tree, point: Mapping[str, Fraction]) -> Fraction:
+        squares = [point[entry] ** 2 for entry in self.entries.names(letter)]
+        return max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
+
+    def shrunk(self, point: Point) -> Point:
+        """The point with letters made smaller until bounds by plain numbers hold."""
+        for letters, size in self.norms:
+            room = _value(size, {})
+            square = self.squared(letters, point)
+            if room is not None and square > room * room:
+                share = room / _root_above(square)
+                point = self._scaled(letters[0], share, point)
+        return point
+
+    def _scaled(self, letter: Tree, share: Fraction, point: Point) -> Point:
+        return point | {entry: share * point[entry] for entry in dict.fromkeys(self.entries.names(letter))}
+
+    def widened(self, names: frozenset[str], point: Point) -> Point:
+        """The point with the numbers ``names``, that only bounds speak of, put where the bounds hold.
+
+        A number that bounds a norm is raised to it; one that a number is at least is lowered to that.
+        """
+        raised = {name for _, size in self.norms for name in _names(size)}
+        for letters, size in self.norms:
+            square, room = self.squared(letters, point), _value(size, point)
+            free = sorted(_names(size) & names)
+            if room is not None and free and square > room * room:
+                rest = room / point[free[-1]]
+                point = point | {free[-1]: _root_above(square) / rest if rest else point[free[-1]]}
+        for number, size in self.least:
+            free, room = sorted((_names(size) & names) - raised), _value(size, point)
+            value = exact(self.entries.number(number), point)
+            if room is not None and free and rational(room) > value:
+                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / room
+                point = point | {free[-1]: share * point[free[-1]]}
+        return point
+
+
+def _names(tree: Tree) -> frozenset[str]:
+    if tree[0] == "var":
+        return frozenset([tree[1]])
+    return frozenset().union(*(_names(part) for part in tree[1:] if isinstance(part, tuple)))
+
+
+def _value(size: Tree, point: Mapping[str, Fraction]) -> Fraction | None:
+    """A rational not above a size; ``None`` where it depends on more than the point."""
+    if not _names(size) <= set(point):
+        return None
+    with ctx.workprec(BITS):
+        value = ball(size, {name: ball_of(x) for name, x in point.items()})
+        if not value.is_finite():
+            return None
+        low = value.lower().max(arb(0))
+        scale = 1 << 64
+        return Fraction(int((low * scale).floor().unique_fmpz() or 0), scale)
+
+
+def _root_above(square: Fraction) -> Fraction:
+    """A short rational not below a square root."""
+    scale = 1 << 64
+    return Fraction(isqrt(square.numerator * scale * scale // square.denominator) + 1, scale)

@@ -1,0 +1,217 @@
+"""The arm under its controller at one ε₀, and what must be shown about it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from itertools import product
+from math import isqrt, prod
+
+from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.states import Arm, Term
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.harmonics import (
+    Uncertain,
+    angles_in,
+    by_parameters,
+    largest,
+    mirrored,
+    uncertain_christoffel,
+)
+from lyapcheck.check.numbers.members import Member, member
+
+PI_ABOVE = 3.1415926535897936
+"""A double above π."""
+
+Range = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True, eq=False)
+class Closure:
+    """An arm under a bounded controller, at one ε₀, for all values of what is uncertain about the arm.
+
+    Args:
+        arm: M(q) and B; after the sines and cosines its terms may have exponents of parameters.
+        family: name of the function h.
+        m: its member, where it has members.
+        kp: diagonal of K_p, N·m.
+        kv: diagonal of K_v, N·m.
+        eps0: ε₀ of (12).
+        parameters: the range of each parameter in M.
+        viscous: the range of each diagonal entry of B, N·m·s/rad; none where B is that of the arm.
+        coupling: diagonal of Λ in y = w − εΛh, dimensionless; none for (13), where Λ = I.
+    """
+
+    arm: Arm
+    family: str
+    m: int | None
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
+    eps0: Fraction
+    parameters: tuple[Range, ...] = ()
+    viscous: tuple[Range, ...] = ()
+    coupling: tuple[Fraction, ...] = ()
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return self.arm.n
+
+    @cached_property
+    def member(self) -> Member:
+        """h with its bounds; raises ``ValueError`` for a function the checker does not know."""
+        return member(self.family, self.m)
+
+    @cached_property
+    def friction(self) -> tuple[Range, ...]:
+        """The range of each diagonal entry of B."""
+        return self.viscous or tuple((b, b) for b in self.arm.viscous)
+
+    @cached_property
+    def mass(self) -> list[list[Uncertain]]:
+        """M as harmonics, by powers of the parameters."""
+        return [[_harmonics(entry, self.n) for entry in row] for row in self.arm.mass]
+
+    @cached_property
+    def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
+        """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
+        return uncertain_christoffel(self.mass)
+
+    @cached_property
+    def stiffness(self) -> tuple[Fraction, ...]:
+        """Diagonal of K̃ = K_p Λ⁻¹ − ¼ ε₀ L K_v, from below."""
+        rows = zip(self.kp, self.kv, self.Lambda, strict=True)
+        return tuple(p / scale - self.eps0 * self.member.L * v / 4 for p, v, scale in rows)
+
+    @property
+    def Lambda(self) -> tuple[Fraction, ...]:
+        """Diagonal of Λ."""
+        return self.coupling or (Fraction(1),) * self.n
+
+    @cached_property
+    def angles(self) -> tuple[int, ...]:
+        """The joints whose angle M depends on; the others may be held at 0."""
+        return angles_in(self.mass)
+
+    @cached_property
+    def one_sided(self) -> tuple[int, ...]:
+        """The joints whose error may be taken ≥ 0, by sign symmetry.
+
+        If M(σq) = Σ M(q) Σ for Σ = diag(σ), then (q, e, w) → (σq, Σe, Σw) leaves dV/dt as it is. In reduced
+        echelon form over GF(2) each basis symmetry flips its own pivot and no other one.
+        """
+        basis: list[tuple[int, ...]] = []
+        for signs in product((1, -1), repeat=self.n):
+            row = tuple(int(sign < 0) for sign in signs)
+            if not self._symmetric(signs):
+                continue
+            for kept in basis:
+                if row[kept.index(1)]:
+                    row = _xor(row, kept)
+            if any(row):
+                basis = [_xor(kept, row) if kept[row.index(1)] else kept for kept in basis] + [row]
+        return tuple(sorted(row.index(1) for row in basis))
+
+    def _symmetric(self, signs: Sequence[int]) -> bool:
+        joints = range(self.n)
+        return all(
+            mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}
+            for i in joints
+            for j in joints
+            for sign in (signs[i] * signs[j],)
+            for part in self.mass[i][j].values()
+        )
+
+    @cached_property
+    def tail(self) -> ScalarForm:
+        """A scalar form with coarse bounds of ‖M‖ and ‖C‖, rational and from above.
+
+        ‖M‖ is at most its largest row sum, and ‖C(q,x)y‖ ≤ (Σ c_ijk²)^½ ‖x‖ ‖y‖.
+        """
+        rows = [sum(map(self._largest, row), Fraction(0)) for row in self.mass]
+        squares = sum(
+            ((1 if j == k else 2) * self._largest(c) ** 2 for (_, j, k), c in self.symbols.items()),
+            Fraction(0),
+        )
+        largest_coupling = max(self.Lambda)
+        reach = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
+        rho, slope = self.member.rho * largest_coupling, self.member.L * largest_coupling
+        G = reach * slope / (slope + reach)
+        return ScalarForm(
+            stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
+            friction=min(low for low, _ in self.friction),
+            drift=max(rows) * (rho + G) + reach * root_above(squares),
+            cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
+        )
+
+    def _largest(self, entry: Uncertain) -> Fraction:
+        """A bound of the absolute value for all parameters in their ranges."""
+        sizes = [max(abs(low), abs(high)) for low, high in self.parameters]
+        return sum(
+            (
+                largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
+                for powers, part in entry.items()
+            ),
+            Fraction(0),
+        )
+
+    @cached_property
+    def radius(self) -> float:
+        """A double R ≥ 0 beyond which the scalar form is enough.
+
+        Raises:
+            ValueError: the closure is not admissible, and there may be no such radius.
+        """
+        if not self.admissible:
+            raise ValueError("a closure that is not admissible has no radius")
+        radius = Fraction(1, 64)
+        while not certifies(self.tail, self.eps0 / (1 + radius)):
+            radius = radius * 5 / 4
+        return math.nextafter(float(radius), math.inf)
+
+    @property
+    def admissible(self) -> bool:
+        """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
+        ranges = (*self.parameters, *self.friction)
+        sizes = {self.n, len(self.kp), len(self.kv), len(self.friction), len(self.Lambda)}
+        if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
+            return False
+        if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
+            return False
+        powers = {len(p) for row in self.mass for entry in row for p in entry}
+        symmetric = all(self.mass[i][j] == self.mass[j][i] for i in range(self.n) for j in range(i))
+        return symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
+
+    @cached_property
+    def free(self) -> tuple[Range, ...]:
+        """The ranges, of parameters and then of friction, that are more than a point: sides of the box."""
+        return tuple((low, high) for low, high in (*self.parameters, *self.friction) if low < high)
+
+    @property
+    def start(self) -> Box:
+        """The box of the angles that matter, the errors, in rad, and what is uncertain."""
+        errors = [(0.0 if i in self.one_sided else -self.radius, self.radius) for i in range(self.n)]
+        uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
+        return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
+
+
+@lru_cache(maxsize=256)
+def _harmonics(entry: tuple[Term, ...], n: int) -> Uncertain:
+    """An entry of M as harmonics, once for all the ε₀ that are tried on an arm; to be read only."""
+    return by_parameters(entry, n)
+
+
+def root_above(value: Fraction) -> Fraction:
+    """A rational not below the square root, within 10⁻¹² of it."""
+    scale = 10**24
+    scaled = -((-value.numerator * scale) // value.denominator)
+    root = isqrt(scaled)
+    return Fraction(root if root * root == scaled else root + 1, 10**12)
+
+
+def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple((x + y) % 2 for x, y in zip(a, b, strict=True))

@@ -1,0 +1,186 @@
+"""What follows from a margin: levels of V, how fast they are passed, and which errors they allow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import pairwise
+
+from flint import arb
+
+from lyapcheck.check.loop.decay.least import Well
+from lyapcheck.check.loop.decay.margin import Margin
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.members import Member
+
+BITS = 64
+HALVINGS = 30
+FARTHEST = 2.0**20
+"""rad: levels of V that allow larger errors are refused."""
+
+
+@dataclass(frozen=True)
+class Disturbance:
+    """A torque d' − φ on the right of (11).
+
+    Args:
+        torque: d̄_i ≥ 0, N·m: |d'_i| ≤ d̄_i, of any sign and however it changes.
+        dry: f_i ≥ 0, N·m: |φ_i| ≤ f_i and φ_i w_i ≥ 0, as dry friction is, sliding or sticking.
+    """
+
+    torque: tuple[Fraction, ...]
+    dry: tuple[Fraction, ...]
+
+    @classmethod
+    def none(cls, n: int) -> Disturbance:
+        """No disturbance of n joints."""
+        return cls((Fraction(0),) * n, (Fraction(0),) * n)
+
+    def fits(self, n: int) -> bool:
+        """Whether there is one bound ≥ 0 of each kind a joint."""
+        sizes = len(self.torque) == n and len(self.dry) == n
+        return sizes and min(*self.torque, *self.dry) >= 0
+
+
+class Estimate:
+    """The bounds that follow from a margin under a disturbance; see ``lyapcheck.check.decay``.
+
+    Args:
+        margin: what dV/dt is below 0 by.
+        disturbance: what acts on the joints beside (11).
+
+    Raises:
+        ValueError: sizes or signs do not fit, or a disturbance d̄ is given and no share of damping for it.
+
+    Soundness: all answers hold if ``shown`` accepts the margin; this class does not ask.
+    """
+
+    def __init__(self, margin: Margin, disturbance: Disturbance) -> None:
+        if not margin.admissible or not disturbance.fits(margin.closure.n):
+            raise ValueError(
+                "the margin is not admissible, or the disturbance is of another number of joints"
+            )
+        if any(disturbance.torque) and margin.slack == 0:
+            raise ValueError("a disturbance needs a share of the damping")
+        self.margin = margin
+        self.disturbance = disturbance
+        closure = margin.closure
+        self.member: Member = closure.member
+        rest = 1 - margin.split - margin.slack
+        self.damping = 2 * rest * margin.friction / margin.inertia.inertia
+        self.steepest = self.damping / closure.eps0
+        self.stiffness = tuple(
+            margin.stiffness * k - margin.friction * b * closure.eps0 / (4 * margin.split)
+            for k, b in zip(closure.kp, closure.arm.viscous, strict=True)
+        )
+        if min(self.stiffness) < 0:
+            raise ValueError("the share t of the damping is too small for the mixed terms")
+        self.loss = sum(
+            (
+                d * d / (4 * margin.slack * margin.friction * b)
+                for d, b in zip(disturbance.torque, closure.arm.viscous, strict=True)
+                if d
+            ),
+            Fraction(0),
+        )
+
+    def start_level(self, e: Sequence[Fraction], w: Sequence[Fraction]) -> Fraction:
+        """A bound from above of V at errors e in rad and rates w in rad/s, for all q: J.
+
+        ½ μ Σ d_i² y_i² + Σ k_pi U(e_i).
+        """
+        closure, inertia = self.margin.closure, self.margin.inertia
+        with precision(BITS):
+            errors = [to_arb(x) for x in e]
+            eps = to_arb(closure.eps0) / (1 + sum((x * x for x in errors), arb(0)).sqrt())
+            moving = stored = arb(0)
+            for x, rate, d, k in zip(errors, w, inertia.weights, closure.kp, strict=True):
+                moving += (to_arb(d) * (to_arb(rate) - eps * self.member.h(x))) ** 2
+                stored += to_arb(k) * self.member.potential(x)
+            return Enclosure.from_arb(to_arb(inertia.inertia) * moving / 2 + stored).upper
+
+    def level_within(self, e: Fraction) -> Fraction:
+        """A level, J: V ≤ that is enough for every |e_i| ≤ e. It is min k_pi U(e), from below."""
+        with precision(BITS):
+            least = self.member.potential(to_arb(e)) * to_arb(min(self.margin.closure.kp))
+            return max(Enclosure.from_arb(least).lower, Fraction(0))
+
+    def reach(self, level: Fraction) -> tuple[float, ...]:
+        """Bounds of |e_i|, rad, wherever V ≤ level: U⁻¹(level/k_pi) from above.
+
+        Raises:
+            ValueError: they would be larger than `FARTHEST`.
+        """
+        with precision(BITS):
+            return tuple(reach_of(self.member, level / k) for k in self.margin.closure.kp)
+
+    def fall(self, low: Fraction, high: Fraction, slope: Fraction) -> Fraction:
+        """A bound from below of −dV/dt wherever low ≤ V ≤ high, in W; it may be negative.
+
+        Args:
+            low: J.
+            high: J.
+            slope: λ, at most ``steepest``; any choice is right, the best one gives the largest bound.
+        """
+        if not 0 <= slope <= self.steepest or not 0 <= low <= high:
+            raise ValueError("λ must be from 0 to a/ε₀, and the levels in order")
+        ends = self.reach(high)
+        with precision(BITS):
+            inside = to_arb(slope * low)
+            rows = zip(self.stiffness, self.disturbance.dry, self.margin.closure.kp, ends, strict=True)
+            for c, f, k, end in rows:
+                inside += Well(self.member, to_arb(c), to_arb(f), to_arb(slope * k)).least(end)
+            eps = to_arb(self.margin.closure.eps0) / (1 + sum((arb(x) ** 2 for x in ends), arb(0)).sqrt())
+            if not inside > 0:
+                eps = to_arb(self.margin.closure.eps0)
+            return Enclosure.from_arb(eps * inside - to_arb(self.loss)).lower
+
+    def descent(self, levels: Sequence[Fraction], slopes: Sequence[Fraction]) -> tuple[Fraction, ...] | None:
+        """Times in s by which V, that starts at most at the first level, is at each level or below, for good.
+
+        Args:
+            levels: falling, J.
+            slopes: λ of each band between two levels.
+
+        Returns:
+            the times, from above; ``None`` if V is not shown to fall in all bands.
+
+        Soundness: in a band −dV/dt is at least its ``fall`` φ > 0, so that V passes it in at most the height
+            of the band over φ and does not come back.
+        """
+        times = [Fraction(0)]
+        for (high, low), slope in zip(pairwise(levels), slopes, strict=True):
+            rate = self.fall(low, high, slope)
+            if rate <= 0:
+                return None
+            times.append(_short_above(times[-1] + (high - low) / rate))
+        return tuple(times)
+
+
+@lru_cache(maxsize=4096)
+def reach_of(member: Member, level: Fraction) -> float:
+    """A double X with U(X) ≥ level: then U(x) ≤ level is at most X away from 0, since U rises.
+
+    Raises:
+        ValueError: X would be larger than `FARTHEST`.
+    """
+    goal = to_arb(level)
+    low, high = 0.0, 1.0
+    while not member.potential(arb(high)) >= goal:
+        low, high = high, 2 * high
+        if high > FARTHEST:
+            raise ValueError("the level of V allows errors beyond all bounds")
+    while member.potential(arb(high / 2)) >= goal and high > 2.0**-60:
+        high /= 2
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if member.potential(arb(middle)) >= goal else (middle, high)
+    return high
+
+
+def _short_above(value: Fraction) -> Fraction:
+    """A time rounded up to a multiple of 2⁻⁴⁰ s, so that sums stay short."""
+    return Fraction(-((-value.numerator << 40) // value.denominator), 1 << 40)

@@ -1,0 +1,97 @@
+"""By how much dV/dt is below 0: what is left of friction and stiffness beside what the proof needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, RadialBounds, statement_of
+from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.loop.radial import BITS, Parts, Radial
+from lyapcheck.check.loop.states import Arm
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
+
+
+@dataclass(frozen=True, eq=False)
+class Margin:
+    """Shares of friction and stiffness that the proof of dV/dt < 0 does without.
+
+    Args:
+        closure: arm, controller and ε₀, without parameters, ranges and weights Λ.
+        friction: η, the share of B, in (0, 1).
+        stiffness: κ, the share of K_p, in (0, 1).
+        split: t, the share of ηB that pays for the mixed terms ε h_i y_i.
+        slack: s ≥ 0, the share of ηB that pays for disturbances; 0 where there are none.
+        inertia: weights d_i with d_i² ≤ b_i, and the tree of λmax(D⁻¹MD⁻¹) ≤ μ; no cuts are needed.
+    """
+
+    closure: Closure
+    friction: Fraction
+    stiffness: Fraction
+    split: Fraction
+    slack: Fraction
+    inertia: Radial
+
+    @property
+    def reduced(self) -> Closure:
+        """What has to be proved: the same at (1 − η)B and (1 − κ)K_p."""
+        closure = self.closure
+        return replace(
+            closure,
+            arm=Arm(closure.arm.mass, _scaled(closure.arm.viscous, 1 - self.friction)),
+            kp=_scaled(closure.kp, 1 - self.stiffness),
+        )
+
+    @property
+    def admissible(self) -> bool:
+        """Whether sizes and signs are such that the argument applies."""
+        closure = self.closure
+        if closure.parameters or closure.viscous or closure.coupling:
+            return False
+        shares = 0 < self.friction < 1 and 0 < self.stiffness < 1
+        parts = self.split > 0 and self.slack >= 0 and self.split + self.slack < 1
+        return shares and parts and closure.admissible and self._weights_fit()
+
+    def _weights_fit(self) -> bool:
+        weights, angles = self.inertia.weights, self.inertia.angles
+        joints = len(set(angles)) == len(angles) and set(angles) <= set(range(self.closure.n))
+        below = len(weights) == self.closure.n and all(
+            d > 0 and d * d <= b for d, b in zip(weights, self.closure.arm.viscous, strict=True)
+        )
+        return below and joints and self.inertia.inertia > 0
+
+
+def shown(margin: Margin, positive: Proof, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
+    """Whether the margin is there: M ≻ 0, dV/dt < 0 for the reduced closure, and λmax(D⁻¹MD⁻¹) ≤ μ.
+
+    Args:
+        margin: what is claimed.
+        positive: untrusted data for M ≻ 0.
+        by: untrusted data for the reduced closure.
+        jobs: processes to share the leaves of a large tree between.
+
+    Returns:
+        ``True`` only if proved; ``False`` says nothing.
+
+    Soundness: dV/dt of the reduced closure is taken at the same states as that of the arm itself; how it was
+        proved to be below 0 does not matter.
+    """
+    if not margin.admissible or not margin.reduced.admissible:
+        return False
+    with precision(BITS):
+        if not Parts(margin.closure, margin.inertia).inertia_shown():
+            return False
+    try:
+        with shared_between(jobs):
+            found = verify(statement_of(margin.reduced), PositiveAndDecreasing(positive, by))
+    except Refused:
+        return False
+    return found.verdict == "proved"
+
+
+def _scaled(diagonal: Sequence[Fraction], factor: Fraction) -> tuple[Fraction, ...]:
+    return tuple(factor * x for x in diagonal)

@@ -1,0 +1,100 @@
+"""Walking a tree of boxes and showing P ≻ 0 on each leaf."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import replace
+from multiprocessing import get_context
+
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS
+from lyapcheck.check.loop.boxes import Box, halves, leaves
+from lyapcheck.check.loop.closure import Closure
+from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.numbers.balls import precision
+
+BITS = 64
+BLOCK = 64
+WORTH_SHARING = 20_000
+"""Characters of a tree from which a second process pays for its start."""
+MORE_HALVINGS = 12
+"""How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
+
+
+_JOBS = ContextVar("jobs", default=1)
+
+
+@contextmanager
+def shared_between(jobs: int) -> Iterator[None]:
+    """Let the leaves of large trees be shared between some processes inside; verdicts are the same."""
+    token = _JOBS.set(jobs)
+    try:
+        yield
+    finally:
+        _JOBS.reset(token)
+
+
+def sharing() -> int:
+    """How many processes may share the leaves of a tree."""
+    return _JOBS.get()
+
+
+def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:
+    """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
+
+    Args:
+        closure: arm, controller and ε₀.
+        tree: in preorder, a digit for the side of ``closure.start`` that is cut, a dot for a leaf.
+        jobs: processes to share the leaves between.
+
+    Returns:
+        ``True`` only if proved; ``False`` says nothing about the statement.
+
+    Raises:
+        BrokenTree: the text is not a tree of this box.
+
+    Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
+    """
+    if jobs <= 1 or len(tree) < WORTH_SHARING:
+        return proves_part(closure, tree, 0, 1)
+    # spawned processes import afresh; the copy leaves behind what the closure has computed for itself
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        parts = [pool.submit(proves_part, replace(closure), tree, part, jobs) for part in range(jobs)]
+        return all(part.result() for part in parts)
+
+
+def proves_part(closure: Closure, tree: str, part: int, parts: int) -> bool:
+    """The share of `proves` that falls to one of several processes: every leaf in turn, by its number.
+
+    Soundness: the tree proves the statement if all its parts are ``True``.
+    """
+    if not closure.admissible:
+        return False
+    if certifies(closure.tail, closure.eps0):
+        return True
+    with precision(BITS):
+        evaluators = Evaluator(closure, BALLS), Evaluator(closure, SPANS)
+        # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
+        mine = (box for k, box in enumerate(leaves(closure.start, tree)) if k // BLOCK % parts == part)
+        return all(_shown(evaluators, box) for box in mine)
+
+
+def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
+    """Whether P ≻ 0 is shown on a box, by one of the evaluators, cut further where that is needed.
+
+    The side that is cut is the widest beside what it was at the start.
+    """
+    whole = [high - low for low, high in evaluators[0].closure.start]
+    stack = [(box, 0)]
+    while stack:
+        part, depth = stack.pop()
+        if any(evaluator.proves(part) for evaluator in evaluators):
+            continue
+        if depth == MORE_HALVINGS:
+            return False
+        side = max(range(len(part)), key=lambda i: (part[i][1] - part[i][0]) / whole[i])
+        stack += [(half, depth + 1) for half in halves(part, side)]
+    return True

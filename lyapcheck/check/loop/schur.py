@@ -1,0 +1,167 @@
+"""P over boxes, in balls or, where those are too coarse, in spans."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from itertools import chain
+from typing import Any
+
+from flint import arb
+
+from lyapcheck.check.loop.arithmetic import Arithmetic
+from lyapcheck.check.loop.boxes import Box, Side
+from lyapcheck.check.loop.closure import Closure
+from lyapcheck.check.loop.waves import Polynomial, waves
+from lyapcheck.check.numbers.balls import to_arb
+
+Value = Any
+"""A ball or a span, as the arithmetic has it."""
+Rows = list[list[Value]]
+Symbols = dict[tuple[int, int, int], Value]
+_KEPT = 1 << 16
+
+
+class Evaluator:
+    """P over boxes; ranges of functions of one side are kept, since boxes share sides.
+
+    Args:
+        closure: what is to be shown.
+        of: the arithmetic.
+    """
+
+    def __init__(self, closure: Closure, of: Arithmetic) -> None:
+        self.closure = closure
+        self.of = of
+        self.zero = of.value(arb(0))
+        self.eps0 = of.value(to_arb(closure.eps0))
+        ranges = (*closure.parameters, *closure.friction)
+        self.exact = [of.value(to_arb(low)) for low, _ in ranges]
+        self.fixed = [None if low < high else of.value(to_arb(low)) for low, high in ranges]
+        self.compliance = [of.value(1 / (4 * to_arb(k))) for k in closure.stiffness]
+        self.half = of.value(arb(1) / 2)
+        self.coupling = [of.value(to_arb(scale)) for scale in closure.coupling]
+        self.mass = [[Polynomial(entry) for entry in row] for row in closure.mass]
+        self.symbols = {place: Polynomial(terms) for place, terms in closure.symbols.items()}
+        self.radius_squared = arb(closure.radius) ** 2
+        self.used = sorted({k for f in (*chain(*self.mass), *self.symbols.values()) for k in f.used})
+        self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.h(ball(side))))
+        self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.dh(ball(side))))
+        self.square = lru_cache(maxsize=_KEPT)(_square)
+        self.arms: dict[Box, tuple[Rows, Symbols]] = {}
+
+    def proves(self, box: Box) -> bool:
+        """Whether P ≻ 0 at every point of the box, or all of it lies beyond R."""
+        first, last = len(self.closure.angles), len(self.closure.angles) + self.closure.n
+        sides, errors = box[:first], box[first:last]
+        r_squared = sum((self.square(side) for side in errors), arb(0))
+        if r_squared >= self.radius_squared:
+            return True
+        return self.of.positive_definite(self.schur(sides, errors, box[last:], r_squared))
+
+    def schur(self, sides: Box, errors: Box, uncertain: Box, r_squared: arb) -> Rows:
+        """P, the entries on and below the diagonal."""
+        n, filled = self.closure.n, self._filled(uncertain)
+        B = filled[len(filled) - n :]
+        shrink = self.of.value(_inverse_one_plus_root(r_squared))
+        eps = self.eps0 * shrink
+        S = self._coupling(self._arm(sides, uncertain, filled), errors, shrink)
+        X = [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in range(n)] for i in range(n)]
+        weight = [eps * c for c in self.compliance]
+        return [
+            [*(self._beside(i, j, S, X, eps, weight) for j in range(i)), self._diagonal(i, X, weight)]
+            for i in range(n)
+        ]
+
+    def _beside(self, i: int, j: int, S: Rows, X: Rows, eps: Value, weight: list[Value]) -> Value:
+        slow = sum((x[i] * x[j] * c for x, c in zip(X, weight, strict=True)), self.zero)
+        return eps * (S[i][j] + S[j][i]) * self.half - slow
+
+    def _diagonal(self, i: int, X: Rows, weight: list[Value]) -> Value:
+        slow = (self.of.square(x[i]) * c for x, c in zip(X, weight, strict=True))
+        return X[i][i] - sum(slow, self.zero)
+
+    def _filled(self, uncertain: Box) -> list[Value]:
+        """All parameters and then B: sides of the box where they are uncertain."""
+        if not uncertain:
+            return self.exact
+        sides = iter(uncertain)
+        return [self.of.value(ball(next(sides))) if value is None else value for value in self.fixed]
+
+    def _coupling(self, arm: tuple[Rows, Symbols], errors: Box, shrink: Value) -> Rows:
+        """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
+        n = self.closure.n
+        M, symbols = arm
+        h, dh = self._coupled(self.h, errors), self._coupled(self.dh, errors)
+        pushed = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
+        pull = [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)]
+        rows = [[pushed[i] * pull[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
+        for (i, j, k), symbol in symbols.items():
+            rows[i][j] = rows[i][j] + symbol * h[k]
+            if k != j:
+                rows[i][k] = rows[i][k] + symbol * h[j]
+        return rows
+
+    def _coupled(self, form: Callable[[Side], Value], errors: Box) -> list[Value]:
+        """Λh or Λh'."""
+        values = [form(side) for side in errors]
+        return (
+            [x * scale for x, scale in zip(values, self.coupling, strict=True)] if self.coupling else values
+        )
+
+    def _arm(self, sides: Box, uncertain: Box, filled: list[Value]) -> tuple[Rows, Symbols]:
+        """M and the Christoffel symbols over a box of angles and parameters."""
+        place = sides + uncertain
+        known = self.arms.get(place)
+        if known is None:
+            if len(self.arms) > _KEPT // 4:
+                self.arms.clear()
+            known = self.arms[place] = self._new_arm(sides, filled[: len(self.closure.parameters)])
+        return known
+
+    def _new_arm(self, sides: Box, parameters: list[Value]) -> tuple[Rows, Symbols]:
+        n = self.closure.n
+        q, middle = [arb(0)] * n, [arb(0)] * n
+        for joint, side in zip(self.closure.angles, sides, strict=True):
+            q[joint], middle[joint] = ball(side), arb(0.5 * (side[0] + side[1]))
+        offset = [self.of.value(a - b) for a, b in zip(q, middle, strict=True)]
+        over = waves(self.used, q, self.of), waves(self.used, middle, self.of), offset, parameters, self.of
+        M = [[f.over(*over) for f in row] for row in self.mass]
+        return M, {place: f.over(*over) for place, f in self.symbols.items()}
+
+
+def ball(side: Side) -> arb:
+    """The ball between two doubles, which it contains."""
+    return arb(side[0]).union(arb(side[1]))
+
+
+def _square(side: Side) -> arb:
+    """x² over a side: never below 0."""
+    low, high = arb(side[0]) ** 2, arb(side[1]) ** 2
+    return arb(0).union(low).union(high) if side[0] < 0 < side[1] else low.union(high)
+
+
+def _inverse_one_plus_root(r_squared: arb) -> arb:
+    """1/(1 + r), which falls with r."""
+    low, high = r_squared.lower(), r_squared.upper()
+    near = 1 + (low.sqrt() if low > 0 else arb(0))
+    return (1 / near).union(1 / (1 + high.sqrt()))
+
+
+def _unit_vector(errors: Sequence[Side], square: Callable[[Side], arb]) -> list[arb]:
+    """e/‖e‖, and all of [−1, 1] where the box touches the origin."""
+    squares = [square(side) for side in errors]
+    found = []
+    for i, (low, high) in enumerate(errors):
+        rest = sum((x for k, x in enumerate(squares) if k != i), arb(0))
+        found.append((-_share(-low, rest)).union(_share(high, rest)))
+    return found
+
+
+def _share(x: float, rest: arb) -> arb:
+    """An upper bound of x/√(x² + rest): for x ≥ 0 it falls with the rest, for x < 0 it grows with it."""
+    if x == 0.0:
+        return arb(0)
+    side = rest.lower() if x > 0 else rest.upper()
+    side = side if side > 0 else arb(0)
+    return arb(x) / (arb(x) ** 2 + side).sqrt()

@@ -1,0 +1,1 @@
+"""Exact and enclosed numbers: polynomials, harmonics, matrices, the family h and its constants."""

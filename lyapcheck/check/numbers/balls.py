@@ -1,0 +1,158 @@
+"""The hyperbolic family in balls: h_m, h_m', U_m and h_m(x)/x, containing for every finite ball.
+
+Over a ball that is not a single point the answer is the hull of the values at both ends and at the extremes
+in between, so wide balls give ranges as tight as narrow ones.
+
+References: ``reyes2019family`` (6), (8), (12).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from functools import lru_cache
+
+from flint import arb, ctx
+
+from lyapcheck.check.numbers.constants import dh_value, gamma_value, position
+from lyapcheck.check.numbers.critical import peak_of_h, peak_of_secant, peaks_of_dh, power
+from lyapcheck.check.numbers.enclosure import ball_of
+
+Extremes = tuple[tuple[arb, arb], ...]
+"""Pairs (where, value) of the extremes of a function over x > 0."""
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Work with ``bits`` of precision inside; flint's setting is global, so it is put back after."""
+    before = ctx.prec
+    ctx.prec = bits
+    try:
+        yield
+    finally:
+        ctx.prec = before
+
+
+def to_arb(value: Fraction | int) -> arb:
+    """A ball of the current precision that contains a rational number."""
+    return ball_of(value)
+
+
+def h(m: int, x: arb) -> arb:
+    """h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)."""
+    return odd_range(lambda a: _h(m, a), _extremes_of_h(m, ctx.prec), x)
+
+
+def dh(m: int, x: arb) -> arb:
+    """h_m'(x) = (2m-1 + 2m s² - s^(2m)) s^(2m-2) / (1 + s^(2m))² with s = sinh x."""
+    return even_range(lambda a: _dh(m, a), _extremes_of_dh(m, ctx.prec), x)
+
+
+def potential(m: int, x: arb) -> arb:
+    """U_m(x) = ln(1 + sinh^(2m)x) / (2m)."""
+    return even_range(lambda a: _potential(m, a), (), x)
+
+
+def secant(m: int, x: arb) -> arb:
+    """h_m(x)/x, and h_m'(0) at x = 0."""
+    return even_range(lambda a: _secant(m, a), _extremes_of_secant(m, ctx.prec), x)
+
+
+def even_range(value: Callable[[arb], arb], extremes: Extremes, x: arb) -> arb:
+    """The range over a ball of an even function that is monotone between 0, its extremes and infinity."""
+    if not x.is_finite():
+        return arb("nan")
+    low, high = x.lower(), x.upper()
+    near = high if high < 0 else (low if low > 0 else arb(0))
+    return _range(value, extremes, abs(near), low.neg().max(high))
+
+
+def odd_range(value: Callable[[arb], arb], extremes: Extremes, x: arb) -> arb:
+    """The range over a ball of an odd function that is monotone between 0, its extremes and infinity."""
+    if not x.is_finite():
+        return arb("nan")
+    low, high = x.lower(), x.upper()
+    if low >= 0:
+        return _range(value, extremes, low, high)
+    if high <= 0:
+        return -_range(value, extremes, -high, -low)
+    return _range(value, extremes, arb(0), high).union(-_range(value, extremes, arb(0), -low))
+
+
+def _range(value: Callable[[arb], arb], extremes: Extremes, low: arb, high: arb) -> arb:
+    """The hull over the points 0 <= low <= high and the extremes that may lie between them."""
+    result = value(low)
+    if low == high:
+        return result
+    result = result.union(value(high))
+    for where, reached in extremes:
+        if not (where < low or where > high):
+            result = result.union(reached)
+    return result
+
+
+def _h(m: int, a: arb) -> arb:
+    if a == 0:
+        return arb(0)
+    if a > 1:
+        coth, r = _far(a)
+        return coth / (1 + power(r, 2 * m))
+    s, c = a.sinh_cosh()
+    low = power(s, 2 * m - 1)
+    return low * c / (1 + low * s)
+
+
+def _dh(m: int, a: arb) -> arb:
+    if a == 0:
+        return arb(1 if m == 1 else 0)
+    if a > 1:
+        _, r = _far(a)
+        r2 = r * r
+        q = power(r2, m - 1)
+        return r2 * ((2 * m - 1) * q * r2 + 2 * m * q - 1) / (1 + q * r2) ** 2
+    return dh_value(m, a.sinh() ** 2)
+
+
+def _potential(m: int, a: arb) -> arb:
+    if a == 0:
+        return arb(0)
+    if a > 1:
+        _, r = _far(a)
+        log_sinh = a + (-(-2 * a).exp()).log1p() - arb.const_log2()
+        return log_sinh + power(r, 2 * m).log1p() / (2 * m)
+    return power(a.sinh(), 2 * m).log1p() / (2 * m)
+
+
+def _secant(m: int, a: arb) -> arb:
+    return _dh(m, a) if a == 0 else _h(m, a) / a
+
+
+def _far(a: arb) -> tuple[arb, arb]:
+    """coth a and 1/sinh a from e^(-a), which no a > 0 overflows."""
+    t = (-a).exp()
+    below = 1 - t * t
+    return (1 + t * t) / below, 2 * t / below
+
+
+@lru_cache(maxsize=256)
+def _extremes_of_h(m: int, bits: int) -> Extremes:
+    if m == 1:
+        return ()
+    u = peak_of_h(m)
+    return ((position(u), gamma_value(m, u)),)
+
+
+@lru_cache(maxsize=256)
+def _extremes_of_dh(m: int, bits: int) -> Extremes:
+    if m == 1:
+        return ()
+    return tuple((position(u), dh_value(m, u)) for u in peaks_of_dh(m))
+
+
+@lru_cache(maxsize=256)
+def _extremes_of_secant(m: int, bits: int) -> Extremes:
+    if m == 1:
+        return ()
+    x = peak_of_secant(m)
+    return ((x, dh_value(m, x.sinh() ** 2)),)

@@ -1,0 +1,113 @@
+"""Statements and proofs as plain data: what all kinds have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar
+
+from lyapcheck.check.expressions.domain import REALS, Domain, Interval
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.witness import Comparison
+
+
+@dataclass(frozen=True)
+class Relation:
+    """``left <= right`` or ``left < right``."""
+
+    left: Tree
+    operator: str
+    right: Tree
+
+    def __post_init__(self) -> None:
+        if self.operator not in ("<=", "<"):
+            raise ValueError(f"a relation has <= or <, not {self.operator!r}")
+
+    @property
+    def strict(self) -> bool:
+        """Whether equality is excluded."""
+        return self.operator == "<"
+
+    @property
+    def gap(self) -> Tree:
+        """``right - left``, which the relation says is not negative (positive, if strict)."""
+        return ("add", self.right, ("neg", self.left))
+
+    @property
+    def comparison(self) -> Comparison:
+        """The relation as witnesses are replayed."""
+        return self.left, self.operator, self.right
+
+    def __bool__(self) -> bool:
+        raise TypeError(
+            "a relation is a statement to decide, it has no truth value; write a < b and b < c as two"
+        )
+
+
+class Statement(ABC):
+    """Something that is true or false, as plain data; each kind is a subclass in a file of ``kinds``."""
+
+    @abstractmethod
+    def require_well_formed(self) -> None:
+        """Refuse data that say nothing: unknown operations, undeclared variables, sizes out of reach.
+
+        Raises:
+            Refused: at the first fault.
+        """
+
+    @abstractmethod
+    def terms(self) -> Iterable[tuple[Tree, Domain]]:
+        """Its expressions, each with the domain on all of which it must have a value; see ``defined``.
+
+        A kind that consists of other statements leaves theirs to them.
+        """
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What a proof of it takes for granted about the world, in sentences."""
+        return ()
+
+    @abstractmethod
+    def text(self) -> str:
+        """The statement in the words of mathematics, from its data alone."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A real variable; ``low`` bounds it from below, strictly when ``strict``."""
+
+    name: str
+    low: Fraction | None = None
+    strict: bool = True
+
+    @property
+    def interval(self) -> Interval:
+        """The numbers over which it ranges."""
+        return REALS if self.low is None else Interval(self.low, open_low=self.strict)
+
+
+Point = tuple[tuple[str, Fraction], ...]
+
+
+class Proof:
+    """A proof or a refutation by one rule."""
+
+    rule: ClassVar[str]
+
+
+@dataclass(frozen=True)
+class Witness(Proof):
+    """A rational point at which the statement fails, as balls of ``bits`` show."""
+
+    rule = "witness"
+    point: Point
+    bits: int = 192
+
+
+Ends = tuple[Fraction, Fraction]
+
+
+Monomials = tuple[tuple[tuple[int, ...], Fraction], ...]
+"""Exponents of s1 … sn, c1 … cn and the parameters, with the coefficient."""

@@ -1,0 +1,98 @@
+"""The one judge: whether a proof shows that a statement is true or false."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from flint import ctx
+
+from lyapcheck.check.expressions.defined import require_defined
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+
+BITS = 128
+GRADES = ("enclosure", "exact")
+"""From the weaker to the stronger."""
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """What a proof shows: ``proved`` or ``refuted``, by ``exact`` arithmetic or an ``enclosure``."""
+
+    verdict: str
+    grade: str
+
+
+Rule = Callable[[Any, Any], Accepted]
+RULES: dict[tuple[type[Statement], type[Proof]], Rule] = {}
+
+S = TypeVar("S", bound=Statement)
+P = TypeVar("P", bound=Proof)
+
+
+def rule(kind: type[S], by: type[P]) -> Callable[[Callable[[S, P], Accepted]], Callable[[S, P], Accepted]]:
+    """Enter a function as the rule by which one class of proofs decides one kind of statement."""
+
+    def enter(judge: Callable[[S, P], Accepted]) -> Callable[[S, P], Accepted]:
+        RULES[kind, by] = judge
+        return judge
+
+    return enter
+
+
+def verify(statement: Statement, proof: Proof) -> Accepted:
+    """What a proof shows about a statement.
+
+    Args:
+        statement: what is claimed.
+        proof: untrusted data.
+
+    Returns:
+        The verdict and its grade, recomputed; never taken from the proof.
+
+    Raises:
+        Refused: the proof shows nothing, for the reason given.
+
+    Soundness: rests on the functions entered with :func:`rule`, on the judgement that every term has a value
+        (``expressions.defined``), and on nothing that searches. Whatever goes wrong inside them, an overflow
+        or a division by zero included, is a refusal.
+    """
+    statement.require_well_formed()
+    judge = RULES.get((type(statement), type(proof)))
+    if judge is None:
+        kind = type(statement).__name__
+        raise Refused(
+            "rule", getattr(proof, "rule", ""), f"is not a way to decide a statement of kind {kind}"
+        )
+    try:
+        with ctx.workprec(BITS):
+            accepted = judge(statement, proof)
+            if accepted.verdict == "proved":
+                for tree, domain in statement.terms():
+                    require_defined(tree, domain)
+            return accepted
+    except Refused:
+        raise
+    except Exception as error:
+        raise Refused(
+            "rule", proof.rule, f"cannot be carried out ({type(error).__name__}: {error})"
+        ) from error
+
+
+def require_proved(statement: Statement, proof: Proof, subject: str) -> str:
+    """The grade of the proof of a statement that another one needs.
+
+    Raises:
+        Refused: it is not proved.
+    """
+    found = verify(statement, proof)
+    if found.verdict != "proved":
+        raise Refused(subject, found.verdict, "must be proved")
+    return found.grade
+
+
+def weakest(grades: Iterable[str]) -> str:
+    """The weakest of some grades; exact for none."""
+    return min(grades, key=GRADES.index, default=GRADES[-1])
