@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.check.certificates.codec import to_json
-from lyapcheck.claims.procedures import decide
 from tests.statement_fuzz.generators import FALSE, NEITHER, TRUE, UNPROVABLE, Made
 from tests.statement_fuzz.oracle.kinds import confirms, objection
+from tests.statement_fuzz.subject import decide, to_json
 
 SECONDS = 30
 """The processor time that a decision may take; a limit of the fuzzer, not a promise of lyapcheck."""

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
-from lyapcheck.check.functions import FAMILY, FUNCTIONS
 from tests.statement_fuzz.generators import Made
 from tests.statement_fuzz.judge import Judged, judge
+from tests.statement_fuzz.subject import FAMILY, FUNCTIONS
 
 OPERATIONS = frozenset(
     ("num", "var", "pi", "gamma", "rho", "L", "add", "mul", "neg", "div", "pow", *FUNCTIONS, *FAMILY)

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.certificates.document import About, Certificate
-from lyapcheck.claims.procedures import decide
 from tests.statement_fuzz.known_faults import FAULTS, RAISING, KnownFault
 from tests.statement_fuzz.oracle.kinds import confirms, objection
+from tests.statement_fuzz.subject import About, Certificate, decide
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = Path(__file__).with_name("known_faults_script.py")

@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from lyapcheck.claims import Constant, Implies, Relation, expr, for_all, identity, positive, sqrt, var
-from lyapcheck.claims.procedures import decide
 from lyapcheck.verdicts import Verdict
 from tests.statement_fuzz.__main__ import main
 from tests.statement_fuzz.generators import GENERATORS, Made, draw
@@ -19,6 +18,7 @@ from tests.statement_fuzz.oracle.kinds import OBJECTIONS, confirms, objection
 from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Tally, run
 from tests.statement_fuzz.shrink import shrunk
+from tests.statement_fuzz.subject import decide
 
 SEEDS = range(10)
 EACH = 1_000

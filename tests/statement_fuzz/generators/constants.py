@@ -7,7 +7,6 @@ from random import Random
 
 from mpmath import mp
 
-from lyapcheck.check.certificates.statements import Constant
 from tests.statement_fuzz.generators import FALSE, NEITHER, TRUE, UNPROVABLE, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero, undefined_number
 from tests.statement_fuzz.generators.trees import (
@@ -28,6 +27,7 @@ from tests.statement_fuzz.generators.trees import (
 from tests.statement_fuzz.oracle import exact
 from tests.statement_fuzz.oracle.evaluate import Evaluation
 from tests.statement_fuzz.oracle.numbers import Undefined, Unsure, lifted
+from tests.statement_fuzz.subject import Constant
 
 LARGEST = 10**20
 

@@ -7,10 +7,10 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from lyapcheck.check.certificates.every_n import BoundEveryN, EveryN, Given
 from tests.statement_fuzz.generators import TRUE, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero
 from tests.statement_fuzz.generators.trees import Tree, add, div, mul, neg, num, power, var
+from tests.statement_fuzz.subject import BoundEveryN, EveryN, Given
 
 Word = tuple[Tree, ...]
 """Matrices, then a vector."""

@@ -9,7 +9,6 @@ from random import Random
 
 import numpy as np
 
-from lyapcheck.check.certificates.statements import ForAll
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero, risky
 from tests.statement_fuzz.generators.trees import (
@@ -33,6 +32,7 @@ from tests.statement_fuzz.generators.trees import (
     var,
 )
 from tests.statement_fuzz.oracle import floats
+from tests.statement_fuzz.subject import ForAll
 
 X = var("x")
 Ends = tuple[Fraction | None, Fraction | None, bool, bool]

@@ -7,7 +7,6 @@ from dataclasses import fields, replace
 from fractions import Fraction
 from random import Random
 
-from lyapcheck.check.certificates.statements import Identity, Variable
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero
 from tests.statement_fuzz.generators.trees import (
@@ -28,6 +27,7 @@ from tests.statement_fuzz.generators.trees import (
     sub,
     var,
 )
+from tests.statement_fuzz.subject import Identity, Variable
 
 NAMES = ["x", "y", "v"]
 

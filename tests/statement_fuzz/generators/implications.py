@@ -6,7 +6,6 @@ from dataclasses import replace
 from fractions import Fraction
 from random import Random
 
-from lyapcheck.check.certificates.statements import Implies, Relation, Variable
 from tests.statement_fuzz.generators import TRUE, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero, risky
 from tests.statement_fuzz.generators.trees import (
@@ -31,6 +30,7 @@ from tests.statement_fuzz.generators.trees import (
     sub,
     var,
 )
+from tests.statement_fuzz.subject import Implies, Relation, Variable
 
 A, B, C, D = (var(name) for name in "abcd")
 POSITIVE, WEAK, REAL = "positive", "weak", "real"

@@ -1,10 +1,9 @@
-"""Bounds of ‖(f(x_1), …, f(x_n))‖ and chains of products of norms."""
+"""Bounds of ‖(f(x_1), …, f(x_n))‖, and several statements together."""
 
 from __future__ import annotations
 
 from random import Random
 
-from lyapcheck.check.certificates.statements import AllOf, Constant, Majorant, NormBound, NormChain
 from tests.statement_fuzz.generators import GENERATORS, Made, generates
 from tests.statement_fuzz.generators.traps import disguised, undefined_number
 from tests.statement_fuzz.generators.trees import (
@@ -22,6 +21,7 @@ from tests.statement_fuzz.generators.trees import (
     smooth,
     var,
 )
+from tests.statement_fuzz.subject import AllOf, Constant, NormBound
 
 X = var("x")
 
@@ -58,35 +58,6 @@ def bound(random: Random) -> Made:
     if random.random() < 0.3:
         c = random.choice((undefined_number(random), mul(c, num("1000001/1000000")), num(-1), num(0)))
     return Made(NormBound(f, n, c, k), "a norm")
-
-
-@generates("NormChain", 5)
-def chain(random: Random) -> Made:
-    """Factors with majorants against a bound."""
-    symbols = ["w", "e", "eps"]
-
-    def majorant() -> Majorant:
-        c = random.choice((num(1), num(2), num("1/2"), constant(random), num(0), undefined_number(random)))
-        chosen = random.sample(symbols, random.randint(0, 2))
-        return Majorant(c, tuple(sorted((s, random.randint(0, 2)) for s in chosen)))
-
-    factors = tuple(
-        tuple(majorant() for _ in range(random.randint(1, 2))) for _ in range(random.randint(1, 3))
-    )
-    powers: dict[str, int] = {}
-    constants = []
-    for factor in factors:
-        one = random.choice(factor)
-        constants.append(one.constant)
-        for symbol, k in one.powers:
-            powers[symbol] = powers.get(symbol, 0) + k
-    smaller = (("eps", "w"),) if random.random() < 0.4 else ()
-    if smaller and powers.get("eps"):
-        powers["eps"] -= 1
-        powers["w"] = powers.get("w", 0) + 1
-    scale = num(random.choice((1, 1, 2, "1/2", "999999/1000000")))
-    bound_ = Majorant(mul(scale, *constants), tuple(sorted((s, k) for s, k in powers.items() if k)))
-    return Made(NormChain(factors, bound_, smaller), "a chain of norms")
 
 
 @generates("AllOf", 3)

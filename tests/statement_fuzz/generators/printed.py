@@ -7,12 +7,12 @@ from random import Random
 
 from mpmath import mp
 
-from lyapcheck.check.certificates.statements import Agrees
 from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.traps import disguised
 from tests.statement_fuzz.generators.trees import ONE, Tree, add, div, mul, num, power, root, sub, var
 from tests.statement_fuzz.oracle.evaluate import Evaluation
 from tests.statement_fuzz.oracle.numbers import Undefined, Unsure, lifted
+from tests.statement_fuzz.subject import Agrees
 
 A, B = var("a"), var("b")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from random import Random
 
-from lyapcheck.check.certificates.statements import ForSmall, Variable
 from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.implications import KINDS
 from tests.statement_fuzz.generators.traps import disguised
@@ -24,6 +23,7 @@ from tests.statement_fuzz.generators.trees import (
     small_number,
     var,
 )
+from tests.statement_fuzz.subject import ForSmall, Variable
 
 
 def _of_small(random: Random, generators: list[Tree]) -> Tree:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from lyapcheck.check.certificates.statements import Relation
+from tests.statement_fuzz.subject import Relation
 
 Tree = tuple[Any, ...]
 

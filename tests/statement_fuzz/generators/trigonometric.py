@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from random import Random
 
-from lyapcheck.check.certificates.statements import TrigonometricBound, TrigonometricPositive
 from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.traps import disguised
 from tests.statement_fuzz.generators.trees import Tree, add, div, mul, num, power, small_number, var
+from tests.statement_fuzz.subject import TrigonometricBound, TrigonometricPositive
 
 ANGLES = ("q1", "q2")
 

@@ -55,7 +55,6 @@ def confirms(statement: Any, witness: Mapping[str, Any]) -> bool | None:
 def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
         bounds,
-        chains,
         every_n,
         printed,
         relations,
