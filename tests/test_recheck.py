@@ -122,7 +122,7 @@ def test_in_a_directory_it_is_the_same(folder):
 
 def test_a_theorem_whose_premises_are_invented_is_undecided(tmp_path):
     """Digests that nobody can check prove nothing, in a file of its own or beside others."""
-    made = certificates(run_proof("scalar.py", ms=(2,)))
+    made = run_proof("scalar.py", ms=(2,)).certificates
     data = json.loads(made["arms.all.m2.json"].text())
     data["uses"] = dict.fromkeys(data["uses"], "0" * 64)
     (tmp_path / "P.json").write_text(sealed(data), encoding="utf-8")

@@ -71,9 +71,14 @@ class LeadingTerm(Proof):
 def by_leading_term(statement: ForSmall, proof: LeadingTerm) -> Accepted:
     """Soundness: a positive limit persists below some threshold that serves the whole range of t."""
     signs = signs_of(statement)
+    require(
+        signs.is_polynomial, "conclusion", "", "has functions in it, which may depend on the small variable"
+    )
     limit = leading_term(signs, statement)
     if limit is None:
-        raise Refused("leading term", "", "contains a bounded variable, or there is no small variable")
+        raise Refused(
+            "leading term", "", "contains a bounded variable or functions, or there is no small one"
+        )
     require_identity(signs, limit, True, proof.identity)
     return Accepted("proved", "exact")
 
@@ -149,9 +154,12 @@ def signs_of(statement: ForSmall) -> Signs:
 
 
 def leading_term(signs: Signs, statement: ForSmall) -> fmpq_mpoly | None:
-    """What is left of the gap at ε = 0 after division by common powers; ``None`` if it contains some t."""
+    """What is left of the gap at ε = 0 after division by common powers.
+
+    ``None`` if it contains some t, or functions, which may depend on ε.
+    """
     names = signs.algebra.names
-    if statement.small not in names:
+    if statement.small not in names or not signs.is_polynomial:
         return None
     terms = signs.conclusion.to_dict()
     free = [names.index(name) for name in (statement.small, *statement.bounded) if name in names]
