@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lyapcheck.files.printable import printable
 from lyapcheck.records import Record
 
 
@@ -18,7 +19,7 @@ class Problem(Record):
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
         subject = f"{self.key} = {self.value}" if self.value else self.key
-        return f"{place}: {subject}: {self.rule}; {self.repair}"
+        return printable(f"{place}: {subject}: {self.rule}; {self.repair}")
 
 
 class InputError(Exception):

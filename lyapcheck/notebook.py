@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 
-from lyapcheck.files.printable import printable
+from lyapcheck.escapes import html_text
 
 _LEFT = ' style="text-align:left"'
-
-
-def html_text(text: str) -> str:
-    """Text as HTML: nothing in it is markup, and nothing invisible stays in it."""
-    return escape(printable(text))
 
 
 def html_paragraph(text: str) -> str:

@@ -25,7 +25,6 @@ from lyapcheck.claims import (
     diff,
     dot,
     every_n,
-    exp,
     expr,
     for_all,
     form,
@@ -35,6 +34,7 @@ from lyapcheck.claims import (
     identity,
     implies,
     lacking,
+    loop_property,
     loops,
     mass_matrix,
     nonnegative,
@@ -42,7 +42,6 @@ from lyapcheck.claims import (
     pi,
     plus,
     positive,
-    positive_definite,
     potential,
     rate,
     rate_of,
@@ -76,12 +75,13 @@ ROBOT = "Section 2: the robot"
 def _(case):
     robot, a, b = case.robot.fixed(), vector("x", case.n), vector("y", case.n)
     mass = mass_matrix(robot)
-    return all_of(symmetric=identity(form(a, mass, b), form(b, mass, a)), positive=positive_definite(robot))
+    symmetric = identity(form(a, mass, b), form(b, mass, a))
+    return all_of(symmetric=symmetric, positive=ArmBounds(robot).mass_above())
 
 
 @proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", place="Property 2.2, (2)", section=ROBOT)
 def _(case):
-    return bounded(entry for row in mass_matrix(case.robot.fixed()) for entry in row)
+    return ArmBounds(case.robot).mass_below()
 
 
 @proof.claim("2.3", "C(q, 0) = 0", place="Property 2.3", section=ROBOT)
@@ -120,9 +120,7 @@ def _(case):
 
 @proof.claim("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", place="Property 2.6, (5)", section=ROBOT)
 def _(case):
-    n, robot = case.n, case.robot.fixed()
-    units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
-    return bounded(entry for unit in units for row in coriolis_matrix(robot, unit) for entry in row)
+    return ArmBounds(case.robot).coriolis_below()
 
 
 @proof.claim("2.7", "0 < λmin(B)‖q̇‖² ≤ q̇ᵀBq̇ ≤ λmax(B)‖q̇‖² for q̇ ≠ 0", place="Property 2.7", section=ROBOT)
@@ -341,18 +339,12 @@ LYAPUNOV = "Section 3: the Lyapunov function"
     "11", "the origin is the only equilibrium", place="after (11)", section=LYAPUNOV, uses=["2.3", "6"]
 )
 def _(case):
-    """At rest M ẇ = K_p h(e): each entry k_pi h(e_i) vanishes only with e_i."""
-    m, gain = case.m, var("kp")
-    w = [expr(0)] * case.n
-    at_rest = [
-        gain * h(m, x) - b * v - var("kv") * h(m, v) for b, v in zip(vector("b", case.n), w, strict=True)
-    ]
-    return all_of(
-        at_rest_only_the_proportional_term=identity(total(at_rest), case.n * gain * h(m, x)),
-        no_zero_right_of_0=for_all(expr(0) < h(m, x), 0, open_low=True),
-        no_zero_left_of_0=for_all(h(m, x) < 0, None, 0, open_high=True),
-        zero_at_0=identity(h(m, 0), 0),
-    )
+    return loop_property("the origin is the only equilibrium", function_of(case))
+
+
+def function_of(case):
+    """h, h' and U."""
+    return h(case.m, x), dh(case.m, x), potential(case.m, x)
 
 
 def lyapunov_12(s):
@@ -397,36 +389,20 @@ def _(case):
     "12p", "V > 0 away from the origin", place="after (13)", section=LYAPUNOV, uses=["2.1", "6", "12"]
 )
 def _(case):
-    """(13) is ½yᵀMy + Σ k_pi U(e_i), y = w − εh: U(x) > 0 = ln 1 unless x = 0, and then y = w."""
-    m = case.m
-    return all_of(
-        argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
-        argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
-        h_vanishes_at_0=identity(h(m, 0), 0),
-    )
+    """V in the form (13), which is (12) by claim 12."""
+    return loop_property("V is positive definite", function_of(case))
 
 
 @proof.claim("12u", "V is radially unbounded", place="after (13)", section=LYAPUNOV, uses=["2.1", "7a", "12"])
 def _(case):
-    """U(x) ≥ |x| − ln 4 takes care of e; y = w − εh differs from w by at most ε₀√nγ."""
-    m = case.m
-    return for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0)
+    return loop_property("V is radially unbounded", function_of(case))
 
 
 @proof.claim(
     "12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", place="(12)", section=LYAPUNOV, uses=["8"]
 )
 def _(case):
-    """V depends on ‖q̃‖ only through ε(r)h(q̃), which differs from ε₀h(q̃) by no more than 2ε₀r²."""
-    r, eps0, norm_h = var("r"), var("eps0"), var("norm_h")
-    return all_of(
-        h_is_at_most_2_r=norm_bound(h(case.m, x), case.n, 2, power=1),
-        difference_is_of_second_order=implies(
-            positive("eps0") + nonnegative("r", "norm_h"),
-            (norm_h <= 2 * r,),
-            (eps0 - eps0 / (1 + r)) * norm_h <= 2 * eps0 * r**2,
-        ),
-    )
+    return loop_property("V is continuously differentiable", function_of(case))
 
 
 @proof.claim(
@@ -803,7 +779,7 @@ def numbers_at_hand(case):
     """The constants of Θ for the robot and gains at hand; ε₀ and ε are left to the claim."""
     if len(case.gains.kp) != case.robot.n:
         raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    arm, n = ArmBounds(case.robot.fixed()), case.n
+    arm, n = ArmBounds(case.robot), case.n
     known = {"kp": min(case.gains.kp), "kv": max(case.gains.kv), "b": arm.b_min, "b_max": arm.b_max}
     known |= {"beta": arm.beta, "kc": arm.kc, "n": n, "root": sqrt(n)}
     return {name: expr(value) for name, value in known.items()} | {
@@ -842,7 +818,7 @@ def _(case):
     "the origin is globally asymptotically stable",
     place="Proposition",
     section=CONDITIONS,
-    uses=["11", "12d", "12p", "12u", "16", "18e"],
+    uses=["11", "12d", "12p", "12u", "h.bounds", "16", "18e"],
 )
 def _(case):
     """By Θ of (16), with decimals for γ_m and ρ_m."""
@@ -852,11 +828,12 @@ def _(case):
     form = theta(names | {"kv": var("kv_max"), "b": var("b_min")})
     return theorem(
         "Lyapunov's direct method",
-        known.loop((h(case.m, x), dh(case.m, x), potential(case.m, x)), form),
+        known.loop(function_of(case), form),
         only_equilibrium="11",
         differentiable="12d",
         positive_definite="12p",
         radially_unbounded="12u",
+        bounds_of_h="h.bounds",
         rate_bounded_by_a_form="16",
         form_negative_definite="18e",
     )
@@ -1001,4 +978,5 @@ for figure, m, joint, torque in FIGURES:
 
 # Remark II: tracking --------------------------------------------------------------------------------------
 
+proof.adopt("scalar.py", "h.bounds", section=FAMILY)
 proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)")

@@ -11,7 +11,6 @@ The section "Every arm" concludes for all robots with Properties 2.1 to 2.7 and 
 for the robot and the gains at hand, with numbers for β_M, k_c and ε₀.
 """
 
-from dataclasses import replace
 from fractions import Fraction
 
 from lyapcheck.claims import (
@@ -21,13 +20,11 @@ from lyapcheck.claims import (
     ForSmall,
     Proof,
     all_of,
-    bounded,
     coriolis_matrix,
     decreasing,
     dh,
     diff,
     dot,
-    exp,
     expr,
     for_all,
     form,
@@ -37,22 +34,19 @@ from lyapcheck.claims import (
     implies,
     lacking,
     largest_with,
-    loop_closed,
+    loop_property,
     loops,
     mass_matrix,
     nonnegative,
     norm_bound,
     plus,
     positive,
-    positive_definite,
     potential,
     rate,
     rate_bound,
     rate_of,
     rho,
-    scaled,
     secant_bound,
-    sinh,
     sqrt,
     theorem,
     total,
@@ -166,6 +160,13 @@ def _(case):
     )
 
 
+@proof.claim(
+    "h.bounds", "|h| ≤ γ, |h'| ≤ ρ and |h(x)| ≤ L|x|, and h is odd", place="(7), (8)", section=FAMILY
+)
+def _(case):
+    return known_of(case).of_h(function_of(case))
+
+
 # V ---------------------------------------------------------------------------------------------------------
 
 LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)"
@@ -173,33 +174,12 @@ LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)"
 
 @proof.claim("V.positive", "V > 0 unless q̃ = q̇ = 0", place="(13)", section=LYAPUNOV, uses=["h.odd"])
 def _(case):
-    """U(x) > 0 unless x = 0, and where q̃ = 0, y = q̇; M is positive definite by Property 2.1."""
-    m = case.m
-    return all_of(
-        **sign_of(case),
-        derivative_of_U=identity(diff(potential(m, x), "x"), h(m, x)),
-        argument_of_ln_above_1=for_all(expr(1) < 1 + sinh(x) ** (2 * m), 0, open_low=True),
-        argument_of_ln_is_even=identity(sinh(-x) ** (2 * m), sinh(x) ** (2 * m)),
-        argument_of_ln_is_1_at_0=identity(1 + sinh(0) ** (2 * m), 1),
-    )
+    return loop_property("V is positive definite", function_of(case))
 
 
 @proof.claim("V.unbounded", "V is radially unbounded", place="(13)", section=LYAPUNOV, uses=["h.bound"])
 def _(case):
-    """U(x) ≥ |x| − ln 4 grows with q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ, so V grows with q̇."""
-    m, known = case.m, known_of(case)
-    y, w, a, eps, eps0 = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0"))
-    return all_of(
-        potential=for_all((exp(x) / 4) ** (2 * m) <= 1 + sinh(x) ** (2 * m), 0),
-        odd=sign_of(case)["odd"],
-        away_from_0=for_all(expr("1/2") <= h(m, x), 1),
-        bounded=for_all(h(m, x) <= known.gamma),
-        velocity=implies(
-            nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0"),
-            (w <= y + eps * a, a <= known.reach, eps <= eps0),
-            w <= y + eps0 * known.reach,
-        ),
-    )
+    return loop_property("V is radially unbounded", function_of(case))
 
 
 @proof.claim(
@@ -210,27 +190,14 @@ def _(case):
     uses=["h.slope", "h.steep"],
 )
 def _(case):
-    """‖q̃‖ enters through εh only: its gradient ε₀ h êᵀ/(1+r)² and its distance from ε₀h both vanish at 0."""
-    r, eps0, a, L = var("r"), var("eps0"), var("norm_h"), known_of(case).L
-    variables = positive("eps0") + nonnegative("r", "norm_h")
-    return all_of(
-        potential=identity(diff(potential(case.m, x), "x"), h(case.m, x)),
-        **slope_of(case),
-        at_most_L_times_the_error=norm_bound(h(case.m, x), case.n, L, power=1),
-        differentiable_at_0=implies(variables, (a <= L * r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * L * r**2),
-        gradient_continuous_at_0=implies(variables, (a <= L * r,), eps0 * a / (1 + r) ** 2 <= eps0 * L * r),
-    )
+    return loop_property("V is continuously differentiable", function_of(case))
 
 
 @proof.claim(
     "equilibrium", "the origin is the only equilibrium", place="(11)", section=LYAPUNOV, uses=["h.odd"]
 )
 def _(case):
-    """At rest Mẇ = K_p h(q̃), and each k_pi h(q̃_i) vanishes only with q̃_i."""
-    s, z = loops.loop(case.n), vector("z", case.n)
-    still = replace(s, w=[expr(0)] * case.n, hw=[h(case.m, 0)] * case.n)
-    at_rest = identity(dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h)))
-    return all_of(from_the_controller=loop_closed(loop_of(case)), at_rest=at_rest, **sign_of(case))
+    return loop_property("the origin is the only equilibrium", function_of(case))
 
 
 # dV/dt -----------------------------------------------------------------------------------------------------
@@ -330,6 +297,7 @@ LYAPUNOVS = {
     "differentiable": "V.smooth",
     "positive_definite": "V.positive",
     "radially_unbounded": "V.unbounded",
+    "bounds_of_h": "h.bounds",
     "rate_bounded_by_a_form": "rate.form",
 }
 
@@ -416,7 +384,7 @@ def form_numbers(case):
     """λmin(K_p), λmin(B), c and d for the robot and gains at hand."""
     if len(case.gains.kp) != case.robot.n:
         raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    known, arm = known_of(case), ArmBounds(case.robot.fixed())
+    known, arm = known_of(case), ArmBounds(case.robot)
     c = known.drift(arm.beta, arm.kc)
     return min(case.gains.kp), arm.b_min, c, known.cross(arm.b_max, max(case.gains.kv))
 
@@ -436,7 +404,7 @@ def eps0_of(case):
 
 @proof.claim(
     "arm.properties",
-    "M is symmetric and positive definite, and Ṁ = C + Cᵀ",
+    "M is symmetric, and Ṁ = C + Cᵀ",
     place="Properties 2.1, 2.4",
     section=ARM,
 )
@@ -446,43 +414,19 @@ def _(case):
     mass, turning = mass_matrix(robot), coriolis_matrix(robot, w)
     return all_of(
         symmetric=identity(form(u, mass, v), form(v, mass, u)),
-        positive_definite=positive_definite(robot),
         rate=identity(form(u, rate_of(mass, w), v), form(u, plus(turning, transpose(turning)), v)),
     )
 
 
-@proof.claim("arm.M", "‖M(q)‖ ≤ β_M, the largest row sum", place="Property 2.2", section=ARM)
+@proof.claim("arm.M", "M(q) is positive definite, and ‖M(q)‖ ≤ β_M", place="Properties 2.1, 2.2", section=ARM)
 def _(case):
-    """A symmetric matrix is nowhere larger than its largest row sum of absolute values."""
-    arm = ArmBounds(case.robot.fixed())
-    rows = {f"row_{i + 1}": Constant(expr(row) <= arm.beta) for i, row in enumerate(arm.rows)}
-    return all_of(entries=bounded(arm.mass, arm.sizes), **rows)
+    arm = ArmBounds(case.robot)
+    return all_of(positive_definite=arm.mass_above(), bounded=arm.mass_below())
 
 
-@proof.claim("arm.C", "‖C(q,x)y‖ ≤ k_c‖x‖‖y‖ with k_c² = Σ c_ijk²", place="Property 2.6", section=ARM)
+@proof.claim("arm.C", "‖C(q,x)y‖ ≤ k_c‖x‖‖y‖", place="Property 2.6", section=ARM)
 def _(case):
-    """By Cauchy–Schwarz, twice; C(q, x) is the sum of the x_k C(q, unit k)."""
-    n, robot = case.n, case.robot.fixed()
-    arm, u, y, v = ArmBounds(robot), vector("u", n), vector("x", n), vector("v", n)
-    flat = arm.symbols
-    parts = (
-        y[k] * u[i] * flat[n * n * k + n * i + j] * v[j] for k in range(n) for i in range(n) for j in range(n)
-    )
-    return all_of(
-        entries=bounded(arm.symbols, arm.symbol_sizes),
-        linear=identity(form(u, coriolis_matrix(robot, y), v), total(parts)),
-        sum_of_squares=Constant(expr(arm.squares) <= expr(arm.kc) ** 2),
-    )
-
-
-@proof.claim("arm.B", "λmin(B) and λmax(B) bound the friction", place="Property 2.7", section=ARM)
-def _(case):
-    arm = ArmBounds(case.robot.fixed())
-    parts = {"positive": Constant(expr(0) < arm.b_min)}
-    for i, number in enumerate(case.robot.viscous):
-        parts[f"joint_{i + 1}_from_below"] = Constant(expr(arm.b_min) <= number.value)
-        parts[f"joint_{i + 1}_from_above"] = Constant(expr(number.value) <= arm.b_max)
-    return all_of(**parts)
+    return ArmBounds(case.robot).coriolis_below()
 
 
 @proof.claim(
@@ -505,16 +449,19 @@ def _(case):
     "the origin is globally asymptotically stable: this robot, these gains, with this ε₀ in V",
     place="Proposition",
     section=ARM,
-    uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.B", "arm.theta"],
+    uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.theta"],
 )
 def _(case):
-    loop = loop_of(case, **numbers_of(case))
-    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arm.theta")
+    loop = loop_of(case, arm=ArmBounds(case.robot).under(case.gains), **numbers_of(case))
+    constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
+    return theorem(
+        "Lyapunov's direct method", loop, **LYAPUNOVS, **constants, form_negative_definite="arm.theta"
+    )
 
 
 def numbers_of(case):
     """The constants of the loop for the robot and gains at hand, and ε₀."""
-    arm = ArmBounds(case.robot.fixed())
+    arm = ArmBounds(case.robot)
     bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc}
     return bounds | {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
 

@@ -10,7 +10,7 @@ from flint import arb
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.constants import gamma_less_than, hyperbolic_constants
 from lyapcheck.claims import exp, for_all, log, run_proof, var
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 
 MEMBERS = (*range(1, 13), 50, 100, 317, 1000)
 
@@ -77,7 +77,7 @@ def test_no_false_bound_is_proved_for_every_m(share, last, verdict):
     u, step = exp(4 * log(x) / x), 4 * log(x) / x
     terms = 1 - log(x) / x - Fraction(last) / x + step**2 * Fraction(share)
     value = (1 + 1 / u) / 2 * (x / (x + 1)) ** 2
-    found = decide(for_all(terms**2 < value, 8)).verdict.value
+    found = propose(for_all(terms**2 < value, 8)).verdict.value
     assert found == verdict
 
 
@@ -120,7 +120,7 @@ def test_the_pieces_of_the_bound_of_rho_are_the_slope(m):
 def test_a_witness_is_a_number_that_can_be_shown():
     """e^(e^x) is above 2 everywhere; a state of that is found, and none of a million digits is tried."""
     x = var("x")
-    found = decide(for_all(exp(exp(x)) <= 2, 0))
+    found = propose(for_all(exp(exp(x)) <= 2, 0))
     assert found.verdict.value == "refuted"
     assert all(len(end) < 2000 for side in ("left", "right") for end in found.witness[side])
-    assert decide(for_all(exp(exp(x)) <= 2, 20, 40)).verdict.value == "undecided"
+    assert propose(for_all(exp(exp(x)) <= 2, 20, 40)).verdict.value == "undecided"

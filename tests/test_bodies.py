@@ -11,7 +11,7 @@ import pytest
 
 from lyapcheck.check.expressions.expression import Algebra, evaluate
 from lyapcheck.claims import Lacking, bodies, leading_minors, matrix, positive_definite, run_proof, var
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Grade, Verdict
@@ -51,7 +51,7 @@ class _Floats(Algebra):
 
 @pytest.mark.parametrize("name", ARMS)
 def test_an_arm_of_links_has_a_positive_definite_M(name: str) -> None:
-    decision = decide(positive_definite(load(name)))
+    decision = propose(positive_definite(load(name)))
     assert (decision.verdict, decision.grade) == (Verdict.PROVED, Grade.EXACT)
 
 
@@ -66,7 +66,7 @@ def test_an_arm_of_links_has_a_positive_definite_M(name: str) -> None:
     ],
 )
 def test_links_that_M_does_not_come_from_prove_nothing(changes: dict[str, object]) -> None:
-    assert decide(positive_definite(altered(load("pelican2"), 1, **changes))).verdict is Verdict.REFUTED
+    assert propose(positive_definite(altered(load("pelican2"), 1, **changes))).verdict is Verdict.REFUTED
 
 
 def test_a_link_without_a_moment_about_its_axis_proves_nothing() -> None:
@@ -75,7 +75,7 @@ def test_a_link_without_a_moment_about_its_axis_proves_nothing() -> None:
     zero = Fraction(0)
     bare = altered(arm, 1, com=(zero,) * 3, inertia=((zero,) * 3,) * 3)
     parts = dict(positive_definite(bare).parts)
-    assert decide(parts["moment about its axis positive 2"]).verdict is Verdict.REFUTED
+    assert propose(parts["moment about its axis positive 2"]).verdict is Verdict.REFUTED
 
 
 def test_properties_of_a_six_joint_arm_are_decided_by_the_proof_script() -> None:

@@ -58,8 +58,7 @@ from lyapcheck.claims import (
     theorem,
     var,
 )
-from lyapcheck.claims.certificates import certificates
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 
 x, y, a, b = map(var, "xyab")
@@ -69,9 +68,9 @@ CASES["not all"] = all_of(one=PROVED["√3 < 1.7321"], two=REFUTED["√3 < 1.732
 
 
 def certificate_of(statement):
-    decision = decide(statement)
+    decision = propose(statement)
     about = About("c", "a claim", None, None, "test")
-    return Certificate(about, statement, decision.verdict.value, decision.grade.label, decision.certificate)
+    return Certificate(about, statement, decision.verdict.value, decision.grade.label, decision.proof)
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +80,7 @@ def made():
 
 @pytest.fixture(scope="module")
 def published():
-    return certificates(run_proof("published.py", ms=(2,)))
+    return run_proof("published.py", ms=(2,)).certificates
 
 
 def sealed(data):
@@ -108,7 +107,7 @@ def test_a_certificate_survives_its_file(made):
 
 
 def test_the_same_proof_gives_the_same_bytes_without_paths(published):
-    again = certificates(run_proof("published.py", ms=(2,)))
+    again = run_proof("published.py", ms=(2,)).certificates
     assert {name: c.text() for name, c in again.items()} == {name: c.text() for name, c in published.items()}
     assert not any("/work" in c.text() or "home" in c.text() for c in published.values())
 
@@ -356,7 +355,7 @@ def boxes(*cuts, zero=False, tail=False, bits=64):
     return Boxes(tuple(map(F, cuts)), zero, tail, bits)
 
 
-NEAR_ZERO = decide(for_all(tanh(x) < x, 0, 1, open_low=True)).certificate
+NEAR_ZERO = propose(for_all(tanh(x) < x, 0, 1, open_low=True)).proof
 
 
 def steps(*multiples, lift=()):

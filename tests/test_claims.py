@@ -59,9 +59,10 @@ from lyapcheck.claims import (
     tanh,
     var,
 )
-from lyapcheck.claims.decision import Decision, proved, refuted, undecided
+from lyapcheck.claims.decision import Decision, decided, undecided
 from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.fresh_check import Judged
+from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.run import paper_case
 from lyapcheck.verdicts import Grade, Verdict
 
@@ -176,21 +177,21 @@ UNDECIDED = {
 
 @pytest.mark.parametrize("name", PROVED)
 def test_true_statements_are_proved(name):
-    decision = decide(PROVED[name])
+    decision = propose(PROVED[name])
     assert decision.verdict is Verdict.PROVED, decision
     assert decision.grade in (Grade.ENCLOSURE, Grade.EXACT)
 
 
 @pytest.mark.parametrize("name", REFUTED)
 def test_false_statements_are_refuted_with_a_witness(name):
-    decision = decide(REFUTED[name])
+    decision = propose(REFUTED[name])
     assert decision.verdict is Verdict.REFUTED, decision
     assert decision.witness["left"] != decision.witness["right"] or decision.witness["operator"] == "<"
 
 
 @pytest.mark.parametrize("name", UNDECIDED)
 def test_open_statements_come_with_a_reason(name):
-    decision = decide(UNDECIDED[name])
+    decision = propose(UNDECIDED[name])
     assert decision.verdict is Verdict.UNDECIDED
     assert decision.reason
 
@@ -198,7 +199,7 @@ def test_open_statements_come_with_a_reason(name):
 @pytest.mark.parametrize("m", [1, 2, 3, 7])
 @pytest.mark.parametrize("wrong", ["1.0000001", "0.999999"])
 def test_a_derivative_that_is_off_by_a_factor_is_refuted(m, wrong):
-    assert decide(identity(diff(h(m, x), "x"), expr(wrong) * dh(m, x))).verdict is Verdict.REFUTED
+    assert propose(identity(diff(h(m, x), "x"), expr(wrong) * dh(m, x))).verdict is Verdict.REFUTED
 
 
 @given(st.integers(2, 9), st.integers(-6, 6))
@@ -208,7 +209,7 @@ def test_bounds_just_beside_gamma_fall_on_their_sides(m, offset):
 
     bound = hyperbolic_constants(m).gamma.mid + Fraction(2 * offset + 1, 500)
     expected = Verdict.PROVED if offset >= 0 else Verdict.REFUTED
-    assert decide(for_all(h(m, x) <= bound)).verdict is expected
+    assert propose(for_all(h(m, x) <= bound)).verdict is expected
 
 
 @given(st.lists(st.integers(-4, 4), min_size=1, max_size=5), st.integers(-5, 5))
@@ -247,7 +248,7 @@ def test_equality_of_values_is_not_taken_for_a_proof():
 
 
 def test_an_undefined_expression_proves_and_refutes_nothing():
-    decision = decide(for_all(expr(0) <= sqrt(x - 10), 0, 5))
+    decision = propose(for_all(expr(0) <= sqrt(x - 10), 0, 5))
     assert decision.verdict is Verdict.UNDECIDED
     assert refutation((sqrt(x).tree, "<=", expr(0).tree), {"x": Fraction(-1)}) is None
 
@@ -276,40 +277,51 @@ def test_numbers_must_be_exact():
 
 def test_numeric_evidence_decides_nothing():
     with pytest.raises(ValueError, match="numeric"):
-        proved(Grade.NUMERIC, "sampling")
+        Decision(Verdict.PROVED, Grade.NUMERIC, "sampling")
     with pytest.raises(ValueError, match="witness"):
-        refuted(Grade.EXACT, "by thought", {})
+        Decision(Verdict.REFUTED, Grade.EXACT, "by thought", witness={})
+    with pytest.raises(ValueError, match="certificate"):
+        Decision(Verdict.PROVED, Grade.EXACT, "by thought")
     with pytest.raises(ValueError, match="says why"):
         Decision(Verdict.UNDECIDED, Grade.NUMERIC, "sampling")
 
 
+def test_what_a_search_proposes_is_no_verdict():
+    found = propose(for_all(tanh(x) <= x, 0))
+    assert found.verdict is Verdict.PROVED
+    refusal = Judged(False, "the digest is another one", None, None)
+    assert decided(found, None).verdict is decided(found, refusal).verdict is Verdict.UNDECIDED
+    assert "the digest is another one" in decided(found, refusal).reason
+    assert decided(found, Judged(True, "", "proved", "enclosure")).grade is Grade.ENCLOSURE
+
+
 def test_a_conjunction_is_as_good_as_its_weakest_part():
     good, bad = for_all(tanh(x) <= x, 0), for_all(tanh(x) <= x, -1, 0)
-    assert decide(all_of(one=good)).verdict is Verdict.PROVED
-    both = decide(all_of(one=good, two=bad))
+    assert propose(all_of(one=good)).verdict is Verdict.PROVED
+    both = propose(all_of(one=good, two=bad))
     assert both.verdict is Verdict.REFUTED
     assert both.reason.startswith("two")
     assert undecided("why", "how").grade is Grade.NUMERIC
 
 
 def test_a_wrong_printed_number_comes_with_the_input_that_would_give_it():
-    witness = decide(agrees(a * 2, "10", solve_for="a", a="3")).witness
+    witness = propose(agrees(a * 2, "10", solve_for="a", a="3")).witness
     assert [float(bound) for bound in witness["a that gives it"]] == pytest.approx([4.75, 5.25], rel=1e-5)
-    assert decide(agrees(a + 2, "10", solve_for="a", a="3")).witness.keys() == witness.keys() - {
+    assert propose(agrees(a + 2, "10", solve_for="a", a="3")).witness.keys() == witness.keys() - {
         "a that gives it"
     }
 
 
 def test_a_lower_bound_of_a_variable_is_used_and_respected():
-    assert decide(implies(nonnegative("a"), (), expr(0) <= a)).verdict is Verdict.PROVED
-    assert decide(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED
+    assert propose(implies(nonnegative("a"), (), expr(0) <= a)).verdict is Verdict.PROVED
+    assert propose(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED
 
 
 def test_what_is_not_defined_at_an_end_is_not_proved_there() -> None:
-    closed = decide(for_all(sinh(x) / x >= 1, 0))
+    closed = propose(for_all(sinh(x) / x >= 1, 0))
     assert closed.verdict is Verdict.UNDECIDED
     assert "not defined at 0" in closed.reason
-    assert decide(for_all(sinh(x) / x >= 1, 0, open_low=True)).verdict is Verdict.PROVED
+    assert propose(for_all(sinh(x) / x >= 1, 0, open_low=True)).verdict is Verdict.PROVED
 
 
 def test_what_is_written_where_a_number_belongs_is_that_number_or_is_refused():

@@ -281,3 +281,57 @@ def test_the_same_bytes_in_every_locale():
 def test_streams_that_are_not_files_are_left_alone(run, monkeypatch):
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     assert run("--version")[0] == 0
+
+
+@pytest.mark.parametrize("module", ["lyapcheck", "lyapcheck.cli.main"])
+@pytest.mark.parametrize("words", [["table", "--m", "1"], ["gate", TABLE2], ["gate"], ["explain", "--help"]])
+def test_the_modules_run_as_the_script_does(module, words):
+    module_run, script = (
+        subprocess.run([*start, *words], capture_output=True, check=False)
+        for start in ([sys.executable, "-m", module], [SCRIPT])
+    )
+    assert module_run.stdout + module_run.stderr != b""
+    assert (module_run.returncode, module_run.stdout) == (script.returncode, script.stdout)
+    assert module_run.stderr == script.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize(
+    "words",
+    [["table", "--m", "1"], ["table", "--m", "1:300"], ["gate", TABLE2], ["--help"], ["robot", "buap3"]],
+)
+def test_a_full_output_is_named(words, unbuffered):
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [SCRIPT, *words],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+            env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+        )
+    assert done.returncode == 2
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("error: argument: standard output: cannot be written (No space left on device); ")
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+
+
+@pytest.mark.parametrize("words", [["table", "--m", "1"], ["gate", TABLE2]])
+def test_a_closed_output_is_refused_and_a_closed_error_output_is_silence(words):
+    line = " ".join([SCRIPT, *words])
+    done = subprocess.run(["sh", "-c", f"{line} >&-"], capture_output=True, text=True, check=False)
+    message = "error: argument: standard output: is closed; open it, or send it to /dev/null\n"
+    assert (done.returncode, done.stderr) == (2, message)
+    told, silent = (
+        subprocess.run(["sh", "-c", f"{line} {end}"], stdout=subprocess.PIPE, check=False)
+        for end in ("2>/dev/null", "2>&-")
+    )
+    assert (told.returncode, told.stdout) == (silent.returncode, silent.stdout)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")
+def test_a_full_error_output_changes_no_exit_code():
+    with open("/dev/full", "wb") as full:
+        assert subprocess.run([SCRIPT, "robot", "nosuch"], stderr=full, check=False).returncode == 2

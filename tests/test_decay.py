@@ -216,15 +216,17 @@ def test_the_least_value_of_a_well_is_below_all_samples() -> None:
 def test_a_margin_that_is_too_large_is_refused() -> None:
     at, found = setting("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
     margin = found.margin
-    assert shown(margin, found.by)
-    assert not shown(replace(margin, friction=F(19, 20)), found.by)
-    assert not shown(replace(margin, stiffness=F(1)), found.by)
-    assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), found.by)
+    assert shown(margin, at.inertia_proof, found.by)
+    assert not shown(replace(margin, friction=F(19, 20)), at.inertia_proof, found.by)
+    assert not shown(replace(margin, stiffness=F(1)), at.inertia_proof, found.by)
+    assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), at.inertia_proof, found.by)
     smaller = replace(margin.inertia, inertia=margin.inertia.inertia / 2)
-    assert not shown(replace(margin, inertia=smaller), found.by)
+    assert not shown(replace(margin, inertia=smaller), at.inertia_proof, found.by)
     heavier = replace(margin.inertia, weights=tuple(2 * d for d in margin.inertia.weights))
-    assert not shown(replace(margin, inertia=heavier), found.by)
-    assert not shown(margin_at(at, F(1), margin.friction, F(0), margin.inertia), BoxTree("."))
+    assert not shown(replace(margin, inertia=heavier), at.inertia_proof, found.by)
+    assert not shown(
+        margin_at(at, F(1), margin.friction, F(0), margin.inertia), at.inertia_proof, BoxTree(".")
+    )
 
 
 def test_data_in_r_alone_show_a_margin_too() -> None:
@@ -234,8 +236,8 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
     margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
     own = reduced_radial(margin)
     by = RadialBounds(own.weights, own.inertia, own.lowest, own.angles, own.tree, own.cuts)
-    assert shown(margin, by)
-    assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), by)
+    assert shown(margin, at.inertia_proof, by)
+    assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), at.inertia_proof, by)
 
 
 def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:

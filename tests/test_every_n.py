@@ -32,7 +32,7 @@ from lyapcheck.claims import (
     zero_vector,
 )
 from lyapcheck.claims.explain import explain
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
 
 A, B, S = (any_matrix(name) for name in "ABS")
@@ -43,10 +43,10 @@ L = loops.letters()
 
 
 def verdict(statement):
-    found = decide(statement)
+    found = propose(statement)
     again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if found.certificate is not None:
-        assert verify(again, found.certificate).verdict == found.verdict.value
+    if found.proof is not None:
+        assert verify(again, found.proof).verdict == found.verdict.value
     return found.verdict.value
 
 
@@ -101,15 +101,15 @@ def test_what_fails_for_some_n_is_refuted_by_entries(name):
 
 def test_an_n_at_which_it_fails_is_found():
     """It holds for n = 1, where there is nothing to exchange."""
-    found = decide(FALSE["true for n = 1 alone"])
-    assert found.certificate.n == 2
+    found = propose(FALSE["true for n = 1 alone"])
+    assert found.proof.n == 2
 
 
 @pytest.mark.parametrize("name", [name for name in FALSE if "derivative" not in name])
 def test_the_sides_differ_at_the_witness_in_floating_point_too(name):
     """Worked out again with NumPy."""
     statement = FALSE[name]
-    witness = decide(statement).certificate
+    witness = propose(statement).proof
     left, right = (numeric(side, witness, statement) for side in (statement.left, statement.right))
     assert abs(left - right) > 1e-9 * (abs(left) + abs(right))
 
@@ -277,12 +277,12 @@ BAD = {
 def test_statements_that_make_no_sense_are_refused_and_never_proved(name):
     with pytest.raises(Refused):
         verify(BAD[name], NormalForm())
-    assert decide(BAD[name]).verdict.value == "undecided"
+    assert propose(BAD[name]).verdict.value == "undecided"
 
 
 def test_witnesses_are_replayed_exactly():
     statement = FALSE["what is given for another vector"]
-    witness = decide(statement).certificate
+    witness = propose(statement).proof
     point = dict(witness.point)
     for forged in (
         replace(witness, n=2),

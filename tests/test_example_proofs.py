@@ -7,7 +7,6 @@ from typer.testing import CliRunner
 
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.certificates import certificates
 from lyapcheck.claims.script import find_script
 from lyapcheck.cli.main import build_app
 from lyapcheck.verdicts import Exit, Verdict
@@ -40,7 +39,7 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
         "right": "proved",
     }
     assert result.exit_code is Exit.REFUTED
-    for certificate in certificates(result).values():
+    for certificate in result.certificates.values():
         assert judge(certificate).verdict == found[certificate.claim.id]
 
 

@@ -140,7 +140,7 @@ def test_every_gain_knows_its_line_and_column(file: Path) -> None:
         "\ufeff" + GOOD,
         GOOD.replace("\n", "\r\n"),
         GOOD.replace("name", '"name"').replace("kp", "'kp'"),
-        '[[gains]]\nname = """a\nb\\"""" # [[gains]]\nm=1\nkp=[1]\nkv=[1]\n',
+        '[[gains]]\nname = """\na\\\n  b\\"""" # [[gains]]\nm=1\nkp=[1]\nkv=[1]\n',
         "[[gains]]\nname = 'x = [1, 2'\nm = 1_0\nkp = [ 1, ]\nkv = [0b1]\n",
     ],
     ids=["inline", "byte-order mark", "CRLF", "quoted keys", "multi-line text", "odd but right"],
@@ -436,7 +436,7 @@ def test_what_is_no_file(file: Path, make: object, rule: str) -> None:
 
 
 def test_an_unknown_arm_is_a_mistake_on_its_line(file: Path) -> None:
-    file.write_text("# first\n" + changed('"buap3"', '"buap\\n4"'))
+    file.write_text("# first\n" + changed('"buap3"', '"buap4"'))
     with pytest.raises(InputError) as caught:
         limits_for(read_gain_file(file))
     (problem,) = caught.value.problems

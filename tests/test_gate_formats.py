@@ -349,13 +349,14 @@ def test_names_survive_junit(paper: list[GateResult], name: str) -> None:
 @example("::error file=x,line=1::owned")
 @example("%0A\n%250A\r")
 def test_names_survive_github(paper: list[GateResult], name: str) -> None:
+    shown = "".join(c if c in "\r\n" else printable(c) for c in name)
     *errors, _, _, _ = annotations(renamed(paper, name, name, path=name))
     assert [kind for kind, _, _ in errors] == ["error"] * 6
     for _, place, _ in errors:
         assert place.keys() == {"file", "line", "col", "title"}
-        assert place["title"] == f"{name}: rejected"
-        assert place["file"] == name
-    assert errors[0][2].startswith(f"(19) {name}: k_v")
+        assert place["title"] == f"{shown}: rejected"
+        assert place["file"] == shown
+    assert errors[0][2].startswith(f"(19) {shown}: k_v")
 
 
 @settings(max_examples=60, deadline=None)

@@ -39,7 +39,7 @@ def test_a_log_follows_the_schema(name: str, options: dict[str, Any]) -> None:
 def test_a_log_of_nasty_names_follows_the_schema(tmp_path: Path) -> None:
     path = tmp_path / "a b#?:\u00fc.toml"
     path.write_text(
-        "robot = 'pelican2'\n[[gains]]\nname = \"\\u0007 \\n λ\"\nm = 2\nkp = [1, 1]\nkv = [1, 0.001]\n",
+        "robot = 'pelican2'\n[[gains]]\nname = '<b>\"%\\n λ'\nm = 2\nkp = [1, 1]\nkv = [1, 0.001]\n",
         encoding="utf-8",
     )
     found = log(path)

@@ -24,7 +24,7 @@ from lyapcheck.claims import (
     tanh,
     var,
 )
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 
 A, S = any_matrix("A"), any_matrix("S")
 x, y, d = (any_vector(name) for name in "xyd")
@@ -74,10 +74,10 @@ OPEN = {
 
 
 def verdict(statement):
-    found = decide(statement)
+    found = propose(statement)
     again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if found.certificate is not None:
-        assert verify(again, found.certificate).verdict == found.verdict.value
+    if found.proof is not None:
+        assert verify(again, found.proof).verdict == found.verdict.value
     return found.verdict.value
 
 

@@ -28,7 +28,7 @@ from lyapcheck.claims import (
     tanh,
     var,
 )
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Grade, Verdict
 
 BIBLIOGRAPHY = Path(__file__).parents[1] / "proofs" / "references.bib"
@@ -395,14 +395,14 @@ TABLE = [*HYPERBOLIC, *LOGARITHM, *EXPONENTIAL, *ARC_TANGENT, *CIRCULAR]
 
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: row.name)
 def test_a_published_inequality_is_proved(row: Row) -> None:
-    decision = decide(row.holds)
+    decision = propose(row.holds)
     assert decision.verdict is Verdict.PROVED, decision
     assert decision.grade in (Grade.ENCLOSURE, Grade.EXACT)
 
 
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: row.name)
 def test_its_false_neighbour_is_refuted(row: Row) -> None:
-    assert decide(row.fails).verdict is Verdict.REFUTED
+    assert propose(row.fails).verdict is Verdict.REFUTED
 
 
 def test_every_inequality_is_cited() -> None:

@@ -11,8 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.admissible.certificates import statement
-from lyapcheck.check.kinds.decreasing import RadialBounds
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, RadialBounds, statement_of
 from lyapcheck.check.loop import BrokenTree, Closure
 from lyapcheck.check.loop.closure import root_above
 from lyapcheck.check.loop.pull import pull_up
@@ -24,7 +23,7 @@ from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.certified import Proof
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.setting import Setting
 
@@ -169,15 +168,17 @@ def test_a_broken_tree_is_refused() -> None:
     with pytest.raises(BrokenTree):
         proves_radially(found.closure, replace(data_of(found), tree="0."))
     with pytest.raises(Refused):
-        verify(statement(found.closure), replace(found.by, tree="0."))
+        verify(
+            statement_of(found.closure), PositiveAndDecreasing(found.inertia, replace(found.by, tree="0."))
+        )
 
 
 def test_certificates_are_judged_by_the_same_rule() -> None:
     found = proof(*CASES[3])
-    assert verify(statement(found.closure), found.by).verdict == "proved"
+    assert verify(found.statement, found.certificate).verdict == "proved"
     larger = replace(found.closure, eps0=2 * found.closure.eps0)
     with pytest.raises(Refused, match="do not show"):
-        verify(statement(larger), found.by)
+        verify(statement_of(larger), found.certificate)
 
 
 def test_parameters_with_ranges_are_not_covered() -> None:

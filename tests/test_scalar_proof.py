@@ -12,7 +12,7 @@ from script_cases import rewriter, verdicts
 
 from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.claims import expr, run_proof
-from lyapcheck.claims.certificates import certificates
+from lyapcheck.claims.case import Case
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import find_script
 from lyapcheck.family import hyperbolic
@@ -78,7 +78,7 @@ def test_the_form_bounds_the_rate_of_v_at_random_states(m, eps0):
 def test_c_and_d_are_those_of_the_other_derivation(m):
     """`lyapcheck.lyapunov.scalar` has the same two numbers, with its constants rounded elsewhere."""
     gains = paper_case(2).gains
-    known = NAMES["known_of"](replace(paper_case(2), the_m=m))
+    known = NAMES["known_of"](Case(m, 3))
     beta, kc, low, high = Fraction(3), Fraction(2), Fraction(1, 2), Fraction(7, 3)
     form = scalar_form(gains, hyperbolic(m).constants(), RobotBounds(beta, kc, low, high))
     assert float(known.drift(beta, kc)) == pytest.approx(float(form.drift), rel=1e-3)
@@ -191,7 +191,7 @@ def test_no_verdict_is_written_in_the_script():
 
 
 def test_its_certificates_are_accepted_from_their_text(result):
-    made = certificates(result)
+    made = result.certificates
     assert len(made) == len(result.claims)
     for certificate in made.values():
         assert judge(read(parse(certificate.text()))).verdict == "proved"

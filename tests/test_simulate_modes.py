@@ -172,7 +172,7 @@ def test_random_starts_in_words_and_rows(lyapcheck):
     text = lyapcheck(TABLE2, "--runs", 12).stdout
     assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text
     assert "finished 12 of 12, V rose in 0" in text
-    assert "| L2 [°] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
+    assert r"| L2 \[°\] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
     rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()
     assert len(rows) == 1 + 3 * 12
     assert rows[1].startswith("tau_m1,1,yes,")

@@ -14,7 +14,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
 from lyapcheck.claims.case import Lacking
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.run import paper_case
 from lyapcheck.control import GainSet
 from lyapcheck.family import hyperbolic
@@ -39,14 +39,14 @@ def planar(eps0, kv="0.2", **options):
     [("0.005", "proved", "norms"), ("0.05", "proved", "branch and bound"), ("3", "refuted", "a state")],
 )
 def test_a_growing_eps0_is_decided_by_norms_then_boxes_then_against(eps0, verdict, method):
-    decision = decide(planar(eps0))
+    decision = propose(planar(eps0))
     assert decision.verdict.value == verdict
     assert method in decision.method
-    assert verify(planar(eps0), decision.certificate).verdict == verdict
+    assert verify(planar(eps0), decision.proof).verdict == verdict
 
 
 def test_the_witness_has_dv_dt_above_zero_in_plain_floating_point_too():
-    statement, decision = planar(3), decide(planar(3))
+    statement, decision = planar(3), propose(planar(3))
     at = {name: float(F(value)) for name, value in decision.witness["point"].items()}
     q, e, w = (np.array([[at[f"{name}1"], at[f"{name}2"]]]) for name in "qew")
     gains = ([float(k) for k in statement.kp], [float(k) for k in statement.kv])
@@ -54,9 +54,9 @@ def test_the_witness_has_dv_dt_above_zero_in_plain_floating_point_too():
 
 
 def test_what_cannot_be_decided_says_what_to_try():
-    assert "positive" in decide(planar(-1)).reason
+    assert "positive" in propose(planar(-1)).reason
     frictionless = replace(planar("0.01"), viscous=((F(0), F(0)),) * 2)
-    assert decide(frictionless).verdict is Verdict.UNDECIDED
+    assert propose(frictionless).verdict is Verdict.UNDECIDED
 
 
 def test_gains_of_another_arm_or_an_unbounded_h_are_lacking():
@@ -71,7 +71,7 @@ def test_over_the_ranges_less_is_true():
     nominal, ranged = (decreasing(CASE.robot, CASE.gains, "0.03", ranges=r) for r in (False, True))
     assert nominal.parameters == ()
     assert len(ranged.parameters) == 4
-    assert decide(nominal).verdict is Verdict.PROVED
+    assert propose(nominal).verdict is Verdict.PROVED
 
 
 # A bound of the damping that is said to be necessary --------------------------------------------------------
@@ -79,21 +79,21 @@ def test_over_the_ranges_less_is_true():
 
 @pytest.fixture(scope="module")
 def against():
-    return decide(STATEMENT)
+    return propose(STATEMENT)
 
 
 def test_gains_that_break_19_have_an_eps0(against):
     assert against.verdict is Verdict.REFUTED
     assert against.witness["point"] == {"factor of K_v": "1", "eps0": "1/32"}
     about = About("19n", "19n", 2, 3, "test")
-    proof = against.certificate
+    proof = against.proof
     certificate = Certificate(about, STATEMENT, "refuted", against.grade.label, proof)
     assert judge(read(parse(certificate.text()))).verdict == "refuted"
 
 
 def test_gains_within_the_bound_are_scaled_until_they_break_it():
     small = replace(STATEMENT, kv=(F(1, 100),) * 3)
-    assert F(decide(small).witness["point"]["factor of K_v"]) > 20
+    assert F(propose(small).witness["point"]["factor of K_v"]) > 20
 
 
 CHANGES = [
@@ -106,9 +106,9 @@ CHANGES = [
 
 @pytest.mark.parametrize(("change", "why"), [row[1:] for row in CHANGES], ids=[row[0] for row in CHANGES])
 def test_a_changed_proof_is_refused(against, change, why):
-    assert isinstance(against.certificate, DampingAbove)
+    assert isinstance(against.proof, DampingAbove)
     with pytest.raises(Refused, match=why):
-        verify(STATEMENT, replace(against.certificate, **change))
+        verify(STATEMENT, replace(against.proof, **change))
 
 
 @pytest.mark.parametrize(
@@ -116,11 +116,11 @@ def test_a_changed_proof_is_refused(against, change, why):
 )
 def test_a_statement_that_says_nothing_is_refused(against, change):
     with pytest.raises(Refused):
-        verify(replace(STATEMENT, **change), against.certificate)
+        verify(replace(STATEMENT, **change), against.proof)
 
 
 def test_an_arm_without_friction_leaves_it_open():
-    assert decide(replace(STATEMENT, viscous=((F(0), F(0)),) * 3)).verdict is Verdict.UNDECIDED
+    assert propose(replace(STATEMENT, viscous=((F(0), F(0)),) * 3)).verdict is Verdict.UNDECIDED
 
 
 # Decimal bounds ---------------------------------------------------------------------------------------------

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from lyapcheck.admissible.certificates import statement
-from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness
+from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness, statement_of
 from lyapcheck.check.loop import proves
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.schur import Evaluator
@@ -108,18 +107,18 @@ def test_larger_weights_are_refused_for_the_same_tree() -> None:
 
 def test_certificates_hold_the_weights() -> None:
     proof = weighted(0).proof
-    assert verify(statement(proof.closure), proof.by).verdict == "proved"
+    assert verify(proof.statement, proof.certificate).verdict == "proved"
     for coupling in ((F(1),), (F(-1), F(1)), (F(0), F(1))):
         with pytest.raises(Refused):
-            verify(statement(replace(proof.closure, coupling=coupling)), proof.by)
+            verify(statement_of(replace(proof.closure, coupling=coupling)), proof.certificate)
 
 
 def test_states_and_radial_bounds_are_about_no_weights() -> None:
     closure, nothing = weighted(0).proof.closure, (F(0), F(0))
     witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
     with pytest.raises(Refused):
-        verify(statement(closure), witness)
+        verify(statement_of(closure), witness)
     radial = radial_epsilon(setting(0))
     assert radial is not None
     with pytest.raises(Refused):
-        verify(statement(replace(radial.closure, coupling=(F(1), F(1)))), radial.by)
+        verify(statement_of(replace(radial.closure, coupling=(F(1), F(1)))), radial.certificate)

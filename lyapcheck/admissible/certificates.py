@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from lyapcheck.check.certificate import About, Certificate
-from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.statement import Proof
 from lyapcheck.files import decimal_text
 
@@ -23,11 +23,11 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     stem, found = quote(result.name, safe=""), {}
     if result.proof is not None:
         found[f"{stem}.certified.json"] = _certificate(
-            result, result.proof.closure, "proved", result.proof.by
+            result, result.proof.closure, "proved", result.proof.certificate
         )
     if result.weighted is not None:
         proof = result.weighted.proof
-        found[f"{stem}.weighted.json"] = _certificate(result, proof.closure, "proved", proof.by)
+        found[f"{stem}.weighted.json"] = _certificate(result, proof.closure, "proved", proof.certificate)
     if result.witness is not None and result.against is not None:
         state, against = result.witness.state, result.against
         proof_against = StateWitness(against.viscous, against.parameters, state.q, state.e, state.w)
@@ -46,19 +46,4 @@ def _certificate(result: EpsilonResult, closure: Closure, verdict: str, proof: P
     kind = "weighted" if weights else verdict
     about = About(f"{result.name}.{kind}", says, result.m, closure.n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
-    return Certificate(about, statement(closure), verdict, "enclosure", proof, {}, used)
-
-
-def statement(closure: Closure) -> Decreasing:
-    """What a closure has to prove, as the certificate says it."""
-    return Decreasing(
-        mass=closure.arm.mass,
-        viscous=closure.friction,
-        parameters=closure.parameters,
-        family=closure.family,
-        m=closure.m,
-        kp=closure.kp,
-        kv=closure.kv,
-        eps0=closure.eps0,
-        coupling=closure.coupling,
-    )
+    return Certificate(about, statement_of(closure), verdict, "enclosure", proof, {}, used)

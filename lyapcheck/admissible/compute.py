@@ -19,9 +19,10 @@ from lyapcheck.admissible.consistency import findings, require_consistent
 from lyapcheck.admissible.result import EpsilonResult, Refutation
 from lyapcheck.constants import robot_bounds
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
-from lyapcheck.search.certified import MAX_BOXES, Certified, Proof, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.setting import Setting

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop import Closure
-    from lyapcheck.search.certified import Proof
     from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.proof import Proof
     from lyapcheck.search.weights import Weighted
 
 

@@ -6,27 +6,39 @@ The same as ``lyapcheck recheck``, for whoever has the standard library, python-
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 
-from lyapcheck.check.files import Unreadable, gather
-from lyapcheck.check.recheck import recheck
-from lyapcheck.check.render import as_json, text
+from lyapcheck.check.command import FORMATS, HELP, run
+from lyapcheck.check.limits import MOST, Limits
+
+INTERRUPTED = 130
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Print one line a certificate; 0: all accepted, 1: some refused, 2: a file cannot be read."""
+    """Parse the options of :func:`run`, and run."""
     parser = argparse.ArgumentParser(prog="python -m lyapcheck.check", description=__doc__)
     parser.add_argument("certificates", nargs="+", metavar="CERTIFICATE", help="files or directories")
-    parser.add_argument("--format", choices=("text", "json"), default="text")
-    options = parser.parse_args(arguments)
+    parser.add_argument("--format", choices=FORMATS, default="text", help=HELP["format"])
+    for name in ("full", "trusted"):
+        parser.add_argument(f"--{name}", action="store_true", help=HELP[name])
+    for name in ("seconds", "memory"):
+        least = getattr(Limits(), name)
+        parser.add_argument(f"--{name}", type=_positive, default=least, help=f"{HELP[name]} [{least}]")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
-        outcome = recheck(gather(options.certificates))
-    except Unreadable as error:
-        for name, rule in error.problems:
-            print(f"error: {name}: {rule}", file=sys.stderr)
-        return 2
-    sys.stdout.write((as_json if options.format == "json" else text)(outcome))
-    return 0 if outcome.all_accepted else 1
+        return run(**vars(parser.parse_args(arguments)))
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def _positive(word: str) -> int:
+    value = int(word)
+    if not 1 <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"must be from 1 to {MOST}")
+    return value
 
 
 if __name__ == "__main__":

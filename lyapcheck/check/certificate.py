@@ -18,15 +18,17 @@ from functools import cached_property
 from typing import Any, NoReturn
 
 from lyapcheck.check.codec import from_json, is_text, require_keys, to_json
+from lyapcheck.check.expressions.grammar import MAX_NAME
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import Accepted, verify
 
 SCHEMA = "lyapcheck/certificate/1"
-MAX_CHARACTERS = 50_000_000
 MAX_INTEGER = 20
+TOO_DEEP = f"is nested deeper than {MAX_NESTING} levels"
 DIGEST = re.compile(r"[0-9a-f]{64}")
 
 
@@ -99,9 +101,9 @@ def parse(text: str) -> Any:
         ValueError: the text is not JSON.
         Refused: it is, but of a kind that no certificate contains.
     """
-    require(len(text) <= MAX_CHARACTERS, "size", len(text), f"is above {MAX_CHARACTERS} characters")
+    require(len(text) <= MAX_BYTES, "size", len(text), f"is above {MAX_BYTES} characters")
     try:
-        return json.loads(
+        value = json.loads(
             text,
             parse_float=_no_float,
             parse_constant=_no_float,
@@ -109,7 +111,20 @@ def parse(text: str) -> Any:
             object_pairs_hook=_object,
         )
     except RecursionError:
-        raise Refused("document", "", "is nested too deeply") from None
+        raise Refused("document", "", TOO_DEEP) from None
+    _require_shallow(value)
+    return value
+
+
+def _require_shallow(value: Any) -> None:
+    """Refuse what is nested too deeply for all that follows; level by level, as this must not nest either."""
+    level: list[Any] = [[value]]
+    depth = 0
+    while level:
+        require(depth <= MAX_NESTING, "document", "", TOO_DEEP)
+        whole = (part.values() if isinstance(part, dict) else part for part in level)
+        level = [part for inner in whole for part in inner if isinstance(part, (dict, list))]
+        depth += 1
 
 
 def read(data: Any) -> Certificate:
@@ -131,8 +146,11 @@ def read(data: Any) -> Certificate:
     )
     for digest in (uses := _texts(content["uses"], "uses")).values():
         require(DIGEST.fullmatch(digest) is not None, "uses", digest, "is not a digest")
+    claim = from_json(About, content["claim"], "claim")
+    for name in (claim.id, *uses):
+        require(len(name) <= MAX_NAME, "id of a claim", name, f"is longer than {MAX_NAME} characters")
     return Certificate(
-        from_json(About, content["claim"], "claim"),
+        claim,
         from_json(Statement, content["statement"], "statement"),
         from_json(str, content["verdict"], "verdict"),
         from_json(str, content["grade"], "grade"),
@@ -171,7 +189,7 @@ def theorems_of(statement: Statement) -> list[Theorem]:
 def _texts(data: Any, where: str) -> dict[str, str]:
     require(isinstance(data, dict), where, data, "must be an object")
     for key in data:
-        require(is_text(key), where, key, "is not Unicode text")
+        require(is_text(key), where, key, "is not plain Unicode text in NFC")
     return {key: from_json(str, value, f"{where}.{key}") for key, value in data.items()}
 
 

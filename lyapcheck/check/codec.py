@@ -10,8 +10,10 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from functools import lru_cache
+from inspect import isabstract
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from unicodedata import category, is_normalized
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import MAX_DEPTH, is_rational_text
@@ -20,6 +22,8 @@ from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
 
 T = TypeVar("T")
+KINDS = __name__.rpartition(".")[0]
+"""The package under which every class that may be read is defined."""
 TAGS: dict[type, str] = {Statement: "kind", Proof: "rule", Piece: "rule"}
 """The classes that are written with the name of the member, and under which key."""
 
@@ -55,7 +59,7 @@ def from_json(cls: type[T], data: Any, where: str) -> T:
 
 def _read(hint: Any, data: Any, where: str) -> Any:
     if hint == Tree:
-        return _tree(data, where, MAX_DEPTH)
+        return _tree(data, where, MAX_DEPTH, {})
     reader = READERS.get(get_origin(hint) or hint)
     if reader is not None:
         return reader(hint, data, where)
@@ -63,19 +67,20 @@ def _read(hint: Any, data: Any, where: str) -> Any:
         return _one_class(hint, data, where)
     require(type(data) is hint, where, data, f"must be of type {hint.__name__}")
     if hint is str:
-        require(is_text(data), where, data, "is not Unicode text")
+        require(is_text(data), where, data, "is not plain Unicode text in NFC")
     return data
 
 
 def is_text(value: Any) -> bool:
-    """Whether a value is text that can be written in UTF-8."""
+    """Whether a value is text of signs and spaces in the composed form of Unicode (NFC).
+
+    No control characters, nor what turns the direction of writing, nor halves of surrogate pairs; so texts
+    that differ look different, but for letters that look alike.
+    """
     if not isinstance(value, str):
         return False
-    try:
-        value.encode("utf-8")
-    except UnicodeEncodeError:
-        return False
-    return True
+    printable = value.isprintable() or all(c.isprintable() or category(c) == "Zs" for c in value)
+    return printable and is_normalized("NFC", value)
 
 
 def _optional(hint: Any, data: Any, where: str) -> Any:
@@ -94,25 +99,28 @@ def _tuple(hint: Any, data: Any, where: str) -> tuple[Any, ...]:
 
 
 def _fraction(hint: Any, data: Any, where: str) -> Fraction:
-    require(is_rational_text(data), where, data, "must be a rational number as text")
-    value = Fraction(data)
-    require(str(value) == data, where, data, "is not in lowest terms")
-    return value
+    require(is_rational_text(data), where, data, "must be a rational number in lowest terms as text")
+    return Fraction(data)
 
 
-def _tree(data: Any, where: str, depth: int) -> Any:
-    """Lists to tuples; what they mean is for ``well_formed`` to see."""
+def _tree(data: Any, where: str, depth: int, known: dict[tuple[Any, ...], Any]) -> Any:
+    """Lists to tuples, equal ones to one object; what they mean is for ``grammar`` to see.
+
+    ``known`` keeps all objects that it hands out, so that the identities in its keys stay their own.
+    """
     require(depth > 0, where, "", f"is nested deeper than {MAX_DEPTH} levels")
     if isinstance(data, list):
-        return tuple(_tree(part, where, depth - 1) for part in data)
+        parts = tuple(_tree(part, where, depth - 1, known) for part in data)
+        return known.setdefault(tuple(map(id, parts)), parts)
     require(type(data) is int or is_text(data), where, data, "is not part of an expression")
-    return data
+    return known.setdefault((type(data), data), data)
 
 
 def _tagged(base: type, data: Any, where: str) -> Any:
     key = TAGS[base]
     require(isinstance(data, dict) and key in data, where, data, f"must be an object with a {key!r}")
-    cls: Any = members(base).get(str(data[key]))
+    require(type(data[key]) is str, f"{where}.{key}", data[key], "must be text")
+    cls: Any = members(base).get(data[key])
     if cls is None:
         raise Refused(f"{where}.{key}", data[key], f"is not a {key} that the checker knows")
     return _dataclass(cls, {name: value for name, value in data.items() if name != key}, where)
@@ -129,9 +137,15 @@ def _one_class(cls: Any, data: Any, where: str) -> Any:
 
 
 def members(base: type) -> dict[str, Any]:
-    """The kinds of statement, rules or pieces by name."""
-    found: list[Any] = base.__subclasses__()
-    return {name_of(cls): cls for cls in found}
+    """The kinds of statement, rules or pieces of the checker by name; not what others derive."""
+    found: dict[str, Any] = {}
+    waiting: list[Any] = base.__subclasses__()
+    while waiting:
+        cls = waiting.pop()
+        waiting += cls.__subclasses__()
+        if cls.__module__.startswith(f"{KINDS}.") and not isabstract(cls):
+            found[name_of(cls)] = cls
+    return found
 
 
 READERS: dict[Any, Callable[[Any, Any, str], Any]] = {

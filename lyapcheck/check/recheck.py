@@ -1,180 +1,242 @@
-"""Many certificates at once: each judged by itself, then what they rest on."""
+"""Many certificates at once: each judged by itself in a process of its own, then what they rest on."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
-from lyapcheck.check.certificate import Certificate, judge, read, theorems_of
-from lyapcheck.check.refusal import Refused, plain
-from lyapcheck.check.theorems.premises import unmet
-from lyapcheck.check.verify import weakest
+from lyapcheck.check.files import Document, Unreadable, content, words
+from lyapcheck.check.finding import Finding
+from lyapcheck.check.guard import Guard
+from lyapcheck.check.limits import Limits
+from lyapcheck.check.refusal import plain
 
-
-@dataclass(frozen=True)
-class Document:
-    """The JSON value of a file, or why it has none; a ``complete`` collection has all that it uses."""
-
-    file: str
-    data: Any
-    complete: bool
+GRADES = ("enclosure", "exact")
+"""As in ``verify``, which only the process that judges needs to import."""
 
 
 @dataclass(frozen=True)
 class Checked:
-    """What became of one document: accepted, or refused for a reason.
+    """What became of one document: ``accepted``, ``refused`` or ``undecided``, the last two for a reason.
 
-    ``given`` lists the claims that it uses and whose certificates are not at hand; ``grade`` is the weakest
-    of its own and of those it rests on, as far as they are.
+    ``given`` lists the claims that it uses and whose certificates are not at hand, directly or not;
+    ``grade`` is the weakest of its own and of those it rests on.
     """
 
-    file: str
+    document: Document
+    finding: Finding
+    status: str
     reason: str = ""
-    certificate: Certificate | None = None
-    digest: str = ""
     grade: str = ""
     given: tuple[str, ...] = ()
-    complete: bool = False
+
+    @property
+    def file(self) -> str:
+        """The name it goes by."""
+        return self.document.file
 
     @property
     def accepted(self) -> bool:
-        """Whether nothing was found against it."""
-        return not self.reason
+        """Whether it and all that it rests on is shown."""
+        return self.status == "accepted"
+
+    @property
+    def verdict(self) -> str:
+        """``proved`` or ``refuted``, if it is accepted."""
+        return self.finding.verdict if self.accepted else ""
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """A statement that some certificates prove and others refute: the checker itself is wrong."""
+
+    digest: str
+    statement: str
+    proved: tuple[str, ...]
+    refuted: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """All documents in the order they were given, and the theorems with the files that rest on them."""
+    """All documents in the order they were given, what they rest on, and what contradicts itself.
+
+    ``theorems`` gives for each theorem the files of the accepted certificates that rest on it, ``granted``
+    for each accepted file what its statements take for granted, ``rules`` the (rule, module)
+    pairs it rests on; ``limited`` says which limits the system keeps.
+    """
 
     checked: tuple[Checked, ...]
+    alarms: tuple[Alarm, ...] = ()
     theorems: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    references: dict[str, str] = field(default_factory=dict)
+    granted: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    rules: dict[str, tuple[tuple[str, str], ...]] = field(default_factory=dict)
+    limited: tuple[str, ...] = ()
 
     @property
     def all_accepted(self) -> bool:
-        """Whether every document was accepted."""
-        return all(one.accepted for one in self.checked)
+        """Whether every document was accepted, and nothing contradicts itself."""
+        return self.code == 0
+
+    @property
+    def code(self) -> int:
+        """0: all accepted, 1: some refused, 3: some undecided and none refused, 4: an alarm."""
+        found = {one.status for one in self.checked}
+        return 4 if self.alarms else 1 if "refused" in found else 3 if "undecided" in found else 0
 
 
-def recheck(documents: Iterable[Document]) -> Outcome:
+def recheck(documents: Iterable[Document], limits: Limits | None = None, full: bool = False) -> Outcome:
     """Judge certificates, and whether what they use was judged well too.
 
-    Soundness: a certificate is accepted if its own proof is, and no certificate that it uses is known to be
-    refused, to be of another claim or to be a refutation, and those behind the hypotheses of a theorem state
-    what it needs; in a complete collection none may be missing. Uses cannot go in circles: each digest is
-    over the digests it uses.
+    Args:
+        documents: files, from ``lyapcheck.check.files.gather``.
+        limits: what judging one of them may take.
+        full: whether statements and words of authors are given whole.
+
+    Raises:
+        Unreadable: a file that was named by itself is not JSON.
+
+    Soundness: a certificate is accepted if its own proof is, and each certificate that it uses is at hand and
+    accepted, is of the claim it is used for and proves it, and those behind the hypotheses of a theorem state
+    what it needs. It is refused if one of these is known not to be so, and undecided otherwise. Uses cannot
+    go in circles: each digest is over the digests it uses.
     """
-    own = [check_one(document) for document in documents]
-    known = {one.digest: one for one in own if one.digest}
-    settled: dict[str, Checked] = {}
-    for one in own:
-        _settle(one, known, settled)
-    found = tuple(settled[one.digest] if one.accepted else one for one in own)
-    checked = tuple(replace(new, file=old.file) for old, new in zip(own, found, strict=True))
-    return Outcome(checked, _theorems(checked, known))
+    with Guard(limits or Limits()) as guard:
+        own = [_own(document, guard, full) for document in documents]
+        problems = [
+            (str(d.document.path), d.reason) for d in own if d.finding.unreadable and d.document.named
+        ]
+        if problems:
+            raise Unreadable(problems)
+        known = {one.finding.digest: one for one in own if one.finding.digest}
+        settled: dict[str, Checked] = {}
+        for one in own:
+            _settle(one, known, settled, guard)
+        found = tuple(
+            replace(settled[one.finding.digest], document=one.document) if one.finding.digest else one
+            for one in own
+        )
+        return summed(found, settled, guard.limited)
 
 
-def check_one(document: Document) -> Checked:
+def _own(document: Document, guard: Guard, full: bool) -> Checked:
     """One document judged by itself."""
-    blank = Checked(document.file, complete=document.complete)
     try:
-        if isinstance(document.data, Refused):
-            raise document.data
-        blank = replace(blank, certificate=read(document.data), digest=document.data["digest"])
-        assert blank.certificate is not None
-        accepted = judge(blank.certificate)
-    except Refused as refusal:
-        return replace(blank, reason=str(refusal))
-    return replace(blank, grade=accepted.grade)
+        finding = guard.judge(content(document.path), full)
+    except (OSError, ValueError) as error:
+        finding = replace(Finding().refused(words(error)), unreadable=True)
+    status = "refused" if finding.reason else "accepted"
+    return Checked(document, finding, status, finding.reason, finding.grade)
 
 
-def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked]) -> None:
+def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked], guard: Guard) -> None:
     """Follow the uses without recursion, the deepest first."""
-    waiting = [one]
+    waiting = [one] if one.finding.digest else []
     while waiting:
         current = waiting[-1]
-        used = [known[d] for d in _uses(current).values() if d in known and d not in settled]
-        if used and current.accepted:
-            waiting.extend(used)
+        uses = current.finding.uses.values() if current.accepted else ()
+        ahead = [known[digest] for digest in uses if digest in known and digest not in settled]
+        if ahead:
+            waiting.extend(ahead)
             continue
         waiting.pop()
-        settled.setdefault(current.digest, _with_uses(current, settled))
+        if current.finding.digest not in settled:
+            settled[current.finding.digest] = _with_uses(current, settled, guard)
 
 
-def _with_uses(one: Checked, settled: dict[str, Checked]) -> Checked:
-    """The same with the reason why what it uses does not carry it, if there is one."""
-    grades, given = [one.grade], []
-    for claim, digest in _uses(one).items():
-        used = settled.get(digest)
-        if used is None:
-            given.append(claim)
-            if one.complete:
-                return replace(
-                    one, reason=f"rests on {plain(claim)}, whose certificate ({digest[:12]}…) is not here"
-                )
-        elif (fault := _fault(one, used, claim)) is not None:
-            return replace(one, reason=f"rests on {plain(claim)}, {fault}")
-        else:
-            grades.append(used.grade)
-            given.extend(used.given)
+def _with_uses(one: Checked, settled: dict[str, Checked], guard: Guard) -> Checked:
+    """The same as what it uses leaves of it."""
     if not one.accepted:
         return one
-    lacks = _lacking(one, {claim: settled[d] for claim, d in _uses(one).items() if d in settled})
-    if lacks is not None:
-        return replace(one, reason=plain(lacks))
-    return replace(one, grade=weakest(grades), given=tuple(dict.fromkeys(given)))
+    missing = [claim for claim, digest in one.finding.uses.items() if digest not in settled]
+    used = {claim: settled[digest] for claim, digest in one.finding.uses.items() if digest in settled}
+    for claim, its in used.items():
+        if (fault := _fault(one, its, claim)) is not None:
+            return replace(one, status="refused", reason=f"rests on {plain(claim)}, {fault}", grade="")
+    if one.finding.theorems and (lacks := _lacks(one, used, guard)):
+        return replace(one, status="refused", reason=lacks, grade="")
+    open_ = [claim for claim, its in used.items() if not its.accepted]
+    if missing or open_:
+        given = (*missing, *(name for its in used.values() for name in its.given))
+        reasons = [
+            f"{plain(claim)}, whose certificate ({one.finding.uses[claim][:12]}…) is not here"
+            for claim in missing
+        ]
+        reasons += [f"{plain(claim)}, which is undecided" for claim in open_]
+        reason = f"rests on {'; on '.join(reasons)}"
+        return replace(one, status="undecided", reason=reason, grade="", given=tuple(dict.fromkeys(given)))
+    return replace(one, grade=min([one.grade, *(its.grade for its in used.values())], key=GRADES.index))
 
 
-def _lacking(one: Checked, used: dict[str, Checked]) -> str | None:
+def _lacks(one: Checked, used: dict[str, Checked], guard: Guard) -> str:
     """What the claims behind the hypotheses of its theorems fail to state."""
-    assert one.certificate is not None
-    stated = {name: its.certificate.statement for name, its in used.items() if its.certificate is not None}
-    found = (unmet(theorem, stated) for theorem in theorems_of(one.certificate.statement))
-    return next((lacks for lacks in found if lacks is not None), None)
+    try:
+        premises = {claim: (its.finding.digest, content(its.document.path)) for claim, its in used.items()}
+        return guard.lacks(content(one.document.path), premises)
+    except (OSError, ValueError) as error:
+        return words(error)
 
 
 def _fault(one: Checked, used: Checked, claim: str) -> str | None:
     """Why a certificate does not carry a claim of that id for the same m and n."""
-    if not used.accepted:
+    if used.status == "refused":
         return "whose certificate is refused"
-    assert one.certificate is not None
-    assert used.certificate is not None
-    mine, its = one.certificate.claim, used.certificate.claim
-    if its.id != claim:
-        return f"but the certificate is about {plain(its.id)}"
+    mine, its = one.finding, used.finding
+    if its.label != plain(claim):
+        return f"but the certificate is about {its.label}"
     for name in ("m", "n"):
         wanted, found = getattr(mine, name), getattr(its, name)
         if found is not None and found != wanted:
             return f"but the certificate is for {name} = {found}"
-    return None if used.certificate.verdict == "proved" else "which is refuted"
+    return None if its.verdict == "proved" else "which is refuted"
 
 
-def _uses(one: Checked) -> dict[str, str]:
-    return {} if one.certificate is None else dict(sorted(one.certificate.uses.items()))
-
-
-def _theorems(checked: tuple[Checked, ...], known: dict[str, Checked]) -> dict[str, tuple[str, ...]]:
-    """For each theorem the files of the accepted certificates that rest on it, directly or not."""
-    found: dict[str, list[str]] = {}
-    reached: dict[str, set[str]] = {}
+def summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: tuple[str, ...]) -> Outcome:
+    """The outcome, with what the accepted ones rest on."""
+    theorems: dict[str, list[str]] = {}
+    references: dict[str, str] = {}
+    granted: dict[str, tuple[str, ...]] = {}
+    rules: dict[str, tuple[tuple[str, str], ...]] = {}
     for one in checked:
-        if one.accepted:
-            for name in sorted(_rests_on(one, known, reached)):
-                found.setdefault(name, []).append(one.file)
-    return {name: tuple(files) for name, files in sorted(found.items())}
+        if not one.accepted:
+            continue
+        below = [its.finding for its in _rests_on(one, settled)]
+        applied = {name: where for its in below for name, where in its.theorems}
+        for name in sorted(applied):
+            theorems.setdefault(name, []).append(one.file)
+            references[name] = applied[name]
+        granted[one.file] = tuple(dict.fromkeys(line for its in below for line in its.granted))
+        rules[one.file] = tuple(sorted({rule for its in below for rule in its.rules}))
+    files = {name: tuple(theorems[name]) for name in sorted(theorems)}
+    return Outcome(checked, _alarms(checked), files, references, granted, rules, limited)
 
 
-def _rests_on(one: Checked, known: dict[str, Checked], reached: dict[str, set[str]]) -> set[str]:
-    """The names of the theorems below a certificate."""
-    waiting, seen = [one], {one.digest}
-    names: set[str] = set()
+def _rests_on(one: Checked, settled: dict[str, Checked]) -> list[Checked]:
+    """A certificate and all that it uses, directly or not."""
+    found = {one.finding.digest: one}
+    waiting = [one]
     while waiting:
-        current = waiting.pop()
-        if current.digest not in reached and current.certificate is not None:
-            reached[current.digest] = {t.name for t in theorems_of(current.certificate.statement)}
-        names |= reached.get(current.digest, set())
-        for digest in _uses(current).values():
-            if digest in known and digest not in seen:
-                seen.add(digest)
-                waiting.append(known[digest])
-    return names
+        for digest in waiting.pop().finding.uses.values():
+            if digest in settled and digest not in found:
+                found[digest] = settled[digest]
+                waiting.append(settled[digest])
+    return list(found.values())
+
+
+def _alarms(checked: tuple[Checked, ...]) -> tuple[Alarm, ...]:
+    """Statements that are both proved and refuted, whatever became of what the certificates rest on."""
+    said: dict[str, list[tuple[str, str, Checked]]] = {}
+    for one in checked:
+        for digest, verdict, where in one.finding.shows:
+            said.setdefault(digest, []).append((where, verdict, one))
+    return tuple(_alarm(digest, of) for digest, of in said.items() if len({v for _, v, _ in of}) > 1)
+
+
+def _alarm(digest: str, said: list[tuple[str, str, Checked]]) -> Alarm:
+    """What to say of one statement; ``said`` is in which part, the verdict, and where."""
+    named: dict[str, dict[str, None]] = {"proved": {}, "refuted": {}}
+    for where, verdict, one in said:
+        named[verdict][f"{one.file} ({where})" if where else one.file] = None
+    where, _, first = min(said, key=lambda entry: entry[0])
+    of = f"{where} of: " if where else ""
+    return Alarm(digest, of + first.finding.statement, tuple(named["proved"]), tuple(named["refuted"]))

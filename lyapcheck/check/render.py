@@ -1,84 +1,159 @@
-"""The outcome of a recheck as text or JSON."""
+"""The outcome of a recheck as text or JSON; its statements are rendered from data, not an author's words."""
 
 from __future__ import annotations
 
 import json
+from collections import Counter
+from collections.abc import Iterator
 from typing import Any
 
-from lyapcheck.check.kinds.theorem import THEOREMS
+from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain
+from lyapcheck.check.trusted import modules
 
-SCHEMA = "lyapcheck/recheck/1"
+SCHEMA = "lyapcheck/recheck/2"
+STATUSES = ("accepted", "refused", "undecided")
+VERDICTS = ("proved", "refuted")
+INDENT = " " * 11
 
 
-def text(outcome: Outcome) -> str:
-    """One line a certificate, then how many were accepted and which theorems they rest on."""
-    lines = [_line(one) for one in outcome.checked]
-    lines += ["", *(_theorem(name, files) for name, files in outcome.theorems.items()), _tally(outcome)]
+def text(outcome: Outcome, trusted: bool = False) -> str:
+    """Alarms first, then each certificate, then what all of them rest on and how many there are."""
+    lines = [*_alarms(outcome)]
+    for one in outcome.checked:
+        lines += _certificate(one, outcome.granted.get(one.file, ()))
+    lines.append("")
+    if trusted:
+        lines += [*_trusted(outcome), ""]
+    for name, files in outcome.theorems.items():
+        claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
+        lines.append(f"{claims} on {name} ({outcome.references[name]}): {', '.join(files)}")
+    lines += ["every verdict takes for granted:", *(f"  {sentence}" for sentence in GENERAL)]
+    lines += [f"the system keeps no limit on {name} here" for name in _unlimited(outcome)]
+    lines += [*_alarms(outcome), _tally(outcome)]
     return "\n".join(lines) + "\n"
 
 
-def as_json(outcome: Outcome) -> str:
-    """JSON of the schema ``lyapcheck/recheck/1``."""
-    counts = {
-        "accepted": sum(one.accepted for one in outcome.checked),
-        "refused": sum(not one.accepted for one in outcome.checked),
-        "proved": _with_verdict(outcome, "proved"),
-        "refuted": _with_verdict(outcome, "refuted"),
-    }
+def as_json(outcome: Outcome, trusted: bool = False) -> str:
+    """JSON of the schema ``lyapcheck/recheck/2``."""
+    counts = _counts(outcome)
     data = {
         "schema": SCHEMA,
-        "counts": counts,
+        "counts": {name: counts[name] for name in (*STATUSES, *VERDICTS)},
+        "alarms": [
+            {
+                "statement": alarm.statement,
+                "statement_digest": alarm.digest,
+                "proved": list(alarm.proved),
+                "refuted": list(alarm.refuted),
+            }
+            for alarm in outcome.alarms
+        ],
+        "granted": list(GENERAL),
         "theorems": {name: list(files) for name, files in outcome.theorems.items()},
-        "certificates": [_row(one) for one in outcome.checked],
+        "unlimited": _unlimited(outcome),
+        "certificates": [_row(one, outcome) for one in outcome.checked],
     }
+    if trusted:
+        data["trusted"] = {
+            verdict: {"rules": _names(rules), "modules": modules(rules)} for verdict, rules in _sums(outcome)
+        }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
-def _line(one: Checked) -> str:
-    if one.certificate is None or not one.accepted:
-        return f"refused   {one.file}: {one.reason}"
-    claim = one.certificate.claim
-    name = plain(claim.id)
-    member = f" (m = {claim.m})" if claim.m is not None else ""
-    given = f", given {plain(', '.join(one.given))}" if one.given else ""
-    return f"accepted  {one.file}: {name}{member} is {one.certificate.verdict} [{one.grade}]{given}"
+def _certificate(one: Checked, granted: tuple[str, ...]) -> Iterator[str]:
+    found = one.finding
+    if one.accepted:
+        yield f"accepted   {one.file}: {found.verdict} [{one.grade}]: {found.statement}"
+    else:
+        yield f"{one.status:<9}  {one.file}: {one.reason}"
+    if one.status == "undecided":
+        yield f"{INDENT}the statement, if the rest is shown {found.verdict}: {found.statement}"
+    if one.status != "refused":
+        member = f" (m = {found.m})" if found.m is not None else ""
+        words = f"{found.label}{member}: “{found.says}”"
+        yield f"{INDENT}statement {found.statement_digest[:12]}; the author's words: {words}"
+    if granted:
+        yield f"{INDENT}taken for granted:"
+        yield from (f"{INDENT}  {sentence}" for sentence in granted)
 
 
-def _theorem(name: str, files: tuple[str, ...]) -> str:
-    """Which files rest on a theorem, and what no certificate shows of it."""
-    claims, known = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest", THEOREMS[name]
-    where = f"{claims} on {name} ({known.reference}): {', '.join(files)}"
-    return f"{where}\n  taken for granted: {known.granted}"
+def _alarms(outcome: Outcome) -> Iterator[str]:
+    for alarm in outcome.alarms:
+        yield (
+            f"ALARM: one statement is both proved, in {', '.join(alarm.proved)}, and refuted, in "
+            f"{', '.join(alarm.refuted)}: the checker is wrong; trust none of these verdicts, and report this"
+        )
+        yield f"{INDENT}statement {alarm.digest[:12]}: {alarm.statement}"
+
+
+def _trusted(outcome: Outcome) -> Iterator[str]:
+    """The certificates that rest on the same rules together, then all of each verdict."""
+    groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[str]] = {}
+    for one in outcome.checked:
+        if one.accepted:
+            groups.setdefault((one.finding.verdict, outcome.rules[one.file]), []).append(one.file)
+    for (verdict, rules), files in groups.items():
+        yield from _code(f"{verdict}: {', '.join(files)}", rules)
+    for verdict, rules in _sums(outcome):
+        yield from _code(f"all that is {verdict}", rules)
+
+
+def _code(title: str, rules: tuple[tuple[str, str], ...]) -> Iterator[str]:
+    """The rules, and the modules with their lines."""
+    found = modules(rules)
+    yield f"trusted for {title}"
+    yield f"  rules: {', '.join(_names(rules))}"
+    yield from (f"  {count:>5} {name}" for name, count in found.items())
+    yield f"  {sum(found.values()):>5} lines in {len(found)} modules"
+
+
+def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """The rules behind all certificates of each verdict."""
+    found: dict[str, set[tuple[str, str]]] = {}
+    for one in outcome.checked:
+        if one.accepted:
+            found.setdefault(one.finding.verdict, set()).update(outcome.rules[one.file])
+    return [(verdict, tuple(sorted(rules))) for verdict, rules in sorted(found.items())]
+
+
+def _names(rules: tuple[tuple[str, str], ...]) -> list[str]:
+    return [name for name, _ in rules]
+
+
+def _unlimited(outcome: Outcome) -> list[str]:
+    return [name for name in ("seconds", "memory") if name not in outcome.limited]
+
+
+def _counts(outcome: Outcome) -> Counter[str]:
+    return Counter((*(one.status for one in outcome.checked), *(one.verdict for one in outcome.checked)))
 
 
 def _tally(outcome: Outcome) -> str:
-    accepted = sum(one.accepted for one in outcome.checked)
-    return (
-        f"{accepted} accepted ({_with_verdict(outcome, 'proved')} proved, "
-        f"{_with_verdict(outcome, 'refuted')} refuted), {len(outcome.checked) - accepted} refused"
-    )
+    n = _counts(outcome)
+    accepted = f"{n['accepted']} accepted ({n['proved']} proved, {n['refuted']} refuted)"
+    return f"{accepted}, {n['refused']} refused, {n['undecided']} undecided"
 
 
-def _with_verdict(outcome: Outcome, verdict: str) -> int:
-    accepted = (one.certificate for one in outcome.checked if one.accepted)
-    return sum(certificate is not None and certificate.verdict == verdict for certificate in accepted)
-
-
-def _row(one: Checked) -> dict[str, Any]:
-    found = one.certificate
+def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
+    found, read = one.finding, bool(one.finding.digest)
     return {
         "file": one.file,
+        "status": one.status,
         "accepted": one.accepted,
         "reason": one.reason,
-        "id": found.claim.id if found else None,
-        "m": found.claim.m if found else None,
-        "n": found.claim.n if found else None,
-        "statement": found.claim.says if found else None,
-        "verdict": found.verdict if found and one.accepted else None,
+        "statement": found.statement if read else None,
+        "statement_digest": found.statement_digest if read else None,
+        "verdict": one.verdict or None,
         "grade": one.grade if one.accepted else None,
-        "uses": sorted(found.uses) if found else [],
-        "given": list(one.given),
-        "digest": one.digest or None,
+        "granted": list(outcome.granted.get(one.file, ())),
+        "rules": _names(outcome.rules.get(one.file, ())),
+        "id": found.label if read else None,
+        "m": found.m,
+        "n": found.n,
+        "comment": found.says if read else None,
+        "uses": [plain(claim) for claim in found.uses],
+        "given": [plain(claim) for claim in one.given],
+        "digest": found.digest or None,
     }

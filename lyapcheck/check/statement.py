@@ -64,6 +64,11 @@ class Statement(ABC):
         A kind that consists of other statements leaves theirs to them.
         """
 
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What a proof of it takes for granted about the world, in sentences."""
+        return ()
+
     @abstractmethod
     def text(self) -> str:
         """The statement in the words of mathematics, from its data alone."""

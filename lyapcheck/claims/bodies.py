@@ -7,6 +7,8 @@ follow from those of the link before: with T its turn, R(q_k) the rotation about
 
 and twice its kinetic energy is m‖v + ω × c‖² + ωᵀ J ω, with J about the centre of mass c.
 
+Numbers are worked out here, and what is 0 is left out: a certificate holds every copy of a velocity.
+
 They show that M is positive definite where determinants are too large, see ``positive_definite``.
 
 References: featherstone2008rigid, chapter 5.
@@ -14,8 +16,10 @@ References: featherstone2008rigid, chapter 5.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.all_of import AllOf
@@ -23,14 +27,12 @@ from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.arms import leading_minors, mass_matrix
 from lyapcheck.claims.expressions import Expr, cos, expr, sin, total, var
-from lyapcheck.claims.products import Matrix, Vector, apply, dot, form, transpose, vector
+from lyapcheck.claims.products import Matrix, Vector, form, transpose, vector
 from lyapcheck.claims.statements import all_of, always_positive, identity, implies, reals
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.chain import Chain, RigidLink
-
-ZERO = expr(0).tree
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class Body:
     @property
     def energy(self) -> Expr:
         """Twice the kinetic energy, J."""
-        return self.mass * dot(self.velocity, self.velocity) + form(self.spin, self.inertia, self.spin)
+        return _sum(_times(self.mass, _total(map(_square, self.velocity))), _form(self.spin, self.inertia))
 
 
 def bodies(chain: Chain, x: Sequence[Expr]) -> list[Body]:
@@ -70,13 +72,12 @@ def bodies(chain: Chain, x: Sequence[Expr]) -> list[Body]:
         axis, com = _numbers(link.axis), _numbers(link.com)
         if not _at_rest(spin) or not _at_rest(speed):
             back = transpose(_turned(link, var(f"q{k + 1}")))
-            speed = apply(back, _sum(speed, _cross(spin, _numbers(link.origin))))
-            spin = apply(back, spin)
-        spin = _sum(spin, [a * rate for a in axis]) if rate.tree != ZERO else spin
+            speed = _apply(back, _plus(speed, _cross(spin, _numbers(link.origin))))
+            spin = _apply(back, spin)
+        spin = _plus(spin, [_times(a, rate) for a in axis])
         mass, inertia = expr(link.mass), [_numbers(row) for row in link.inertia]
-        arm = _cross(axis, com)
-        own = mass * dot(arm, arm) + form(axis, inertia, axis)
-        found.append(Body(mass, _sum(speed, _cross(spin, com)), spin, inertia, own))
+        turning = Body(mass, _cross(axis, com), axis, inertia, expr(0))
+        found.append(Body(mass, _plus(speed, _cross(spin, com)), spin, inertia, turning.energy))
     return found
 
 
@@ -118,30 +119,69 @@ def _first_to_move(link: Body, rate: Expr) -> dict[str, Statement]:
 def _turned(link: RigidLink, angle: Expr) -> Matrix:
     """T R(q): R = a aᵀ + cos q (I − a aᵀ) + sin q [a]×."""
     a, turn = _numbers(link.axis), [_numbers(row) for row in link.turn]
-    units = [[expr(int(i == j)) for i in range(3)] for j in range(3)]
     columns = []
-    for unit in units:
-        along = dot(a, unit)
-        across, around = [u - along * x for u, x in zip(unit, a, strict=True)], _cross(a, unit)
-        column = [
-            along * x + cos(angle) * y + sin(angle) * z for x, y, z in zip(a, across, around, strict=True)
-        ]
-        columns.append(apply(turn, column))
+    for j in range(3):
+        unit = [expr(int(i == j)) for i in range(3)]
+        along = [_times(a[j], x) for x in a]
+        across, around = _plus(unit, [_times(expr(-1), x) for x in along]), _cross(a, unit)
+        parts = zip(*(_apply(turn, part) for part in (along, across, around)), strict=True)
+        columns.append([_total((x, _times(cos(angle), y), _times(sin(angle), z))) for x, y, z in parts])
     return transpose(columns)
 
 
 def _at_rest(velocity: Vector) -> bool:
     """Whether a velocity is the number 0: what stands still before the first joint that moves is left out."""
-    return all(entry.tree == ZERO for entry in velocity)
+    return all(_number(entry) == 0 for entry in velocity)
 
 
 def _numbers(entries: Sequence[object]) -> Vector:
     return [expr(entry) for entry in entries]
 
 
-def _sum(a: Vector, b: Vector) -> Vector:
-    return [total((x, y)) for x, y in zip(a, b, strict=True)]
+def _number(entry: Expr) -> Fraction | None:
+    """The value of an entry that is a number."""
+    return Fraction(entry.tree[1]) if entry.tree[0] == "num" else None
+
+
+def _sum(a: Expr, b: Expr) -> Expr:
+    x, y = _number(a), _number(b)
+    if x is not None and y is not None:
+        return expr(x + y)
+    return b if x == 0 else a if y == 0 else a + b
+
+
+def _times(a: Expr, b: Expr) -> Expr:
+    x, y = _number(a), _number(b)
+    if x is not None and y is not None:
+        return expr(x * y)
+    if x == 0 or y == 0:
+        return expr(0)
+    return b if x == 1 else a if y == 1 else a * b
+
+
+def _square(a: Expr) -> Expr:
+    value = _number(a)
+    return a**2 if value is None else expr(value**2)
+
+
+def _total(terms: Iterable[Expr]) -> Expr:
+    return reduce(_sum, terms, expr(0))
+
+
+def _plus(a: Vector, b: Vector) -> Vector:
+    return [_sum(x, y) for x, y in zip(a, b, strict=True)]
+
+
+def _apply(a: Matrix, x: Vector) -> Vector:
+    return [_total(map(_times, row, x)) for row in a]
+
+
+def _form(x: Vector, a: Matrix) -> Expr:
+    """xᵀ A x."""
+    return _total(map(_times, x, _apply(a, x)))
 
 
 def _cross(a: Vector, b: Vector) -> Vector:
-    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+    minus = expr(-1)
+    pairs = [(_times(a[i - 2], b[i - 1]), _times(minus, _times(a[i - 1], b[i - 2]))) for i in range(3)]
+    return [_sum(x, y) for x, y in pairs]

@@ -5,25 +5,34 @@ What these functions hand back is a proposal: a claim that uses a wrong one is r
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from flint import ctx
+import numpy as np
+from flint import arb, ctx
 
 from lyapcheck.check.expressions.expression import ball
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.inertia import CoriolisBelow, Mass, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import secant_fact, sign_facts, size_facts, slope_facts
 from lyapcheck.check.kinds.trigonometric import largest, lowest
+from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Relation
-from lyapcheck.check.theorems.closed_loop import ClosedLoop
-from lyapcheck.claims.arms import coriolis_matrix, mass_matrix
+from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
 from lyapcheck.claims.exact import closed_value, exact_value
 from lyapcheck.claims.expressions import Expr, expr, sqrt
+from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
+    from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
+Function = tuple[Expr, Expr, Expr]
+"""h, h' and U in x."""
 T = TypeVar("T", Fraction, Expr)
 
 BITS = 128
@@ -78,10 +87,11 @@ class FamilyBounds:
 
     def loop(
         self,
-        h: tuple[Expr, Expr, Expr],
+        h: Function,
         form: tuple[Expr, Expr, Expr],
         desired: bool = False,
         condition: Iterable[Relation] = (),
+        arm: ArmAndGains | None = None,
         **numbers: Fraction,
     ) -> ClosedLoop:
         """The loop (11) with these bounds, as theorems are about it.
@@ -91,7 +101,8 @@ class FamilyBounds:
             form: θ11, θ12, θ22 of dV/dt <= −[a b] Θ [a b]ᵀ in eps, kp, b_min, b_max, kv_max, beta, kc and vd.
             desired: whether C is C(q, q̇_d + w) with ‖q̇_d‖ <= vd.
             condition: what is asked of eps0 and the constants.
-            numbers: the constants and eps0, where the conclusion is for these alone.
+            arm: the arm and gains that the conclusion is about, and then
+            numbers: bounds of its constants, and eps0.
         """
         function, slope, potential = h
         corner, side, low = form
@@ -104,8 +115,16 @@ class FamilyBounds:
             (corner.tree, side.tree, low.tree),
             desired,
             tuple(condition),
+            arm,
             tuple(sorted(numbers.items())),
         )
+
+    def of_h(self, h: Function) -> AllOf:
+        """That these are bounds of h, as theorems ask for it: |h| <= γ, |h'| <= ρ, |h(x)| <= L|x|, h odd."""
+        function, slope, _ = (expression.tree for expression in h)
+        facts = [*sign_facts(function), *size_facts(function, self.gamma)]
+        facts += [*slope_facts(function, slope, self.rho), *secant_fact(function, self.L)]
+        return AllOf(tuple(facts))
 
     def drift(self, beta: T, kc: T) -> T:
         """c = β_M(ρ + G) + √nγ k_c."""
@@ -117,58 +136,61 @@ class FamilyBounds:
 
 
 class ArmBounds:
-    """β_M, k_c, λmin(B) and λmax(B) of a robot without ranges, with the entries and sizes behind them.
+    """M(q) ≻ 0, β_M, k_c, λmin(B) and λmax(B) of a robot at its nominal numbers, and what states them.
 
     ‖M(q)‖ is at most its largest row sum of absolute values; ‖C(q,x)y‖ is at most (Σ c_ijk²)^½ ‖x‖‖y‖.
     """
 
     def __init__(self, robot: RobotModel) -> None:
-        self.robot = robot
-        friction = [number.value for number in robot.viscous]
-        self.b_min, self.b_max = min(friction), max(friction)
+        self.robot = robot.fixed()
+        self.viscous = tuple(number.value for number in self.robot.viscous)
+        self.b_min, self.b_max = min(self.viscous), max(self.viscous)
 
     @cached_property
-    def mass(self) -> list[Expr]:
-        """The entries of M(q), row by row."""
-        return [entry for row in mass_matrix(self.robot) for entry in row]
+    def mass(self) -> Mass:
+        """M(q) as statements have it."""
+        return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in self.robot.mass)
 
     @cached_property
-    def sizes(self) -> list[Fraction]:
-        """Bounds of the entries of M(q)."""
-        return entry_sizes(self.mass)
-
-    @cached_property
-    def rows(self) -> list[Fraction]:
-        """The sums of the rows of ``sizes``."""
-        n = self.robot.n
-        return [sum(self.sizes[n * i : n * i + n], Fraction(0)) for i in range(n)]
-
-    @cached_property
-    def symbols(self) -> list[Expr]:
-        """The entries of C(q, unit k), row by row, for each k."""
-        n = self.robot.n
-        units = [[expr(int(i == j)) for i in range(n)] for j in range(n)]
-        return [entry for unit in units for row in coriolis_matrix(self.robot, unit) for entry in row]
-
-    @cached_property
-    def symbol_sizes(self) -> list[Fraction]:
-        """Bounds of the Christoffel symbols."""
-        return entry_sizes(self.symbols)
-
-    @cached_property
-    def squares(self) -> Fraction:
-        """Σ c_ijk²."""
-        return sum((size**2 for size in self.symbol_sizes), Fraction(0))
+    def inertia(self) -> Inertia:
+        """M(q) as the checker bounds it."""
+        return Inertia(self.mass, ())
 
     @cached_property
     def beta(self) -> Fraction:
         """β_M, kg·m²."""
-        return above(max(self.rows))
+        return above(self.inertia.largest_row())
 
     @cached_property
     def kc(self) -> Fraction:
         """k_c, kg·m²."""
-        return above(sqrt(self.squares))
+        return above(sqrt(self.inertia.squares_of_symbols()))
+
+    def guessed_floor(self) -> Fraction:
+        """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""
+        postures = ([Fraction(k * (i + 1), 3) for i in range(self.robot.n)] for k in range(7))
+        found = min(float(np.linalg.eigvalsh(_doubles(self.inertia.at(q, ())))[0]) for q in postures)
+        return Fraction(2) ** math.floor(math.log2(found / 2)) if found > 0 else Fraction(1, 2**20)
+
+    def mass_above(self, low: object = 0) -> MassAbove:
+        """M(q) − low·I is positive definite for all q."""
+        return MassAbove(self.mass, (), exact_value(low))
+
+    def mass_below(self) -> MassBelow:
+        """‖M(q)‖ <= β_M for all q."""
+        return MassBelow(self.mass, (), self.beta)
+
+    def coriolis_below(self) -> CoriolisBelow:
+        """‖C(q, x)y‖ <= k_c ‖x‖ ‖y‖ for all q, x and y."""
+        return CoriolisBelow(self.mass, (), self.kc)
+
+    def under(self, gains: GainSet) -> ArmAndGains:
+        """The arm and gains that a theorem with numbers is about."""
+        return ArmAndGains(self.mass, self.viscous, gains.kp, gains.kv)
+
+
+def _doubles(rows: list[list[arb]]) -> list[list[float]]:
+    return [[float(entry) for entry in row] for row in rows]
 
 
 def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fraction | None:

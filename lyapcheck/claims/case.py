@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
-    from lyapcheck.robots import RobotModel
+from typing import Any
 
 
 class Lacking(Exception):
@@ -19,40 +14,48 @@ def lacking(reason: str) -> Lacking:
     return Lacking(reason)
 
 
-@dataclass
 class Case:
-    """What a statement may depend on; reading ``m`` makes the claim one that is decided for each m."""
+    """What a statement may depend on; there is no other way to it than one that ``read`` takes down.
 
-    the_m: int
-    the_n: int
-    the_robot: RobotModel | None
-    the_gains: GainSet | None
-    read: set[str] = field(default_factory=set)
+    Args:
+        m: the member of the family.
+        n: the number of joints.
+        robot: a model with that many joints, or none.
+        gains: the gain set for this m, or none.
+    """
+
+    def __init__(self, m: int, n: int, robot: Any = None, gains: Any = None) -> None:
+        values = {"m": m, "n": n, "robot": robot, "gains": gains}
+        self.read: set[str] = set()
+
+        def look(*names: str) -> Any:
+            self.read.update(names)
+            return values[names[0]]
+
+        self._look = look
 
     @property
     def m(self) -> int:
         """The member of the family."""
-        self.read.add("m")
-        return self.the_m
+        return int(self._look("m"))
 
     @property
     def n(self) -> int:
         """The number of joints."""
-        self.read.add("n")
-        return self.the_n
+        return int(self._look("n"))
 
     @property
     def robot(self) -> Any:
         """The robot model; its n is the case's."""
-        self.read.update(("robot", "n"))
-        if self.the_robot is None:
+        model = self._look("robot", "n")
+        if model is None:
             raise Lacking("this claim is about a robot; name one with --robot")
-        return self.the_robot
+        return model
 
     @property
     def gains(self) -> Any:
         """The gain set for this m."""
-        self.read.update(("gains", "m", "n"))
-        if self.the_gains is None:
-            raise Lacking(f"no gain set has m = {self.the_m}; give a file that has one with --gains")
-        return self.the_gains
+        gains = self._look("gains", "m", "n")
+        if gains is None:
+            raise Lacking(f"no gain set has m = {self.m}; give a file that has one with --gains")
+        return gains

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from lyapcheck.claims.case import Case
+from lyapcheck.claims.order import needed
 from lyapcheck.claims.statements import Statement
-from lyapcheck.errors import InputError, Problem
 
 StatementOf = Callable[[Case], Statement]
 
@@ -80,57 +80,8 @@ class Proof:
         from lyapcheck.claims.script import check_ids, find_script, load_proof
 
         other = load_proof(find_script(script))
-        check_ids(other, ids, script)
-        wanted = other.needed(ids)
+        check_ids(other.claims, ids, script)
+        wanted = needed(other.claims, ids)
         for name, claim in other.claims.items():
             if name in wanted:
                 self.claims.setdefault(name, replace(claim, section=section or claim.section))
-
-    def order(self, file: str) -> list[Claim]:
-        """The claims so that each comes after all it uses; otherwise in the order of the text.
-
-        Raises:
-            InputError: a claim uses an id that does not exist, or itself by way of others.
-        """
-        problems = [
-            Problem(
-                file,
-                None,
-                claim.id,
-                used,
-                "uses a claim that the script does not make",
-                "add it or drop the use",
-            )
-            for claim in self.claims.values()
-            for used in claim.uses
-            if used not in self.claims
-        ]
-        if problems:
-            raise InputError(problems)
-        done: dict[str, Claim] = {}
-        for claim in self.claims.values():
-            self._visit(claim, done, [], file)
-        return list(done.values())
-
-    def _visit(self, claim: Claim, done: dict[str, Claim], path: list[str], file: str) -> None:
-        if claim.id in path:
-            circle = " → ".join([*path[path.index(claim.id) :], claim.id])
-            raise InputError(
-                Problem(file, None, claim.id, circle, "the claims use each other in a circle", "break it")
-            )
-        if claim.id in done:
-            return
-        for used in claim.uses:
-            self._visit(self.claims[used], done, [*path, claim.id], file)
-        done[claim.id] = claim
-
-    def needed(self, ids: Iterable[str]) -> set[str]:
-        """The ids and everything they use, directly or not."""
-        found: set[str] = set()
-        waiting = list(ids)
-        while waiting:
-            claim = waiting.pop()
-            if claim not in found:
-                found.add(claim)
-                waiting.extend(self.claims[claim].uses)
-        return found

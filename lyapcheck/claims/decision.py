@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lyapcheck.check.statement import Proof
+from lyapcheck.claims.finding import Finding
+from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.verdicts import Grade, Verdict
 
 
@@ -37,21 +39,32 @@ class Decision:
             raise ValueError("a verdict carries the certificate that the checker accepted")
 
 
-def proved(grade: Grade, method: str, certificate: Proof | None = None, **evidence: Any) -> Decision:
-    """The decision that a statement holds, as the checker found from a certificate."""
-    return Decision(Verdict.PROVED, grade, method, evidence=evidence, certificate=certificate)
+def decided(finding: Finding, judged: Judged | None) -> Decision:
+    """The decision on a claim.
 
+    Args:
+        finding: what the search proposes; alone it decides nothing.
+        judged: what a fresh checker says about its certificate, none if nothing could be certified.
 
-def refuted(
-    grade: Grade,
-    method: str,
-    witness: dict[str, Any],
-    reason: str = "",
-    certificate: Proof | None = None,
-    **evidence: Any,
-) -> Decision:
-    """The decision that a statement fails, as the checker found from a certificate with that witness."""
-    return Decision(Verdict.REFUTED, grade, method, reason, witness, evidence, certificate)
+    Soundness: the only way to ``proved`` and ``refuted``, which are the checker's words.
+    """
+    if finding.proof is None:
+        verdict = Verdict.ERROR if finding.verdict is Verdict.ERROR else Verdict.UNDECIDED
+        return Decision(verdict, Grade.NUMERIC, finding.method, finding.reason, evidence=finding.evidence)
+    if judged is None:
+        return undecided("the checker has not judged its certificate", finding.method, **finding.evidence)
+    if not judged.accepted or judged.verdict is None or judged.grade is None:
+        reason = f"the checker refuses its certificate ({judged.reason})"
+        return undecided(reason, finding.method, **finding.evidence)
+    return Decision(
+        Verdict(judged.verdict),
+        Grade[judged.grade.upper()],
+        finding.method,
+        finding.reason,
+        finding.witness,
+        finding.evidence,
+        finding.proof,
+    )
 
 
 def undecided(reason: str, method: str, **evidence: Any) -> Decision:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Collection
 from dataclasses import dataclass
+from pathlib import Path
 
-from lyapcheck.claims.case import Case, Lacking
-from lyapcheck.claims.claim import Claim, Proof
+from lyapcheck.claims.ask import ask
+from lyapcheck.claims.handover import Given, Request, Told
 from lyapcheck.claims.procedures import PROCEDURES
-from lyapcheck.claims.run import paper_case
-from lyapcheck.claims.script import SHIPPED, check_ids, find_script, load_proof
-from lyapcheck.claims.statements import AllOf, Statement, Theorem
+from lyapcheck.claims.run import paper_given
+from lyapcheck.claims.script import SHIPPED, check_ids, find_script
+from lyapcheck.claims.statements import AllOf, Missing, Statement, Theorem
 
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
@@ -89,7 +91,7 @@ def explain(claim_id: str, script: str | None = None) -> Explanation:
         script: the proof script that makes it; by default the first of those that come with lyapcheck.
 
     Raises:
-        InputError: no such script, or no such claim.
+        InputError: no such claim, no such script, or one that cannot be used.
 
     Example:
         >>> found = explain("16.6")
@@ -98,64 +100,62 @@ def explain(claim_id: str, script: str | None = None) -> Explanation:
         >>> print(explain("T1.torque.m2.elbow").parts[0].says)
         150 = 15
     """
-    proof, name = _proof_with(claim_id, script)
-    claim = proof.claims[_meant(claim_id, proof) or claim_id]
-    lacking, statement, case = "", None, paper_case(SHOWN_MEMBER)
-    try:
-        statement = claim.statement(case)
-    except Lacking as lack:
-        lacking = str(lack)
-    users = [other for other in proof.claims.values() if claim.id in other.uses]
+    script_path, meant = _making(claim_id, script)
+    given = paper_given(SHOWN_MEMBER)
+    told = ask(Request(str(script_path), script_path.name, (given,), only=(meant,)))
+    claims = {claim.id: claim for claim in told.claims}
+    claim = claims[meant]
+    answer = claim.answers[0]
+    stated = told.stated(answer)
+    statement = None if isinstance(stated, Missing) else stated
     return Explanation(
         id=claim.id,
         says=claim.says,
-        script=name,
-        title=proof.title,
+        script=script_path.name,
+        title=told.title,
         place=claim.place,
-        reference=proof.reference,
-        uses=tuple(_named(proof.claims[used]) for used in claim.uses if used in proof.claims),
-        used_by=tuple(map(_named, users)),
-        case=_shown_case(case),
+        reference=told.reference,
+        uses=tuple(_named(claims[used]) for used in claim.uses),
+        used_by=tuple(_named(other) for other in told.claims if claim.id in other.uses),
+        case=_shown_case(given, answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
-        lacking=lacking,
+        lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
     )
 
 
-def _proof_with(claim_id: str, script: str | None) -> tuple[Proof, str]:
-    """The proof that makes a claim, and the name of its script."""
+def _making(claim_id: str, script: str | None) -> tuple[Path, str]:
+    """The script that makes a claim, and the id that was meant."""
     paths = [find_script(name) for name in (SHIPPED if script is None else (script,))]
-    every = Proof("", "")
+    known: list[str] = []
     for path in paths:
-        proof = load_proof(path, path.name)
-        if _meant(claim_id, proof):
-            return proof, path.name
-        every.claims |= proof.claims
-    check_ids(every, (claim_id,), ", ".join(path.name for path in paths))
+        ids = [claim.id for claim in ask(Request(str(path), path.name)).claims]
+        meant = _meant(claim_id, ids)
+        if meant is not None:
+            return path, meant
+        known += ids
+    check_ids(known, (claim_id,), ", ".join(path.name for path in paths))
     raise AssertionError("unreachable: an id that no proof has was accepted")
 
 
-def _meant(claim_id: str, proof: Proof) -> str | None:
+def _meant(claim_id: str, ids: Collection[str]) -> str | None:
     """The id that was meant: as written, or without brackets, or in other letters where only one fits."""
     bare = claim_id.strip().removeprefix("(").removesuffix(")")
     for wanted in (claim_id, bare):
-        if wanted in proof.claims:
+        if wanted in ids:
             return wanted
-    near = [known for known in proof.claims if known.casefold() == bare.casefold()]
+    near = [known for known in ids if known.casefold() == bare.casefold()]
     return near[0] if len(near) == 1 else None
 
 
-def _named(claim: Claim) -> tuple[str, str]:
+def _named(claim: Told) -> tuple[str, str]:
     return claim.id, claim.says
 
 
-def _shown_case(case: Case) -> str:
-    shown = [
-        f"{name} = {value}" for name, value in (("m", case.the_m), ("n", case.the_n)) if name in case.read
-    ]
-    if "robot" in case.read and case.the_robot is not None:
-        shown.append(case.the_robot.name)
-    return ", ".join(shown)
+def _shown_case(given: Given, read: Collection[str]) -> str:
+    m, n, robot, _ = given
+    values = {"m": f"m = {m}", "n": f"n = {n}", "robot": robot.name}
+    return ", ".join(value for name, value in values.items() if name in read)
 
 
 def _parts(name: str, statement: Statement) -> list[Part]:

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from textwrap import fill
 
 from lyapcheck.claims.explain import SHOWN_MEMBER, Explanation, Part
-from lyapcheck.markdown import markdown_text
+from lyapcheck.escapes import markdown_text
 from lyapcheck.notebook import html_paragraph, html_table
 
 SCHEMA = "lyapcheck/explain/1"

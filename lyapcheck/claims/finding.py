@@ -8,12 +8,15 @@ from typing import Any
 
 from lyapcheck.check.kinds.all_of import EveryPart, OnePart
 from lyapcheck.check.statement import Proof
-from lyapcheck.verdicts import Verdict
+from lyapcheck.verdicts import Grade, Verdict
 
 
 @dataclass(frozen=True)
 class Finding:
-    """A verdict that a search expects the checker to reach with ``proof``; none for an open statement."""
+    """A verdict that a search expects the checker to reach with ``proof``; none for an open statement.
+
+    ``grade`` is the one that ``proof`` is expected to get.
+    """
 
     verdict: Verdict
     method: str
@@ -21,6 +24,7 @@ class Finding:
     reason: str = ""
     witness: dict[str, Any] | None = None
     evidence: dict[str, Any] = field(default_factory=dict)
+    grade: Grade = Grade.NUMERIC
 
     @property
     def is_proof(self) -> bool:

@@ -7,6 +7,9 @@ from collections.abc import Callable
 from itertools import groupby
 
 from lyapcheck.claims.result import ClaimResult, ProofResult
+from lyapcheck.escapes import markdown_text
+from lyapcheck.files.printable import document_text
+from lyapcheck.markdown import markdown_table
 
 Renderer = Callable[[ProofResult, bool], str]
 SHOWN_COORDINATES = 12
@@ -19,7 +22,7 @@ def renderer(name: str) -> Renderer:
 
 def as_json(result: ProofResult, timings: bool = False) -> str:
     """JSON of the schema ``lyapcheck/check/1``."""
-    return json.dumps(result.to_json(timings), indent=2, ensure_ascii=False) + "\n"
+    return document_text(json.dumps(result.to_json(timings), indent=2, ensure_ascii=False) + "\n")
 
 
 def text(result: ProofResult, timings: bool = False) -> str:
@@ -30,22 +33,32 @@ def text(result: ProofResult, timings: bool = False) -> str:
         for row in rows:
             lines += [_line(row, timings), *(f"             {detail}" for detail in details(row))]
         lines.append("")
-    return "\n".join([*lines, *assumed(result), tally(result)]) + "\n"
+    return document_text("\n".join([*lines, *assumed(result), tally(result)]) + "\n")
 
 
 def markdown(result: ProofResult, timings: bool = False) -> str:
     """Markdown: one table a section."""
-    lines = [f"# {result.title}", "", headline(result), ""]
+    lines = [f"# {_shown(result.title)}", "", _shown(headline(result)), ""]
     for section, rows in groupby(result.claims, key=lambda row: row.section):
-        lines += [f"## {section or 'Claims'}", "", "| claim | m | verdict | grade | statement | evidence |"]
-        lines.append("|---|---|---|---|---|---|")
-        for row in rows:
-            cells = [row.id, row.m or "", row.verdict.value, row.decision.grade.label, row.statement]
-            evidence = "; ".join([row.decision.method, *details(row)])
-            seconds = f" ({row.seconds:.2f} s)" if timings else ""
-            lines.append("| " + " | ".join(_cell(str(c)) for c in [*cells, evidence + seconds]) + " |")
-        lines.append("")
-    return "\n".join([*lines, *assumed(result), tally(result)]) + "\n"
+        cells = [[" ".join(cell.split()) for cell in _cells(row, timings)] for row in rows]
+        lines += [f"## {_shown(section or 'Claims')}", "", *markdown_table(_HEADS, cells, words=5), ""]
+    return "\n".join([*lines, *map(markdown_text, assumed(result)), tally(result)]) + "\n"
+
+
+_HEADS = ("claim", "m", "verdict", "grade", "statement", "evidence")
+
+
+def _cells(row: ClaimResult, timings: bool) -> list[str]:
+    evidence = "; ".join([row.decision.method, *details(row)])
+    seconds = f" ({row.seconds:.2f} s)" if timings else ""
+    member = "" if row.m is None else str(row.m)
+    cells = [row.id, member, row.verdict.value, row.decision.grade.label, row.statement]
+    return [*cells, evidence + seconds]
+
+
+def _shown(text: str) -> str:
+    """Text on one line, as Markdown."""
+    return markdown_text(" ".join(text.split()))
 
 
 def headline(result: ProofResult) -> str:
@@ -107,7 +120,3 @@ def _line(row: ClaimResult, timings: bool) -> str:
     seconds = f"  {row.seconds:.2f} s" if timings else ""
     grade = f" [{row.decision.grade.label}]" if row.verdict.value != "undecided" else ""
     return f"  {row.verdict.value:<9}  {row.id}{member}  {row.statement}{grade}{seconds}"
-
-
-def _cell(content: str) -> str:
-    return content.replace("|", "\\|").replace("\n", " ")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
+from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import Decision
 from lyapcheck.claims.statements import Missing
@@ -17,8 +19,8 @@ SCHEMA = "lyapcheck/check/1"
 class ClaimResult:
     """What was found out about one claim for one m (``None``: the claim does not depend on m).
 
-    ``statement`` is the claim in words, ``stated`` the same as data; ``step`` is the decision on that alone,
-    ``decision`` takes into account what the claim uses.
+    ``statement`` is the claim in words, ``stated`` the same as data; ``decision`` takes into account what the
+    claim uses.
     """
 
     id: str
@@ -31,7 +33,6 @@ class ClaimResult:
     uses: tuple[str, ...]
     broken: tuple[str, ...]
     decision: Decision
-    step: Decision
     stated: Statement | Missing
     seconds: float
 
@@ -66,7 +67,8 @@ class ClaimResult:
 class ProofResult:
     """All rows of a proof, in the order of the text.
 
-    ``claims`` are the rows that were asked for, ``settled`` also those that they use.
+    ``claims`` are the rows that were asked for; ``certificates``, by file name, are those that the checker
+    has accepted, also of what these rows use.
     """
 
     name: str
@@ -76,7 +78,7 @@ class ProofResult:
     robot: str | None
     claims: tuple[ClaimResult, ...]
     assumptions: tuple[str, ...] = ()
-    settled: tuple[ClaimResult, ...] = ()
+    certificates: Mapping[str, Certificate] = field(default_factory=dict)
 
     @property
     def exit_code(self) -> Exit:

@@ -1,27 +1,29 @@
-"""Running a proof: every claim decided for every m, and what rests on an open claim marked as broken."""
+"""Running a proof: every claim decided for every m, by a checker that reads certificates from files."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.certificate import theorems_of
-from lyapcheck.check.theorems.premises import unmet
-from lyapcheck.claims.case import Case, Lacking
-from lyapcheck.claims.claim import Claim
-from lyapcheck.claims.decision import Decision, undecided
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.ask import ask
+from lyapcheck.claims.case import Case
+from lyapcheck.claims.certificates import certificates, file_name
+from lyapcheck.claims.decision import decided, undecided
+from lyapcheck.claims.finding import Finding
+from lyapcheck.claims.fresh_check import Judged, judge_afresh
+from lyapcheck.claims.handover import Given, Handover, Key, Request
+from lyapcheck.claims.order import in_order
+from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.result import ClaimResult, ProofResult
-from lyapcheck.claims.script import check_ids, find_script, load_proof
+from lyapcheck.claims.script import find_script
 from lyapcheck.claims.statements import Missing, Statement
-from lyapcheck.errors import InputError, Problem
-from lyapcheck.verdicts import Grade, Verdict
+from lyapcheck.search.inertia import remember
+from lyapcheck.verdicts import Verdict
 
 Progress = Callable[[float, str], None]
-Settled = dict[tuple[str, int | None], ClaimResult]
 
 DEFAULT_ROBOT = "buap3"
 DEFAULT_GAINS = "table2"
@@ -39,7 +41,8 @@ def run_proof(
     """Decide the claims of a proof script for each m.
 
     Args:
-        path: the script; ``published.py`` is found wherever lyapcheck is installed.
+        path: the script, a program that runs in a process of its own; ``published.py`` is found wherever
+            lyapcheck is installed.
         ms: the members of the family, m >= 1.
         robot: a robot model, or its name or file; the paper's arm by default, unless ``n`` is given.
         n: the number of joints, for claims on vectors, in place of a robot.
@@ -48,119 +51,133 @@ def run_proof(
         on_progress: called with the fraction done and the id at work.
 
     Returns:
-        One result per claim and m; a claim that does not look at m has one result with ``m = None``.
+        One result per claim and m; a claim that does not depend on m has one result with ``m = None``.
 
     Raises:
         InputError: the script, an id, the robot or the gain file cannot be used.
 
-    Soundness: a claim is proved only if its own decision is and every claim it uses is proved for the same m,
+    Soundness: verdicts and grades are those that a fresh process of the checker finds in the certificates. A
+    claim is proved only if its own certificate is accepted and every claim it uses is proved for the same m,
     and if those behind the hypotheses of a theorem state what these come to.
     """
     script = find_script(str(path))
-    shown = script.name
-    proof = load_proof(script, shown)
-    check_ids(proof, tuple(only), shown)
     model = _robot(robot, n)
+    if model is not None:
+        remember(model)
     joints = n if n is not None else model.n
     sets = _gain_sets(gains, joints)
-    wanted = proof.needed(only) if only else set(proof.claims)
-    order = [claim for claim in proof.order(shown) if claim.id in wanted]
-    settled: Settled = {}
-    for index, m in enumerate(ms):
-        case_of = (m, joints, model, next((s for s in sets if s.m == m), None))
-        for step, claim in enumerate(order):
-            if on_progress:
-                on_progress((index + step / len(order)) / len(ms), f"m = {m}: {claim.id}")
-            if (claim.id, None) not in settled:
-                result = _settle(claim, Case(*case_of), settled, shown)
-                settled[claim.id, result.m] = result
-    places = {name: k for k, name in enumerate(proof.claims)}
-    keep = set(only) or set(proof.claims)
-    every = sorted(settled.values(), key=lambda r: (places[r.id], r.m or 0))
+    asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
+    told = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
+    proposals = _proposals(told, asked, script.name, on_progress or _silent)
+    made = certificates(proposals, told.name)
+    results = _results(proposals, judge_afresh(made))
+    places = {claim.id: k for k, claim in enumerate(told.claims)}
+    every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
     return ProofResult(
-        proof.name,
-        proof.title,
+        told.name,
+        told.title,
         tuple(ms),
         joints,
         model.name if model else None,
-        tuple(row for row in every if row.id in keep),
+        tuple(results[key] for key in every if not only or key[0] in only),
         model.assumptions if model else (),
-        tuple(every),
+        {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
     )
 
 
 def paper_case(m: int) -> Case:
     """The case of the paper: its arm and its Table 2 gains."""
+    return Case(*paper_given(m))
+
+
+def paper_given(m: int) -> Given:
+    """What the case of the paper is made of."""
     model = _robot(None, None)
-    return Case(m, model.n, model, next((s for s in _gain_sets(None, model.n) if s.m == m), None))
+    return m, model.n, model, next((s for s in _gain_sets(None, model.n) if s.m == m), None)
 
 
-def _settle(claim: Claim, case: Case, settled: Settled, file: str) -> ClaimResult:
-    """The result of one claim for one case."""
-    begin = time.perf_counter()
-    statement = _statement(claim, case, file)
-    used = [settled.get((name, case.the_m)) or settled[name, None] for name in claim.uses]
-    case.read.update(name for name in "mn" if any(getattr(result, name) is not None for result in used))
+def _silent(fraction: float, note: str) -> None:
+    """No progress."""
+
+
+def _others(asked: Sequence[Given]) -> tuple[Given, ...]:
+    """One case with another m and one with another n, to see what a claim depends on whatever it reads."""
+    if not asked:
+        return ()
+    m, n, model, _ = asked[-1]
+    return (max(given[0] for given in asked) + 1, n, model, None), (m, n + 1, None, None)
+
+
+def _proposals(
+    told: Handover, asked: Sequence[Given], file: str, on_progress: Progress
+) -> dict[Key, Proposal]:
+    """What the searches propose, each row after those it uses."""
+    found: dict[Key, Proposal] = {}
+    order = [claim for claim in in_order({claim.id: claim for claim in told.claims}, file) if claim.answers]
+    depends = _dependences(told)
+    for index, (m, n, _, _) in enumerate(asked):
+        for step, claim in enumerate(order):
+            on_progress((index + step / len(order)) / len(asked), f"m = {m}: {claim.id}")
+            key = claim.id, m if "m" in depends[claim.id] else None
+            if key in found:
+                continue
+            begin = time.perf_counter()
+            stated = told.stated(claim.answers[index])
+            used = tuple((name, m if "m" in depends[name] else None) for name in claim.uses)
+            finding = chained(_search(stated), stated, [found[one] for one in used])
+            joints = n if "n" in depends[claim.id] else None
+            found[key] = Proposal(claim, key[1], joints, stated, used, finding, time.perf_counter() - begin)
+    return found
+
+
+def _dependences(told: Handover) -> dict[str, set[str]]:
+    """Which of m and n each claim depends on, itself or by what it uses.
+
+    A claim is independent of m only if it never looked at m and states the same for every m, the other one
+    included; and likewise for n.
+    """
+    depends: dict[str, set[str]] = {}
+    for claim in in_order({claim.id: claim for claim in told.claims}, ""):
+        if claim.answers:
+            *own, other_m, other_n = (told.stated(answer) for answer in claim.answers)
+            same = {"m": all(one == other_m for one in own), "n": own[-1] == other_n}
+            read = {name for answer in claim.answers[: len(own)] for name in answer.read}
+            depends[claim.id] = {name for name in "mn" if name in read or not same[name]}.union(
+                *(depends[name] for name in claim.uses)
+            )
+    return depends
+
+
+def _search(statement: Statement | Missing) -> Finding:
     try:
-        decision = decide(statement)
+        return propose(statement)
     except Exception as error:
-        decision = Decision(Verdict.ERROR, Grade.NUMERIC, "", f"{type(error).__name__}: {error}")
-    open_uses = tuple(result.id for result in used if result.verdict is not Verdict.PROVED)
-    return ClaimResult(
-        id=claim.id,
-        m=case.the_m if "m" in case.read else None,
-        n=case.the_n if "n" in case.read else None,
-        statement=claim.says,
-        place=claim.place,
-        section=claim.section,
-        kind=type(statement).__name__,
-        uses=claim.uses,
-        broken=open_uses,
-        decision=_chained(decision, statement, used, open_uses),
-        step=decision,
-        stated=statement,
-        seconds=time.perf_counter() - begin,
-    )
+        return Finding(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
 
-def _chained(
-    decision: Decision, statement: Statement | Missing, used: list[ClaimResult], open_uses: tuple[str, ...]
-) -> Decision:
-    """The decision with the weakest link of what it uses; a witness needs none of it."""
-    if decision.verdict is not Verdict.PROVED:
-        return decision
-    if open_uses or isinstance(statement, Missing):
-        names = ", ".join(open_uses)
-        reason = f"its own step holds, but it rests on {names}; prove those, or prove it without them"
-        return replace(undecided(reason, decision.method), evidence=decision.evidence)
-    stated = {r.id: r.stated for r in used if not isinstance(r.stated, Missing)}
-    for theorem in theorems_of(statement):
-        lacks = unmet(theorem, stated)
-        if lacks is not None:
-            return replace(undecided(f"{lacks}; state it there", decision.method), evidence=decision.evidence)
-    return replace(decision, grade=min([decision.grade, *(result.decision.grade for result in used)]))
-
-
-def _statement(claim: Claim, case: Case, file: str) -> Statement | Missing:
-    try:
-        statement = claim.statement(case)
-    except Lacking as lack:
-        return Missing(str(lack))
-    except InputError:
-        raise
-    except (Exception, SystemExit) as error:  # a script must not choose the exit code
-        rule = f"its statement raises {type(error).__name__}: {error}"
-        raise InputError(
-            Problem(file, None, claim.id, "", rule, "correct the function of this claim")
-        ) from error
-    returned: object = statement
-    if not isinstance(returned, Statement):
-        rule = f"its function returns a {type(returned).__name__}, not a statement"
-        repair = (
-            "return for_all(...), identity(...), norm_bound(...), implies(...), agrees(...) or all_of(...)"
+def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[Key, ClaimResult]:
+    """What the checker says about each row; what the row uses can only take from that."""
+    found: dict[Key, ClaimResult] = {}
+    for key, row in proposals.items():
+        claim, decision = row.claim, decided(row.finding, judged.get(key))
+        broken = tuple(used for used, m in row.used if found[used, m].verdict is not Verdict.PROVED)
+        if decision.verdict is Verdict.PROVED and broken:
+            decision = undecided(rests_on(broken), decision.method, **decision.evidence)
+        found[key] = ClaimResult(
+            id=claim.id,
+            m=row.m,
+            n=row.n,
+            statement=claim.says,
+            place=claim.place,
+            section=claim.section,
+            kind=type(row.stated).__name__,
+            uses=claim.uses,
+            broken=broken,
+            decision=decision,
+            stated=row.stated,
+            seconds=row.seconds,
         )
-        raise InputError(Problem(file, None, claim.id, "", rule, repair))
-    return statement
+    return found
 
 
 def _robot(robot: Any, n: int | None) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import runpy
 import traceback
+from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -52,7 +53,7 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         ) from error
     except InputError:
         raise
-    except (Exception, SystemExit) as error:  # a script must not choose the exit code
+    except BaseException as error:  # a script must not choose the exit code
         raise InputError(_raised(name, path, error)) from error
     proofs = {id(value): value for value in names.values() if isinstance(value, Proof)}
     if len(proofs) != 1:
@@ -67,7 +68,7 @@ def _raised(name: str, path: Path, error: BaseException) -> Problem:
     return Problem(name, line, "script", "", f"raises {type(error).__name__}: {error}", "correct the script")
 
 
-def check_ids(proof: Proof, ids: tuple[str, ...], file: str) -> None:
+def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:
     """Complain about every id that the proof does not have, with the nearest ones it has.
 
     Raises:
@@ -75,17 +76,15 @@ def check_ids(proof: Proof, ids: tuple[str, ...], file: str) -> None:
     """
     problems = []
     for wanted in ids:
-        if wanted not in proof.claims:
-            near = _near(wanted, proof)
+        if wanted not in known:
+            near = _near(wanted, known)
             repair = f"did you mean {', '.join(near)}?" if near else "run lyapcheck check to see all ids"
             problems.append(Problem(file, None, "id", wanted, "no claim has this id", repair))
     if problems:
         raise InputError(problems)
 
 
-def _near(wanted: str, proof: Proof) -> list[str]:
+def _near(wanted: str, ids: Collection[str]) -> list[str]:
     """The ids that may have been meant: those that begin alike, or else those of about the same letters."""
-    begun = (
-        [known for known in proof.claims if known.casefold().startswith(wanted.casefold())] if wanted else []
-    )
-    return begun[:MOST_NEAR] or get_close_matches(wanted, proof.claims, n=3, cutoff=0.5)
+    begun = [known for known in ids if known.casefold().startswith(wanted.casefold())] if wanted else []
+    return begun[:MOST_NEAR] or get_close_matches(wanted, ids, n=3, cutoff=0.5)

@@ -26,7 +26,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
         Lacking: the gains are for another number of joints, or h is unbounded.
         ValueError: ε₀ is no exact number.
     """
-    from lyapcheck.admissible.certificates import statement
+    from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.setting import Setting
 
     if len(gains.kp) != robot.n:
@@ -34,7 +34,7 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
     setting = Setting(gains, robot, ranges)
     if not setting.family.bounded:
         raise lacking("h is unbounded; give gains of a bounded family")
-    return statement(setting.closure(exact_value(eps0)))
+    return statement_of(setting.closure(exact_value(eps0)))
 
 
 def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:

@@ -13,6 +13,7 @@ from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
@@ -44,6 +45,7 @@ __all__ = [
     "for_all",
     "identity",
     "implies",
+    "loop_property",
     "nonnegative",
     "norm_bound",
     "positive",
@@ -127,6 +129,18 @@ def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> Trig
 def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
     """Polynomials in sines and cosines are positive for all angles."""
     return TrigonometricPositive(tuple(entry.tree for entry in entries))
+
+
+def loop_property(name: str, function: tuple[Expr, Expr, Expr], desired: bool = False) -> LoopProperty:
+    """A property of the loop that (6) closes, or (21) if ``desired``, or of V of (13) along it, for every n.
+
+    Args:
+        name: one of those of ``check.kinds.loop_property``, such as ``V is positive definite``.
+        function: h, h' and U in x.
+        desired: whether the loop is that of (21).
+    """
+    h, slope, potential = function
+    return LoopProperty(name, h.tree, slope.tree, potential.tree, desired)
 
 
 def theorem(name: str, loop: ClosedLoop, **hypotheses: str) -> Theorem:

@@ -13,6 +13,7 @@ import typer
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def command(
         found = _run(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
     from lyapcheck.bounds import renderer
 
-    sys.stdout.write(renderer(format.value)(found))
+    sys.stdout.write(document_text(renderer(format.value)(found)))
     whole = all(one.settling.time is not None and one.disturbance.level is not None for one in found)
     raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
 

@@ -35,11 +35,13 @@ def command(
 ) -> None:
     """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
 
+    A proof script is a program: run only what you trust with your files. It cannot influence a verdict,
+    though: it hands over statements, and a fresh process of the checker decides them.
+
     Exit code 0: all proved, 1: something refuted, 2: the script or an input cannot be used, 3: something
     undecided and nothing refuted.
     """
     from lyapcheck.claims import run_proof
-    from lyapcheck.claims.certificates import certificates as certificates_of
     from lyapcheck.claims.render import renderer
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.cli.output import open_folder, write_whole
@@ -56,7 +58,7 @@ def command(
     with progress("check") as advance:
         result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
     if folder is not None:
-        for name, certificate in certificates_of(result).items():
+        for name, certificate in result.certificates.items():
             write_whole(folder / name, certificate.text())
     sys.stdout.write(renderer(format.value)(result, timings))
     raise typer.Exit(int(result.exit_code))

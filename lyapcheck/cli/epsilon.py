@@ -15,6 +15,7 @@ from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import argument_error
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def command(
         _write_certificates(folder, results)
     from lyapcheck.admissible.formats import renderer
 
-    sys.stdout.write(renderer(format.value)(results, times if timings else None))
+    sys.stdout.write(document_text(renderer(format.value)(results, times if timings else None)))
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 
@@ -31,5 +32,5 @@ def command(
     from lyapcheck.claims.explain import explain
     from lyapcheck.claims.explain_formats import renderer
 
-    sys.stdout.write(renderer(format.value)(explain(id, proof)))
+    sys.stdout.write(document_text(renderer(format.value)(explain(id, proof))))
     raise typer.Exit(int(Exit.PROVED))

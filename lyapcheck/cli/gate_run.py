@@ -7,6 +7,7 @@ import sys
 
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.printable import document_text
 from lyapcheck.gating.formats import renderer
 from lyapcheck.gating.gate import DECIDING, GateResult, gate, gate_exit
 from lyapcheck.verdicts import Exit
@@ -42,7 +43,7 @@ def run(call: GateCall) -> Exit:
         except InputError as error:
             problems += error.problems
     if results:
-        sys.stdout.write(renderer(call.format)(results))
+        sys.stdout.write(document_text(renderer(call.format)(results)))
         if call.format == "github" and os.environ.get(SUMMARY):
             _append_summary(os.environ[SUMMARY], results)
     if problems:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import io
 import os
 import sys
 
-from lyapcheck.errors import InputError
+from lyapcheck.cli.stopping import Stopping
+from lyapcheck.errors import InputError, argument_error
+from lyapcheck.files.printable import printable
 from lyapcheck.verdicts import Exit
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import TextIO
+
     import typer
 
 COMMANDS = (
@@ -32,6 +37,8 @@ CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
 INTERRUPTED = 130
 """128 + SIGINT."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+"""What a standard output that takes no more says; files are written elsewhere, by who says their names."""
 
 
 def build_app(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
@@ -44,34 +51,72 @@ def build_app(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
     _same_bytes_everywhere()
-    wanted = sys.argv[1] if len(sys.argv) > 1 else ""
     try:
-        if wanted == "gate":
-            _quick_gate(sys.argv[2:])
-        build_app((wanted,) if wanted in COMMANDS else COMMANDS)()
-    except SystemExit as leave:
-        # what Typer makes of a reader that went away is 1, which here would mean refuted
-        sys.exit(CLOSED_PIPE if isinstance(leave.__context__, BrokenPipeError) else leave.code)
+        _require_output()
+        with Stopping():
+            _run()
     except BrokenPipeError:
-        os.dup2(
-            os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno()
-        )  # what is left goes nowhere, in silence
+        _drop(sys.stdout)
         sys.exit(CLOSED_PIPE)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
     except InputError as error:
         for problem in error.problems:
-            print(f"error: {_one_line(str(problem))}", file=sys.stderr)
+            _tell(f"error: {problem}")
         sys.exit(Exit.USAGE)
     except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in FULL:
+            _drop(sys.stdout)
+            rule = f"cannot be written ({error.strerror})"
+            lost = argument_error("standard output", "", rule, "free some space, or send it elsewhere")
+            _tell(f"error: {lost}")
+            sys.exit(Exit.USAGE)
         if os.environ.get("LYAPCHECK_DEBUG"):
             raise
-        print(
-            f"internal error: {type(error).__name__}: {_one_line(str(error))}; "
-            "this is a fault in lyapcheck, run again with LYAPCHECK_DEBUG=1 and report what it prints",
-            file=sys.stderr,
+        _tell(
+            f"internal error: {type(error).__name__}: {error}; "
+            "this is a fault in lyapcheck, run again with LYAPCHECK_DEBUG=1 and report what it prints"
         )
         sys.exit(Exit.INTERNAL)
+
+
+def _run() -> None:
+    """Run the command, all its output written, and leave."""
+    wanted = sys.argv[1] if len(sys.argv) > 1 else ""
+    try:
+        if wanted == "gate":
+            _quick_gate(sys.argv[2:])
+        build_app((wanted,) if wanted in COMMANDS else COMMANDS)(prog_name="lyapcheck")
+    except SystemExit as leave:
+        # what Typer makes of a reader that went away is 1, which here would mean refuted
+        if isinstance(leave.__context__, BrokenPipeError):
+            raise leave.__context__ from None
+        sys.stdout.flush()
+        raise
+
+
+def _require_output() -> None:
+    """Refuse to run without a standard output: the first file that is opened would take its place."""
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115 (to the end of the process)
+    if sys.stdout is None:
+        raise argument_error("standard output", "", "is closed", "open it, or send it to /dev/null")
+
+
+def _drop(stream: TextIO) -> None:
+    """Send what is left for a stream that takes no more nowhere, in silence."""
+    try:
+        stream.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def _tell(line: str) -> None:
+    """One line on standard error, with nothing in it that would break it or steer a terminal."""
+    try:
+        print(printable(line), file=sys.stderr)
+    except OSError:
+        _drop(sys.stderr)
 
 
 def _quick_gate(words: list[str]) -> None:
@@ -100,6 +145,5 @@ def _same_bytes_everywhere() -> None:
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
 
 
-def _one_line(text: str) -> str:
-    """The text with everything that would break the line, or steer a terminal, written as an escape."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+if __name__ == "__main__":
+    main()

@@ -13,6 +13,7 @@ from lyapcheck.cli.eps0 import Eps0
 from lyapcheck.cli.output import write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
 from lyapcheck.cli.progress import Advance
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class Output:
         """Samples to their file or to standard output, else the summary to standard output."""
         if self.csv is not None and self.csv != "-":
             write_whole(Path(self.csv), samples())
-        sys.stdout.write(samples() if self.csv == "-" else summary())
+        sys.stdout.write(document_text(samples() if self.csv == "-" else summary()))
 
 
 @dataclass

@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
+from lyapcheck.temporary import pending
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -52,10 +53,11 @@ def write_whole(path: Path, content: str | bytes) -> None:
     temporary = None
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content.encode("utf-8") if isinstance(content, str) else content)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
+        with pending(temporary):
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content.encode("utf-8") if isinstance(content, str) else content)
+            os.chmod(temporary, 0o666 & ~_umask())
+            os.replace(temporary, path)
     except OSError as error:
         if temporary is not None and os.path.exists(temporary):
             os.unlink(temporary)

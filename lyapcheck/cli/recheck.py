@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from enum import StrEnum
 from typing import Annotated
 
 import typer
+
+from lyapcheck.check.command import HELP, run
+from lyapcheck.check.limits import MOST, Limits
 
 
 class RecheckFormat(StrEnum):
@@ -20,24 +22,17 @@ def command(
     certificates: Annotated[
         list[str], typer.Argument(help="Certificate files, or directories of them.", metavar="CERTIFICATE…")
     ],
-    format: Annotated[RecheckFormat, typer.Option(help="How to write it.")] = RecheckFormat.TEXT,  # noqa: A002
+    format: Annotated[RecheckFormat, typer.Option(help=HELP["format"])] = RecheckFormat.TEXT,  # noqa: A002
+    full: Annotated[bool, typer.Option("--full", help=HELP["full"])] = False,
+    trusted: Annotated[bool, typer.Option("--trusted", help=HELP["trusted"])] = False,
+    seconds: Annotated[int, typer.Option(min=1, max=MOST, help=HELP["seconds"])] = Limits.seconds,
+    memory: Annotated[int, typer.Option(min=1, max=MOST, help=HELP["memory"])] = Limits.memory,
 ) -> None:
-    """Verify certificates with the small checker alone: accepted, or refused with the reason.
+    """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
 
-    In a directory everything that a certificate uses must be there too. Exit code 0: all accepted, 1: some
-    refused, 2: a file cannot be read.
+    What is printed as a statement is rendered from its data; the words of its author are marked as such. A
+    certificate is undecided as long as one that it uses is not at hand. Exit code 0: all accepted, 1: some
+    refused, 2: a file cannot be read, 3: some undecided and none refused, 4: one statement both proved and
+    refuted.
     """
-    from lyapcheck.check.files import Unreadable, gather
-    from lyapcheck.check.recheck import recheck
-    from lyapcheck.check.render import as_json, text
-    from lyapcheck.errors import InputError, Problem
-    from lyapcheck.verdicts import Exit
-
-    try:
-        outcome = recheck(gather(certificates))
-    except Unreadable as error:
-        repair = "give files written by check --certificates, or their directory"
-        problems = [Problem(name, None, "CERTIFICATE", "", rule, repair) for name, rule in error.problems]
-        raise InputError(problems) from error
-    sys.stdout.write((as_json if format is RecheckFormat.JSON else text)(outcome))
-    raise typer.Exit(int(Exit.PROVED if outcome.all_accepted else Exit.REFUTED))
+    raise typer.Exit(run(certificates, format.value, full, trusted, seconds, memory))

@@ -11,6 +11,7 @@ import typer
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import progress
 from lyapcheck.errors import argument_error
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def command(
     with progress("report") as advance:
         report = build(subject, advance)
     write(render(report, formats), out)
-    sys.stdout.write(_summary(report, out, formats))
+    sys.stdout.write(document_text(_summary(report, out, formats)))
     raise typer.Exit(int(Exit.PROVED))
 
 

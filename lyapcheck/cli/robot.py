@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from lyapcheck.cli.progress import progress
+from lyapcheck.files.printable import document_text
 
 
 class RobotFormat(StrEnum):
@@ -48,5 +49,5 @@ def command(
 
     with progress("robot") as advance:
         report = build(model, max_boxes, advance)
-    sys.stdout.write(renderer(format.value)(report))
+    sys.stdout.write(document_text(renderer(format.value)(report)))
     raise typer.Exit(int(report.exit_code))

@@ -13,6 +13,7 @@ from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import progress
 from lyapcheck.errors import argument_error
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -69,7 +70,7 @@ def command(
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         _draw(table, folder)
-    sys.stdout.write(renderer(format.value)(table))
+    sys.stdout.write(document_text(renderer(format.value)(table)))
     raise typer.Exit(int(Exit.PROVED))
 
 

@@ -15,6 +15,7 @@ from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.errors import argument_error
+from lyapcheck.files.printable import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def command(
     tuning = tune(robot, members or (), targets, bounds, against)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
-    sys.stdout.write(renderer(format.value)(tuning))
+    sys.stdout.write(document_text(renderer(format.value)(tuning)))
     if format is TuneFormat.TOML:
         for item in tuning.sets:
             for reason in item.reasons:

@@ -14,6 +14,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from lyapcheck.temporary import pending
+
 _DIGEST = hashlib.sha256().digest_size
 
 
@@ -53,7 +55,7 @@ def _write(home: Path, content: bytes) -> Path:
     """A new file that only this user can read, gone again if it cannot be written to its end."""
     handle, name = tempfile.mkstemp(dir=home, prefix=".new-")
     try:
-        with os.fdopen(handle, "wb") as file:
+        with pending(name), os.fdopen(handle, "wb") as file:
             file.write(content)
     except OSError:
         Path(name).unlink(missing_ok=True)
@@ -64,7 +66,7 @@ def _write(home: Path, content: bytes) -> Path:
 @contextlib.contextmanager
 def workplace() -> Iterator[Path]:
     """A private directory that is gone afterwards."""
-    with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name:
+    with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name, pending(name):
         yield Path(name)
 
 

@@ -139,7 +139,7 @@ def _value(text: str, form: type, numbers: dict[str, Fraction]) -> object:
         quote = text[:1]
         _require(quote in ('"', "'"))
         found, end, rest = text[1:].partition(quote)
-        _require(bool(end) and (quote == "'" or "\\" not in found) and _nothing(rest))
+        _require(bool(end) and (quote == "'" or "\\" not in found) and found.isprintable() and _nothing(rest))
         return found
     if form is tuple:
         inner, bracket, rest = text.partition("]")

@@ -10,7 +10,7 @@ from typing import Any, Self
 from lyapcheck.errors import Problem
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
 from lyapcheck.files.place import KeyPath
-from lyapcheck.files.printable import printable
+from lyapcheck.files.printable import RETYPE, UNPRINTABLE, printable
 
 
 class Notes:
@@ -52,6 +52,9 @@ class Fields:
             return ""
         if not isinstance(value, str) or not value.strip():
             self.fail(key, "must be a non-empty text", f'write {key} = "…"')
+            return ""
+        if not value.isprintable():
+            self.fail(key, UNPRINTABLE, RETYPE)
             return ""
         return value
 

@@ -13,13 +13,14 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
-from lyapcheck.check.loop import proves
+from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.constants import robot_bounds
 from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.lyapunov.scalar import RobotBounds, scalar_form, sharp_form
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.scalar_program import scalar_epsilon
 from lyapcheck.search.setting import Setting
@@ -111,5 +112,5 @@ def _proofs(setting: Setting, coarse: Fraction) -> Iterator[Fraction]:
     if radial is not None:
         yield radial.closure.eps0
     closure = setting.closure(coarse)
-    if proves(closure, "."):
+    if Proof(closure, BoxTree("."), setting.inertia_proof).accepted():
         yield closure.eps0

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.report.drawings import draw_claims, draw_comparisons, draw_family, draw_sensitivity, draw_set
 from lyapcheck.report.jobs import claims_job, gains_job, sensitivity_job
 from lyapcheck.report.model import Data
+from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
@@ -47,7 +50,8 @@ def compute(subject: Subject, tell: Progress) -> Computed:
         tell: told the fraction done and a few words.
     """
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
-    with ProcessPoolExecutor(WORKERS, mp_context=get_context("spawn")) as pool:
+    pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
+    with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         jobs = _submit(subject, pool)
         figures = draw_family(subject.ms) | _drawn(jobs, tell)
     parts = [job.result() for job in jobs.sets]
@@ -61,6 +65,11 @@ def compute(subject: Subject, tell: Progress) -> Computed:
         sensitivity=study,
         figures=figures | draw_comparisons(epsilon, runs, study),
     )
+
+
+def _work_in(place: str) -> None:
+    """Put the temporary files of this process where who started it can remove them."""
+    tempfile.tempdir = place
 
 
 @dataclass(frozen=True)

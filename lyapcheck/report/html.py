@@ -5,13 +5,14 @@ from __future__ import annotations
 from importlib import resources
 from typing import Any
 
+from lyapcheck.escapes import html_text
 from lyapcheck.report.model import Report
 from lyapcheck.report.templating import environment
 
 
 def render(report: Report) -> dict[str, str]:
     """``index.html``, one page for each m, and the style sheet."""
-    env = environment(escape=True)
+    env = environment(html_text)
     env.filters["mathml"] = mathml
     pages = {"style.css": _style(), "index.html": env.get_template("index.html.j2").render(report=report)}
     for m in report.ms:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
+from lyapcheck.escapes import markdown_text
 from lyapcheck.report.model import Report
 from lyapcheck.report.templating import environment
 
 
 def render(report: Report) -> dict[str, str]:
     """``report.md`` and one file for each m."""
-    env = environment(escape=False)
+    env = environment(markdown_text)
     pages = {"report.md": env.get_template("index.md.j2").render(report=report)}
     for m in report.ms:
         pages[f"m{m}.md"] = env.get_template("member.md.j2").render(report=report, view=report.of(m))

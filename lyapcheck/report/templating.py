@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from importlib import resources
 from itertools import groupby
 from typing import Any
@@ -10,14 +12,18 @@ from lyapcheck.report import text, words
 from lyapcheck.report.drawings import file_stem
 
 
-def environment(escape: bool) -> Any:
-    """An environment with the templates, strict about names, and the words of ``lyapcheck.report.text``."""
+def environment(escape: Callable[[str], str]) -> Any:
+    """An environment with the templates, strict about names, and the words of ``lyapcheck.report.text``.
+
+    Whatever a template fills in is escaped unless it is markup already.
+    """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     folder = str(resources.files("lyapcheck.report") / "templates")
     env = Environment(
         loader=FileSystemLoader(folder),
-        autoescape=escape,
+        autoescape=True,
+        finalize=partial(_escaped, escape),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -25,9 +31,7 @@ def environment(escape: bool) -> Any:
     )
     env.globals.update(SYMBOLS=text.SYMBOLS, plural=text.plural, tally=text.tally)
     env.filters.update(number=text.number, fixed=text.fixed, bracket=text.bracket, joined=text.joined)
-    env.filters.update(
-        listed=text.listed, together=text.together, sections=sections, cell=cell, stem=file_stem
-    )
+    env.filters.update(listed=text.listed, together=text.together, sections=sections, stem=file_stem)
     env.filters.update(
         quantity=words.quantity_words,
         printed=words.printed_words,
@@ -61,6 +65,11 @@ def sections(claims: Any) -> list[tuple[str, list[Any]]]:
     return [(name, list(rows)) for name, rows in groupby(claims, key=lambda row: row["section"] or "Claims")]
 
 
-def cell(value: Any) -> str:
-    """A text that may stand in a Markdown table."""
-    return str(value).replace("|", "\\|").replace("\n", " ")
+def _escaped(escape: Callable[[str], str], value: Any) -> Any:
+    """A value as markup, on one line; spaces at which no line ends stay what they are."""
+    from markupsafe import Markup
+
+    if hasattr(value, "__html__"):
+        return value
+    line = str(value).replace("\n", " ")
+    return Markup(words.NARROW.join(map(escape, line.split(words.NARROW))))

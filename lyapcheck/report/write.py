@@ -11,6 +11,7 @@ from pathlib import Path
 
 from lyapcheck.errors import argument_error
 from lyapcheck.report.model import Report
+from lyapcheck.temporary import pending
 
 FORMATS = ("html", "md", "json")
 _MODULES = {"html": "html", "md": "markdown", "json": "json"}
@@ -55,11 +56,12 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
-        for name, content in files.items():
-            _put(staged / name, content)
-        for name in files:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            os.replace(staged / name, folder / name)
+        with pending(staged):
+            for name, content in files.items():
+                _put(staged / name, content)
+            for name in files:
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                os.replace(staged / name, folder / name)
     except OSError as error:
         repair = "free some space or name another folder"
         raise argument_error("--out", folder, f"cannot be written ({error.strerror})", repair) from error

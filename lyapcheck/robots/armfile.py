@@ -73,6 +73,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.errors import InputError
+from lyapcheck.files import printable
 from lyapcheck.robots import trig
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
@@ -109,7 +110,7 @@ def read_arm(path: Path, shown: str | None = None, spread: Fraction = EXACT) -> 
     top.close()
     if notes.problems or plan is None:
         raise InputError(notes.problems)
-    model = _model(path.stem, title, remarks, plan, spread)
+    model = _model(printable(path.stem), title, remarks, plan, spread)
     check_positive_definite(model, plan.place, notes)
     if notes.problems:
         raise InputError(notes.problems)

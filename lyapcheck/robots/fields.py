@@ -9,6 +9,7 @@ from typing import cast
 
 from lyapcheck.files import Fields, Notes, decimal_text
 from lyapcheck.files.place import KeyPath
+from lyapcheck.files.printable import RETYPE, UNPRINTABLE
 from lyapcheck.robots.number import Number
 
 LARGEST = 10**12
@@ -50,6 +51,9 @@ class ArmFields(Fields):
         if not isinstance(value, list) or not all(isinstance(item, str) and item.strip() for item in value):
             self.fail(key, "must be a list of non-empty texts", f'write {key} = ["…", "…"]')
             return ()
+        for i, item in enumerate(value):
+            if not item.isprintable():
+                self.notes.fail((*self.path, key, i), item, UNPRINTABLE, RETYPE)
         return tuple(value)
 
     def quantity(self, key: str, unit: str, sign: Sign = Sign.ANY, required: bool = False) -> Number | None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.errors import InputError
+from lyapcheck.files import printable
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_motor
 from lyapcheck.robots.model import RobotModel
@@ -41,7 +42,9 @@ def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmField
             top.notes.fail(("joints", i, "name"), motor.name, "is no joint of this chain", repair)
     if top.notes.problems:
         raise InputError(top.notes.problems)
-    return _told(replace(model, name=path.stem, title=title, remarks=(*remarks, *model.remarks)), motors)
+    return _told(
+        replace(model, name=printable(path.stem), title=title, remarks=(*remarks, *model.remarks)), motors
+    )
 
 
 def _read_motors(top: ArmFields) -> list[Joint]:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from time import monotonic
 
-from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
-from lyapcheck.check.loop import Closure, proves
+from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, Progress
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
@@ -23,19 +23,6 @@ MOST_JOINTS = 3
 """Boxes of (q, e) have 2n − 1 sides: with more joints the bounds in ‖e‖ alone are what can be had."""
 _MANY_JOINTS = f"boxes of (q, e) are looked at up to {MOST_JOINTS} joints only"
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
-
-
-@dataclass(frozen=True)
-class Proof:
-    """A closure and the data by which the checker found dV/dt < 0 for it."""
-
-    closure: Closure
-    by: BoxTree | RadialBounds
-
-    @property
-    def boxes(self) -> int:
-        """How many boxes the data consist of."""
-        return self.by.tree.count(".")
 
 
 @dataclass(frozen=True)
@@ -73,7 +60,7 @@ def certified_epsilon(
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
 
-    Soundness: every proof has been accepted by ``lyapcheck.check.loop``, in balls.
+    Soundness: every proof has been accepted by ``lyapcheck.check.verify``, in balls.
     """
     if not setting.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
@@ -85,7 +72,7 @@ def certified_epsilon(
     while found:
         proof = found.pop()
         tell(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
-        if proves(proof.closure, proof.by.tree, jobs):
+        if proof.accepted(jobs):
             return Certified(proof, looked_at, reason)
         reason = f"the boxes found for ε₀ = {float(proof.closure.eps0):.6g} were refused by the checker"
     return Certified(None, looked_at, reason)
@@ -107,7 +94,7 @@ def _attempts(
         looked_at += outcome.boxes
         if not outcome.proved:
             return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)
-        found.append(Proof(closure, BoxTree(outcome.tree)))
+        found.append(Proof(closure, BoxTree(outcome.tree), setting.inertia_proof))
     return found, looked_at, ""
 
 

@@ -81,13 +81,13 @@ def margin_at(
 def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
     """The margin at the largest share of its ε₀ for which the checker accepts a proof.
 
-    Soundness: ``lyapcheck.check.decay.shown`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.loop.decay.shown`` has accepted what is handed back.
     """
     for share in SHARES:
         eps0 = _short(margin.closure.eps0 * share)
         tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
         by = _data(setting, tried, max_boxes)
-        if by is not None and shown(tried, by, jobs):
+        if by is not None and shown(tried, setting.inertia_proof, by, jobs):
             return Shown(tried, by)
     return None
 

@@ -13,14 +13,14 @@ from lyapcheck.check.kinds.decreasing import RadialBounds
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.closure import PI_ABOVE
-from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, Table, proves_radially
+from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, Table
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.functions import cosine, sine
-from lyapcheck.search.certified import Proof
 from lyapcheck.search.cover import cover
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ def radial_epsilon(setting: Setting) -> Proof | None:
     Args:
         setting: gains and arm; over ranges there is no such proof yet.
 
-    Soundness: ``lyapcheck.check.loop.radial`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
     if not setting.family.bounded or setting.ranges:
         return None
@@ -64,11 +64,9 @@ def radial_epsilon(setting: Setting) -> Proof | None:
     if low == 0:
         return None
     closure = setting.closure(_short(low))
-    if not proves_radially(closure, data):
-        return None
-    return Proof(
-        closure, RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
-    )
+    by = RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
+    proof = Proof(closure, by, setting.inertia_proof)
+    return proof if proof.accepted() else None
 
 
 def _holds(setting: Setting, parts: Parts, eps0: Fraction) -> bool:

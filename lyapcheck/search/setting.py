@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.states import Arm, Controller, Functions
 from lyapcheck.errors import argument_error
@@ -18,6 +19,7 @@ from lyapcheck.family import Family, named
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import fraction
+from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
 if TYPE_CHECKING:
     from flint import fmpq_mpoly
@@ -112,6 +114,14 @@ class Setting:
     def ranged(self) -> RobotModel:
         """The arm that certificates are about: with its parameters if they are to range."""
         return self.model if self.ranges else self.fixed
+
+    @cached_property
+    def inertia_proof(self) -> Bisection | Links:
+        """What shows M ≻ 0."""
+        if self.ranges:
+            return Bisection()
+        remember(self.fixed)
+        return mass_proof(mass_of(self.fixed))
 
     def closure(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> Closure:
         """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given."""

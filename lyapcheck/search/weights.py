@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop import proves
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import MAX_BOXES, Proof
+from lyapcheck.search.certified import MAX_BOXES
 from lyapcheck.search.cover import Progress
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
 
@@ -95,7 +95,7 @@ def weighted_epsilon(
         seed: of the sampled states.
         on_progress: told the share done.
 
-    Soundness: ``lyapcheck.check.loop`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
     tell = on_progress or (lambda fraction, note: None)
     found, states = _proposal(setting, float(eps0), seed, lambda f, note: tell(0.5 * f, note))
@@ -107,8 +107,9 @@ def weighted_epsilon(
             continue
         outcome = certify(Problem(closure, setting.ranged), max(0, max_boxes // len(SHARES)))
         looked_at += outcome.boxes
-        if outcome.proved and proves(closure, outcome.tree, jobs):
-            return Weighted(Proof(closure, BoxTree(outcome.tree)), states, looked_at)
+        proof = Proof(closure, BoxTree(outcome.tree), setting.inertia_proof) if outcome.proved else None
+        if proof is not None and proof.accepted(jobs):
+            return Weighted(proof, states, looked_at)
     return None
 
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lyapcheck.escapes import csv_text
 from lyapcheck.simulate.run import Run
 
 SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
@@ -32,5 +33,5 @@ def runs_csv(runs: Sequence[Run]) -> str:
     for run in runs:
         table = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
         complete = "yes" if run.complete else "no"
-        writer.writerows([run.name, complete, *map(repr, row)] for row in table.tolist())
+        writer.writerows([csv_text(run.name), complete, *map(repr, row)] for row in table.tolist())
     return text.getvalue()

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.escapes import markdown_text
+from lyapcheck.markdown import markdown_table
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.indices import SETTLING_BAND
 from lyapcheck.simulate.printed import printed_for
@@ -31,7 +33,7 @@ LEGEND = f"Settled: within {100 * SETTLING_BAND:g} % of the step for good; — w
 
 def as_text(runs: Sequence[Run]) -> str:
     """For each run a headline, its facts and a row a joint; then what is assumed."""
-    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *_bullets(runs)])]) + "\n"
+    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *bullets(_shared_notes(runs))])]) + "\n"
 
 
 def _block(run: Run) -> str:
@@ -52,13 +54,25 @@ def _padded(row: Sequence[str], widths: Sequence[int]) -> list[str]:
 
 def as_markdown(runs: Sequence[Run]) -> str:
     """The same as Markdown."""
-    return "\n\n".join([*map(_section, runs), LEGEND, "\n".join(_bullets(runs))]).rstrip() + "\n"
+    notes = bullets(_shared_notes(runs), markdown_text)
+    return "\n\n".join([*map(_section, runs), LEGEND, "\n".join(notes)]).rstrip() + "\n"
 
 
 def _section(run: Run) -> str:
-    rows = [HEADS, ("---", *["---:"] * (len(HEADS) - 2), "---"), *_rows(run)]
-    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return f"## {_headline(run)}\n\n" + "\n".join(f"- {fact}" for fact in _facts(run)) + f"\n\n{table}"
+    return section(_headline(run), _facts(run), HEADS, _rows(run), words=1)
+
+
+def section(
+    headline: str, facts: Sequence[str], heads: Sequence[str], rows: Sequence[Sequence[str]], words: int
+) -> str:
+    """A heading, a list of facts and a table in Markdown, see `markdown_table`."""
+    head, items = f"## {markdown_text(headline)}", bullets(facts, markdown_text)
+    return "\n".join([head, "", *items, "", *markdown_table(heads, rows, words)])
+
+
+def bullets(sentences: Sequence[str], escape: Callable[[str], str] = str) -> list[str]:
+    """The items of a list."""
+    return [f"- {escape(sentence)}" for sentence in sentences]
 
 
 def _headline(run: Run) -> str:
@@ -142,10 +156,6 @@ def cell(value: float | None, form: str) -> str:
 
 def _shared_notes(runs: Sequence[Run]) -> list[str]:
     return list(dict.fromkeys(note for run in runs for note in run.notes))
-
-
-def _bullets(runs: Sequence[Run]) -> list[str]:
-    return [f"- {note}" for note in _shared_notes(runs)]
 
 
 def as_json(runs: Sequence[Run]) -> str:

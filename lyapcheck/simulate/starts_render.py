@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.simulate.render import LEGEND, SCHEMA, broken, cell
+from lyapcheck.escapes import csv_text, markdown_text
+from lyapcheck.simulate.render import LEGEND, SCHEMA, broken, bullets, cell, section
 from lyapcheck.simulate.starts import SHARES, Sweep, quantiles
 
 Array = NDArray[np.float64]
@@ -23,12 +24,13 @@ HEADS = ("", *("least" if s == 0 else "most" if s == 1 else f"{100 * s:g} %" for
 
 def as_text(sweeps: Sequence[Sweep]) -> str:
     """For each gain set a headline, counts, and a row a quantity with its quantiles."""
-    return "\n\n".join([*map(_block, sweeps), "\n".join([LEGEND, *_bullets(sweeps)])]) + "\n"
+    return "\n\n".join([*map(_block, sweeps), "\n".join([LEGEND, *bullets(_shared_notes(sweeps))])]) + "\n"
 
 
 def as_markdown(sweeps: Sequence[Sweep]) -> str:
     """The same as Markdown."""
-    return "\n\n".join([*map(_section, sweeps), LEGEND, "\n".join(_bullets(sweeps))]).rstrip() + "\n"
+    notes = bullets(_shared_notes(sweeps), markdown_text)
+    return "\n\n".join([*map(_section, sweeps), LEGEND, "\n".join(notes)]).rstrip() + "\n"
 
 
 def _block(found: Sweep) -> str:
@@ -42,9 +44,7 @@ def _block(found: Sweep) -> str:
 
 
 def _section(found: Sweep) -> str:
-    rows = [HEADS, ("---", *["---:"] * (len(HEADS) - 1)), *_rows(found)]
-    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return f"## {_headline(found)}\n\n" + "\n".join(f"- {fact}" for fact in _facts(found)) + f"\n\n{table}"
+    return section(_headline(found), _facts(found), HEADS, _rows(found), words=0)
 
 
 def _headline(found: Sweep) -> str:
@@ -85,13 +85,13 @@ def _rows(found: Sweep) -> list[tuple[str, ...]]:
     ]
 
 
-def _bullets(sweeps: Sequence[Sweep]) -> list[str]:
-    return [f"- {note}" for note in dict.fromkeys(note for found in sweeps for note in found.notes)]
+def _shared_notes(sweeps: Sequence[Sweep]) -> list[str]:
+    return list(dict.fromkeys(note for found in sweeps for note in found.notes))
 
 
 def as_json(sweeps: Sequence[Sweep]) -> str:
     """Schema ``lyapcheck/simulate/1`` with ``kind: random starts``; quantiles by name, units in the names."""
-    notes = list(dict.fromkeys(note for found in sweeps for note in found.notes))
+    notes = _shared_notes(sweeps)
     results = [_result(found) for found in sweeps]
     data = {"schema": SCHEMA, "version": version("lyapcheck"), "results": results, "notes": notes}
     return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
@@ -131,10 +131,12 @@ def sweeps_csv(sweeps: Sequence[Sweep]) -> str:
         quantities = _quantities(found)
         starts = [f"q{i + 1}(0) [rad]" for i in range(len(found.joints))]
         if index == 0:
-            writer.writerow(["gains", "run", "complete", *starts, *(name for name, _, _ in quantities)])
+            writer.writerow(
+                ["gains", "run", "complete", *starts, *(csv_text(name) for name, _, _ in quantities)]
+            )
         table = np.column_stack((found.q0, *(values for _, values, _ in quantities)))
         for number, (row, whole) in enumerate(zip(table.tolist(), found.runs.complete, strict=True), start=1):
-            writer.writerow([found.name, number, "yes" if whole else "no", *map(repr, row)])
+            writer.writerow([csv_text(found.name), number, "yes" if whole else "no", *map(repr, row)])
     return text.getvalue()
 
 

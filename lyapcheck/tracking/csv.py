@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lyapcheck.escapes import csv_text
 from lyapcheck.tracking.run import TrackingRun
 
 SIGNALS = (
@@ -38,5 +39,5 @@ def tracking_csv(runs: Sequence[TrackingRun]) -> str:
         complete = "yes" if run.complete else "no"
         bound = [""] * m.t.size if run.bound is None else [repr(x) for x in run.bound.tolist()]
         for row, last in zip(table.tolist(), bound, strict=True):
-            writer.writerow([run.name, complete, *map(repr, row), last])
+            writer.writerow([csv_text(run.name), complete, *map(repr, row), last])
     return text.getvalue()

@@ -8,7 +8,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.simulate.render import broken, cell, in_columns
+from lyapcheck.escapes import markdown_text
+from lyapcheck.simulate.render import broken, bullets, cell, in_columns, section
 from lyapcheck.tracking.run import TrackingRun
 
 LEGEND = (
@@ -19,12 +20,13 @@ LEGEND = (
 
 def as_text(runs: Sequence[TrackingRun]) -> str:
     """For each run a headline, its facts and a row a joint; then what is assumed."""
-    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *_bullets(runs)])]) + "\n"
+    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *bullets(_shared_notes(runs))])]) + "\n"
 
 
 def as_markdown(runs: Sequence[TrackingRun]) -> str:
     """The same as Markdown."""
-    return "\n\n".join([*map(_section, runs), LEGEND, "\n".join(_bullets(runs))]).rstrip() + "\n"
+    legend, notes = markdown_text(LEGEND), bullets(_shared_notes(runs), markdown_text)
+    return "\n\n".join([*map(_section, runs), legend, "\n".join(notes)]).rstrip() + "\n"
 
 
 def _block(run: TrackingRun) -> str:
@@ -32,10 +34,7 @@ def _block(run: TrackingRun) -> str:
 
 
 def _section(run: TrackingRun) -> str:
-    heads = _heads(run)
-    rows = [heads, ("---", *["---:"] * (len(heads) - 2), "---"), *_rows(run)]
-    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return f"## {_headline(run)}\n\n" + "\n".join(f"- {fact}" for fact in _facts(run)) + f"\n\n{table}"
+    return section(_headline(run), _facts(run), _heads(run), _rows(run), words=1)
 
 
 def _headline(run: TrackingRun) -> str:
@@ -118,5 +117,5 @@ def up(value: Fraction) -> str:
     return f"{float(math.ceil(value * scale) / scale):.4g}"
 
 
-def _bullets(runs: Sequence[TrackingRun]) -> list[str]:
-    return [f"- {note}" for note in dict.fromkeys(note for run in runs for note in run.notes)]
+def _shared_notes(runs: Sequence[TrackingRun]) -> list[str]:
+    return list(dict.fromkeys(note for run in runs for note in run.notes))

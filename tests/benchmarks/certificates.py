@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
-from lyapcheck.admissible.certificates import statement
 from lyapcheck.check.loop import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.search.branch_and_bound import certify
@@ -68,7 +67,7 @@ def _many(arm: str, setting: Setting) -> CertificateResult:
     proof, searched = _timed(lambda: radial_epsilon(setting))
     if witness is None or proof is None or setting.gains.m is None:
         raise RuntimeError(f"nothing was proved, or nothing refuted, on {arm}")
-    verdict, checked = _timed(lambda: verify(statement(proof.closure), proof.by))
+    verdict, checked = _timed(lambda: verify(proof.statement, proof.certificate))
     if verdict.verdict != "proved":
         raise RuntimeError(f"the checker refused ε₀ = {float(proof.closure.eps0):.6g} on {arm}")
     cost = Cost(float(proof.closure.eps0 / witness.eps0), proof.boxes, searched, checked)

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from lyapcheck.claims.procedures import decide
+from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Statement
 from lyapcheck.verdicts import Verdict
 from tests.refutations.mutations import Fault, faults_of
@@ -84,7 +84,7 @@ def _split(items: Iterable[Item], test: Callable[[Item], bool]) -> tuple[list[It
 def verdict_of(statement: Statement) -> Verdict:
     """The verdict of lyapcheck; what overflows while it looks for points is no point."""
     with np.errstate(all="ignore"):
-        return decide(statement).verdict
+        return propose(statement).verdict
 
 
 def outcomes(faults: Iterable[Fault], by: Decide = verdict_of) -> list[Outcome]:

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.admissible.formats.words import heads, notes, remarks, row
+from lyapcheck.escapes import markdown_text
+from lyapcheck.markdown import markdown_table
 
 if TYPE_CHECKING:
     from lyapcheck.admissible import EpsilonResult
@@ -14,13 +16,10 @@ if TYPE_CHECKING:
 def render(results: Sequence[EpsilonResult], seconds: Sequence[float] | None = None) -> str:
     """A table with a row a gain set, what follows from each, and what is assumed."""
     times = seconds if seconds is not None else [None] * len(results)
+    rows = [row(result, time) for result, time in zip(results, times, strict=True)]
     top = heads(seconds)
-    lines = [_row(top), _row(["---"] * len(top))]
-    lines += [_row(row(result, time)) for result, time in zip(results, times, strict=True)]
+    lines = markdown_table(top, rows, words=len(top) - 1)
     for result in results:
-        lines += ["", f"**{result.name}**", "", *(f"- {remark}" for remark in remarks(result))]
-    return "\n".join([*lines, "", *(f"- {note}" for note in notes(results))]) + "\n"
-
-
-def _row(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cells) + " |"
+        said = [f"- {markdown_text(remark)}" for remark in remarks(result)]
+        lines += ["", f"**{markdown_text(result.name)}**", "", *said]
+    return "\n".join([*lines, "", *(f"- {markdown_text(note)}" for note in notes(results))]) + "\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS, variables
@@ -14,7 +15,11 @@ MAX_DIGITS = 4000
 MAX_NAME = 200
 MAX_M = 10_000
 MAX_EXPONENT = 50_000
-RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
+MAX_SIZE = 1_000_000
+RATIONAL = re.compile(r"0|-?[1-9][0-9]*(/[1-9][0-9]*)?")
+NAME = re.compile(r"[A-Za-zα-ξπ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα-ξπ-ωΓΔΘΛΞΠΣΦΨΩ0-9₀-₉_]*[′']*")
+"""Latin and Greek letters, without omicron and the capitals that look Latin: no name can pass for another, or
+for part of a statement."""
 
 Parts = list[Any]
 
@@ -25,10 +30,20 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
     Raises:
         Refused: at the first node or variable that is wrong.
     """
+    names = None if names is None else set(names)
+    for name in names or ():
+        require_name(name)
     for tree in trees:
         require_tree(tree, MAX_DEPTH)
+        size = written_out(tree, {})
+        require(
+            size <= MAX_SIZE,
+            "expression",
+            tree[0],
+            f"has more than {MAX_SIZE} parts with its powers written out",
+        )
         if names is not None:
-            for name in sorted(variables(tree) - set(names)):
+            for name in sorted(variables(tree) - names):
                 raise Refused("variable", name, "is not declared by the statement")
 
 
@@ -61,9 +76,37 @@ def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> N
             require_tree(part, depth - 1, seen)
 
 
+def written_out(tree: Any, known: dict[int, int]) -> int:
+    """The numbers, names and functions in an expression whose powers are written as products.
+
+    It bounds the degree, and with it the digits, of all that an expression expands to. ``known`` has the
+    sizes of parts by their ids, which are their own as long as the expression exists.
+    """
+    if id(tree) not in known:
+        operation, *parts = tree
+        inner = 0
+        for part in parts:
+            inner += written_out(part, known) if isinstance(part, tuple) else 0
+        times = parts[1] if operation == "pow" else 4 * parts[0] if operation in FAMILY else 1
+        number = len(parts[0]) // 10 if operation == "num" else 0
+        known[id(tree)] = 1 + number + inner * times
+    return known[id(tree)]
+
+
+def require_name(name: str) -> None:
+    """Refuse what is not the name of a variable.
+
+    Raises:
+        Refused: it is too long, or has other signs than letters, digits and underscores.
+    """
+    plain = len(name) <= MAX_NAME and NAME.fullmatch(name) is not None
+    require(plain, "variable", name, "is not a name of Latin or Greek letters, digits and underscores")
+
+
 def is_rational_text(value: Any) -> bool:
-    """Whether a value is an integer or a quotient of integers as text, of bearable length."""
-    return isinstance(value, str) and len(value) <= MAX_DIGITS and RATIONAL.fullmatch(value) is not None
+    """Whether a value is an integer or a quotient of integers in lowest terms as text, of bearable length."""
+    rational = isinstance(value, str) and len(value) <= MAX_DIGITS and RATIONAL.fullmatch(value) is not None
+    return rational and str(Fraction(value)) == value
 
 
 def _types(*wanted: type) -> Callable[[Parts], bool]:
@@ -76,7 +119,9 @@ def _member(parts: Parts) -> bool:
 
 SHAPES: dict[str, Callable[[Parts], bool]] = {
     "num": lambda parts: len(parts) == 1 and is_rational_text(parts[0]),
-    "var": lambda parts: _types(str)(parts) and 0 < len(parts[0]) <= MAX_NAME,
+    "var": lambda parts: (
+        _types(str)(parts) and len(parts[0]) <= MAX_NAME and NAME.fullmatch(parts[0]) is not None
+    ),
     "pi": _types(),
     "neg": _types(tuple),
     "div": _types(tuple, tuple),

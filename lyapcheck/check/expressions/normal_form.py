@@ -27,10 +27,14 @@ from lyapcheck.check.expressions.expression import (
     nodes,
     variables,
 )
+from lyapcheck.check.expressions.grammar import MAX_SIZE, written_out
 from lyapcheck.check.numbers.polynomials import rational
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
+MAX_STEPS = 5_000_000
+"""Products of two terms each that the product of two polynomials may take."""
 ODD = ("atan", "asin", "tan")
+AT_ZERO = {"sin": 0, "cos": 1, "tan": 0, "atan": 0, "asin": 0, "abs": 0}
 WITH_GENERATORS = frozenset((*FUNCTIONS, "gamma", "rho", "L", "pi", "h", "dh", "potential"))
 
 
@@ -46,7 +50,8 @@ class Ratio:
             return Ratio(self.top + other.top, self.bottom)
         common = self.bottom.gcd(other.bottom)
         left, right = self.bottom / common, other.bottom / common
-        return Ratio(self.top * right + other.top * left, left * other.bottom)
+        top = _product(self.top, right) + _product(other.top, left)
+        return Ratio(top, _product(left, other.bottom))
 
     def __neg__(self) -> Ratio:
         return Ratio(-self.top, self.bottom)
@@ -55,12 +60,12 @@ class Ratio:
         return self + (-other)
 
     def __mul__(self, other: Ratio) -> Ratio:
-        return Ratio(self.top * other.top, self.bottom * other.bottom)
+        return Ratio(_product(self.top, other.top), _product(self.bottom, other.bottom))
 
     def __truediv__(self, other: Ratio) -> Ratio:
         if other.top == 0:
             raise Unsupported("division by an expression that is identically zero")
-        return Ratio(self.top * other.bottom, self.bottom * other.top)
+        return Ratio(_product(self.top, other.bottom), _product(self.bottom, other.top))
 
     def lowest(self) -> Ratio:
         """The same quotient in lowest terms, with a leading coefficient of 1 below."""
@@ -104,6 +109,10 @@ class RationalAlgebra(Algebra):
     def function(self, name: str, value: Ratio) -> Ratio:
         """A function of a quotient, in generators."""
         value = Ratio(self.reduced(value.top), self.reduced(value.bottom)).lowest()
+        if value.top == 0 and name in AT_ZERO:
+            return self.number(Fraction(AT_ZERO[name]))
+        if name == "log" and value.top == value.bottom:
+            return self.number(Fraction(0))
         if name == "exp":
             return self._exponential(value)
         if name in HYPERBOLIC:
@@ -189,7 +198,14 @@ class RationalAlgebra(Algebra):
                 lower[(*exponents[:index], exponents[index] - 2, *exponents[index + 1 :])] = coefficient
             else:
                 keep[exponents] = coefficient
-        return self.ring.from_dict(keep) + self.ring.from_dict(lower) * square
+        return self.ring.from_dict(keep) + _product(self.ring.from_dict(lower), square)
+
+
+def _product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
+    """The product, unless it takes too many steps: a short text may stand for a polynomial without end."""
+    if len(left) * len(right) > MAX_STEPS:
+        raise Unsupported(f"a product of polynomials with {len(left)} and {len(right)} terms")
+    return left * right
 
 
 def _rational_root(radicand: fmpq_mpoly) -> Fraction | None:
@@ -210,6 +226,8 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     Raises:
         Unsupported: where the expression has no such form.
     """
+    if written_out(tree, {}) > MAX_SIZE:
+        raise Unsupported(f"more than {MAX_SIZE} parts with all powers written out")
     names = sorted(variables(tree))
     algebra = RationalAlgebra(names, room_for(tree))
     ratio = evaluate(tree, {name: algebra.variable(name) for name in names}, algebra)

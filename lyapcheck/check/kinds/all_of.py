@@ -25,6 +25,11 @@ class AllOf(Statement):
         """None of its own."""
         return []
 
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What the parts take for granted."""
+        return tuple(dict.fromkeys(line for _, part in self.parts for line in part.granted))
+
     def text(self) -> str:
         """The parts by name, in one line."""
         return "; ".join(f"{name}: {part.text()}" for name, part in self.parts)

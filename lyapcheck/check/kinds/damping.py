@@ -14,6 +14,7 @@ from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.inertia import mass_text
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Relation, Statement
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
@@ -58,9 +59,10 @@ class DampingBelow(Statement):
     def text(self) -> str:
         """The statement in one line."""
         return (
-            "for all κ > 0 and ε₀ > 0: if dV/dt < 0 at every state but the origin, for "
+            "for all κ > 0 and ε₀ > 0: if M(q) ≻ 0 and dV/dt < 0 at every state but the origin, for "
             f"K_p = {diagonal_text(self.kp)} and κ K_v with K_v = {diagonal_text(self.kv)}, then "
-            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}"
+            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; "
+            f"{mass_text(self.mass, self.parameters)}"
         )
 
 

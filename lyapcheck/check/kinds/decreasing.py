@@ -8,24 +8,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain
 
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import diagonal_text, number_text
-from lyapcheck.check.kinds.agrees import MAX_INPUTS
-from lyapcheck.check.loop import Closure, proves
+from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
+from lyapcheck.check.loop import Closure, proves, sharing
 from lyapcheck.check.loop.radial import Radial, proves_radially
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
-from lyapcheck.check.verify import Accepted, rule
+from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
 class Decreasing(Statement):
-    """dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
+    """M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
+
+    V of (13) is then positive definite and radially unbounded, so that the origin is globally asymptotically
+    stable by Lyapunov's direct method (``kelly2005control``, chapter 2).
 
     ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B, N·m·s/rad; ``parameters`` the
     range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀;
@@ -44,31 +46,39 @@ class Decreasing(Statement):
 
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
-        n = len(self.viscous)
-        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
-        for subject in ("mass", "kp", "kv"):
+        require_mass(self.mass, self.parameters)
+        n = len(self.mass)
+        for subject in ("viscous", "kp", "kv"):
             size = len(getattr(self, subject))
             require(size == n, subject, size, f"must be {n}, one a joint")
         coupling = len(self.coupling)
         require(coupling in (0, n), "coupling", coupling, f"must be empty or {n}, one a joint")
-        require(all(len(row) == n for row in self.mass), "mass", "a row", f"must have {n} entries")
-        length = 2 * n + len(self.parameters)
-        for powers, _ in chain.from_iterable(chain.from_iterable(self.mass)):
-            fits = len(powers) == length and all(0 <= p <= MAX_POWER for p in powers)
-            require(fits, "exponents", powers, f"must be {length} numbers from 0 to {MAX_POWER}")
-        for low, high in (*self.viscous, *self.parameters):
+        for low, high in self.viscous:
             require(low <= high, "range", f"[{low}, {high}]", "is empty")
-        require(len(self.parameters) <= MAX_INPUTS, "parameters", len(self.parameters), "are too many")
 
     def terms(self) -> list[tuple[Tree, Domain]]:
         """None: M, h and V have values everywhere."""
         return []
 
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What ties the numbers to a robot."""
+        return (
+            "the robot is (1) with this M(q), C by Christoffel symbols, and B, whose ranges hold its numbers",
+            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+        )
+
     def text(self) -> str:
         """The statement in one line."""
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
-        gains = f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}"
-        return f"dV/dt < 0 at every state but the origin, for {gains}, ε₀ = {number_text(self.eps0)}{weights}"
+        member_m = "" if self.m is None else f"_{self.m}"
+        friction = ", ".join(_ends_text(ends) for ends in self.viscous)
+        return (
+            "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
+            f"asymptotically stable by Lyapunov's direct method: for B = diag({friction}), "
+            f"h = {self.family}{member_m}, K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
+            f"ε₀ = {number_text(self.eps0)}{weights} and {mass_text(self.mass, self.parameters)}"
+        )
 
 
 @dataclass(frozen=True)
@@ -93,6 +103,15 @@ class RadialBounds(Proof):
 
 
 @dataclass(frozen=True)
+class PositiveAndDecreasing(Proof):
+    """A proof of M(q) ≻ 0, and boxes or bounds by which dV/dt < 0."""
+
+    rule = "M positive and V decreasing"
+    inertia: Proof
+    rate: Proof
+
+
+@dataclass(frozen=True)
 class StateWitness(Proof):
     """An arm within the ranges and a state of it at which dV/dt > 0."""
 
@@ -104,29 +123,43 @@ class StateWitness(Proof):
     w: tuple[Fraction, ...]
 
 
-MAX_ARM = 9
-
-
-MAX_POWER = 40
-
-
-@rule(Decreasing, BoxTree)
-def by_tree(statement: Decreasing, proof: BoxTree) -> Accepted:
-    """Soundness: ``lyapcheck.check.loop``."""
+@rule(Decreasing, PositiveAndDecreasing)
+def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
+    """Soundness: M ≻ 0 by a proof of its own, dV/dt < 0 by ``lyapcheck.check.loop``."""
+    positive = require_proved(
+        MassAbove(statement.mass, statement.parameters, Fraction(0)), proof.inertia, "M ≻ 0"
+    )
     closure = closure_of(statement)
     require(closure.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
-    if not proves(closure, proof.tree):
-        raise Refused("tree", f"of {proof.tree.count('.')} boxes", "has a box on which P ≻ 0 is not shown")
-    return Accepted("proved", "enclosure")
+    if isinstance(proof.rate, BoxTree):
+        shown = proves(closure, proof.rate.tree, sharing())
+        require(
+            shown, "tree", f"of {proof.rate.tree.count('.')} boxes", "has a box on which P ≻ 0 is not shown"
+        )
+    elif isinstance(proof.rate, RadialBounds):
+        shown = proves_radially(closure, radial_of(proof.rate))
+        require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
+    else:
+        raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
+    return Accepted("proved", weakest([positive, "enclosure"]))
 
 
-@rule(Decreasing, RadialBounds)
-def by_radial_bounds(statement: Decreasing, proof: RadialBounds) -> Accepted:
-    """Soundness: ``lyapcheck.check.loop.radial``."""
-    data = Radial(proof.weights, proof.inertia, proof.lowest, proof.angles, proof.tree, proof.cuts)
-    if not proves_radially(closure_of(statement), data):
-        raise Refused("bounds", "", "do not show dV/dt < 0 at every ‖e‖")
-    return Accepted("proved", "enclosure")
+def mass_positive(statement: Decreasing) -> MassAbove:
+    """M(q) ≻ 0 for the arm of a statement."""
+    return MassAbove(statement.mass, statement.parameters, Fraction(0))
+
+
+def radial_of(bounds: RadialBounds) -> Radial:
+    """The bounds as the checker of them takes them."""
+    return Radial(bounds.weights, bounds.inertia, bounds.lowest, bounds.angles, bounds.tree, bounds.cuts)
+
+
+@rule(Decreasing, PostureWitness)
+def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
+    """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
+    found = verify(mass_positive(statement), proof)
+    require(found.verdict == "refuted", "M ≻ 0", found.verdict, "must be refuted")
+    return found
 
 
 @rule(Decreasing, StateWitness)
@@ -162,6 +195,21 @@ def closure_of(statement: Decreasing) -> Closure:
     )
 
 
+def statement_of(closure: Closure) -> Decreasing:
+    """What has to be proved of a closed loop."""
+    return Decreasing(
+        mass=closure.arm.mass,
+        viscous=closure.friction,
+        parameters=closure.parameters,
+        family=closure.family,
+        m=closure.m,
+        kp=closure.kp,
+        kv=closure.kv,
+        eps0=closure.eps0,
+        coupling=closure.coupling,
+    )
+
+
 def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[Ends]) -> None:
     require(len(values) == len(ranges), subject, len(values), f"must be {len(ranges)}")
     for value, (low, high) in zip(values, ranges, strict=True):
@@ -177,3 +225,8 @@ def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomi
             value *= parameter**power
         found.append((powers[:angles], value))
     return tuple(found)
+
+
+def _ends_text(ends: Ends) -> str:
+    low, high = map(number_text, ends)
+    return low if low == high else f"{low} … {high}"

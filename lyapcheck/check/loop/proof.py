@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import replace
 from multiprocessing import get_context
 
@@ -19,6 +22,24 @@ WORTH_SHARING = 20_000
 """Characters of a tree from which a second process pays for its start."""
 MORE_HALVINGS = 12
 """How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
+
+
+_JOBS = ContextVar("jobs", default=1)
+
+
+@contextmanager
+def shared_between(jobs: int) -> Iterator[None]:
+    """Let the leaves of large trees be shared between some processes inside; verdicts are the same."""
+    token = _JOBS.set(jobs)
+    try:
+        yield
+    finally:
+        _JOBS.reset(token)
+
+
+def sharing() -> int:
+    """How many processes may share the leaves of a tree."""
+    return _JOBS.get()
 
 
 def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:

@@ -18,6 +18,8 @@ from flint import fmpq
 from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, evaluate, variables
 
 Frequency = tuple[tuple[str, int], ...]
+MAX_STEPS = 1_000_000
+"""Products of two terms each that the product of two sums may take."""
 ZERO, HALF = fmpq(0), fmpq(1, 2)
 
 
@@ -36,6 +38,8 @@ class Fourier:
         return Fourier({k: (-re, -im) for k, (re, im) in self.terms.items()})
 
     def __mul__(self, other: Fourier) -> Fourier:
+        if len(self.terms) * len(other.terms) > MAX_STEPS:
+            raise Unsupported(f"a product of sums of {len(self.terms)} and {len(other.terms)} frequencies")
         terms: dict[Frequency, tuple[fmpq, fmpq]] = {}
         for k, (a, b) in self.terms.items():
             _add(terms, {_sum(k, j): (a * c - b * d, a * d + b * c) for j, (c, d) in other.terms.items()})

@@ -6,7 +6,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.statement import Relation
+from lyapcheck.check.statement import Monomials, Relation
+
+
+@dataclass(frozen=True)
+class ArmAndGains:
+    """One arm under given gains: M(q) in kg·m², the diagonals of B, N·m·s/rad, of K_p and K_v, N·m."""
+
+    mass: tuple[tuple[Monomials, ...], ...]
+    viscous: tuple[Fraction, ...]
+    kp: tuple[Fraction, ...]
+    kv: tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
@@ -25,7 +35,8 @@ class ClosedLoop:
             and vd.
         desired: whether C is C(q, q̇_d + w) with ‖q̇_d‖ <= vd, as in (21), and not C(q, w).
         condition: what is asked of ε₀ = eps0 and the constants; empty where some ε₀ > 0 is enough.
-        numbers: the constants and eps0, where they are given.
+        arm: the arm and the gains, where the conclusion is for these alone.
+        numbers: bounds of its constants, and eps0; none without an arm.
     """
 
     n: int
@@ -40,4 +51,5 @@ class ClosedLoop:
     form: tuple[Tree, Tree, Tree]
     desired: bool = False
     condition: tuple[Relation, ...] = ()
+    arm: ArmAndGains | None = None
     numbers: tuple[tuple[str, Fraction], ...] = ()

@@ -1,12 +1,7 @@
 """What the claims behind the hypotheses of Lyapunov's direct method must state, for one loop and one V.
 
-For h odd with h(x) > 0 for x > 0, V >= ½λmin(M)‖y‖² + Σ k_pi ∫h is positive definite; h(x) >= c > 0 for large
-x and |h| <= γ make it radially unbounded; ‖h(e)‖ <= L‖e‖ and a bounded derivative make it differentiable
-where ‖e‖ is not; at rest Mẇ = K_p h(e) vanishes with e alone. ``loop_rate`` is the bound of dV/dt, in which
-a = ‖h(e)‖ and b = ‖w‖ vanish together at the origin alone.
-
-Not judged here: that the robot is (1) with Properties 2.1–2.7, and that numbers given for its constants are
-those of the robot; claims of their own are about these.
+What each property of V comes to is in ``kinds.loop_property``; ``rate`` is the bound of dV/dt, in which
+a = ‖h(e)‖ and b = ‖w‖ vanish together at the origin alone, from |h| <= γ, |h'| <= ρ and h(x)/x <= L.
 
 References: ``kelly2005control``, chapter 2; ``khalil2002nonlinear``, theorem 4.9; ``reyes2019family``.
 """
@@ -16,21 +11,28 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
-from lyapcheck.check.expressions.expression import Tree, derivative, substitute
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.for_all import ForAll
-from lyapcheck.check.kinds.identity import Identity
-from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import (
+    ABOVE,
+    AN_EQUILIBRIUM,
+    BELOW,
+    EQUILIBRIUM,
+    POSITIVE,
+    SMOOTH,
+    UNBOUNDED,
+    LoopProperty,
+    secant_fact,
+    sign_facts,
+    size_facts,
+    slope_facts,
+)
 from lyapcheck.check.kinds.theorem import Theorem
-from lyapcheck.check.statement import Relation, Statement, Variable
+from lyapcheck.check.statement import Statement
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.check.theorems.definiteness import shows_positive
-from lyapcheck.check.theorems.rate import loop_closed, rate_bound
+from lyapcheck.check.theorems.rate import rate_bound
 
-X: Tree = ("var", "x")
-ZERO: Tree = ("num", "0")
 Premise = Callable[[ClosedLoop, frozenset[Statement]], str | None]
 Needed = tuple[str, Statement]
 """A statement, and how it is called in words."""
@@ -62,63 +64,42 @@ def _needs(listed: Callable[[ClosedLoop], Iterable[Needed]]) -> Premise:
     return lambda loop, parts: next((name for name, one in listed(loop) if one not in parts), None)
 
 
-def _sign(loop: ClosedLoop) -> list[Needed]:
-    mirrored = substitute(loop.h, {"x": ("neg", X)})
+def _property(name: str) -> Premise:
+    """A premise that is a property of the loop or of its V."""
+
+    def listed(loop: ClosedLoop) -> list[Needed]:
+        desired = loop.desired and name == AN_EQUILIBRIUM
+        return [(name, LoopProperty(name, loop.h, loop.slope, loop.potential, desired))]
+
+    return _needs(listed)
+
+
+def _bounds_of_h(loop: ClosedLoop) -> list[Needed]:
     return [
-        ("h(−x) = −h(x)", Identity(mirrored, ("neg", loop.h))),
-        ("0 < h(x) for x > 0", ForAll(Relation(ZERO, "<", loop.h), Fraction(0), None, open_low=True)),
+        *sign_facts(loop.h),
+        *size_facts(loop.h, loop.gamma),
+        *slope_facts(loop.h, loop.slope, loop.rho),
+        *secant_fact(loop.h, loop.L),
     ]
-
-
-def _at_rest(loop: ClosedLoop) -> list[Needed]:
-    controller = "(21)" if loop.desired else "(6)"
-    return [*_sign(loop), (f"the loop that {controller} closes, for every n", loop_closed(loop))]
-
-
-def _positive(loop: ClosedLoop) -> list[Needed]:
-    return [("U' = h", Identity(derivative(loop.potential, "x"), loop.h)), *_sign(loop)]
-
-
-def _smooth(loop: ClosedLoop) -> list[Needed]:
-    rho = _num(loop.rho)
-    return [
-        ("h' as it is", Identity(derivative(loop.h, "x"), loop.slope)),
-        ("h' ≤ ρ", ForAll(Relation(loop.slope, "<=", rho))),
-        ("−ρ ≤ h'", ForAll(Relation(_num(-loop.rho), "<=", loop.slope))),
-        ("‖h(e)‖ ≤ L‖e‖", NormBound(loop.h, loop.n, _num(loop.L), 1)),
-    ]
-
-
-def _unbounded(loop: ClosedLoop, parts: frozenset[Statement]) -> str | None:
-    """That h stays above a positive number from somewhere on, and below γ."""
-    lines = [one for one in parts if isinstance(one, ForAll) and one.variable == "x" and one.high is None]
-    if not any(one.relation.right == loop.h and _is_positive(one.relation.left) for one in lines):
-        return "c ≤ h(x) from some x on, with a number c > 0"
-    gamma = _num(loop.gamma)
-    above = (one.relation.right for one in lines if one.low is None and one.relation.left == loop.h)
-    if not any(top == gamma or Constant(Relation(top, "<=", gamma)) in parts for top in above):
-        return "h ≤ γ"
-    return _needs(lambda loop: _sign(loop)[:1])(loop, parts)
-
-
-def _is_positive(tree: Tree) -> bool:
-    return tree[0] == "num" and Fraction(tree[1]) > 0
 
 
 def _rate(loop: ClosedLoop) -> list[Needed]:
     return [("dV/dt ≤ −[a b] Θ [a b]ᵀ for this V and Θ, for every n", rate_bound(loop))]
 
 
-def _inertia(below: bool) -> Callable[[ClosedLoop], list[Needed]]:
-    """½μ‖y‖² + P <= ½yᵀMy + P, or ½yᵀMy + P <= ½β‖y‖² + P, from what μ or β is."""
-    size: Tree = ("var", "yMy")
-    other: Tree = ("mul", ("var", "mu" if below else "beta"), ("var", "yy"))
-    small, large = (other, size) if below else (size, other)
-    names = ("mu", "beta", "yy", "yMy", "stored")
-    variables = [Variable(name, Fraction(0), name in ("mu", "beta")) for name in names]
-    left, right = (("add", ("div", one, ("num", "2")), ("var", "stored")) for one in (small, large))
-    bound = Implies(tuple(variables), (Relation(small, "<=", large),), Relation(left, "<=", right))
-    return lambda loop: [("the bound of V by that of M", bound)]
+def _mass(loop: ClosedLoop) -> list[Needed]:
+    assert loop.arm is not None
+    beta = dict(loop.numbers)["beta"]
+    return [
+        ("M(q) ≻ 0 of this arm", MassAbove(loop.arm.mass, (), Fraction(0))),
+        (f"‖M(q)‖ ≤ {beta} of this arm", MassBelow(loop.arm.mass, (), beta)),
+    ]
+
+
+def _coriolis(loop: ClosedLoop) -> list[Needed]:
+    assert loop.arm is not None
+    kc = dict(loop.numbers)["kc"]
+    return [(f"‖C(q, x)y‖ ≤ {kc} ‖x‖ ‖y‖ of this arm", CoriolisBelow(loop.arm.mass, (), kc))]
 
 
 def _definite(loop: ClosedLoop, parts: frozenset[Statement]) -> str | None:
@@ -130,19 +111,18 @@ def _definite(loop: ClosedLoop, parts: frozenset[Statement]) -> str | None:
     return None
 
 
-def _num(value: Fraction) -> Tree:
-    return ("num", str(value))
-
-
 PREMISES: dict[str, Premise] = {
-    "only equilibrium": _needs(_at_rest),
-    "equilibrium": _needs(_at_rest),
-    "differentiable": _needs(_smooth),
-    "positive definite": _needs(_positive),
-    "bounded below by a positive definite function": _needs(_inertia(below=True)),
-    "bounded above by a positive definite function": _needs(_inertia(below=False)),
-    "radially unbounded": _unbounded,
+    "only equilibrium": _property(EQUILIBRIUM),
+    "equilibrium": _property(AN_EQUILIBRIUM),
+    "differentiable": _property(SMOOTH),
+    "positive definite": _property(POSITIVE),
+    "bounded below by a positive definite function": _property(BELOW),
+    "bounded above by a positive definite function": _property(ABOVE),
+    "radially unbounded": _property(UNBOUNDED),
+    "bounds of h": _needs(_bounds_of_h),
     "rate bounded by a form": _needs(_rate),
     "form negative definite": _definite,
+    "bounds of M": _needs(_mass),
+    "bounds of C": _needs(_coriolis),
 }
 """For each hypothesis, what is missing among the statements of its claim."""

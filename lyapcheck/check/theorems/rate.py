@@ -21,13 +21,13 @@ M, C, D = (("mat", name) for name in "MCD")
 KP: Tree = ("vec", "Kp")
 
 
-def loop_closed(loop: ClosedLoop) -> EveryN:
+def loop_closed(desired: bool) -> EveryN:
     """Torque less the left side of (1) is K_p h − K_v h(w) − Bw − Cw − Mẇ: both vanish together.
 
     The torque is (6), or (21) with q̇ = q̇_d + w, q̈ = q̈_d + ẇ; there h(ė) = −h(w), as h is odd.
     """
-    turning, weight, test = _turning(loop), ("vec", "g"), ("vec", "z")
-    speed, acceleration = (("vec", "vd"), ("vec", "ad")) if loop.desired else (("sum",), ("sum",))
+    turning, weight, test = _turning(desired), ("vec", "g"), ("vec", "z")
+    speed, acceleration = (("vec", "vd"), ("vec", "ad")) if desired else (("sum",), ("sum",))
     torque = ("sum", _scaled("Kp", H), _minus(_scaled("Kv", DAMPING)), *_needed(speed, acceleration, turning))
     needed = _needed(("sum", speed, W), ("sum", acceleration, ACCELERATION), turning)
     left = ("sum", torque, weight, _minus(("sum", *needed, weight)))
@@ -40,8 +40,8 @@ def _needed(speed: Tree, acceleration: Tree, turning: Tree) -> tuple[Tree, ...]:
     return ("apply", M, acceleration), ("apply", turning, speed), _scaled("B", speed)
 
 
-def _turning(loop: ClosedLoop) -> Tree:
-    return ("sum", C, D) if loop.desired else C
+def _turning(desired: bool) -> Tree:
+    return ("sum", C, D) if desired else C
 
 
 def _push(turning: Tree) -> Tree:
@@ -52,7 +52,7 @@ def _push(turning: Tree) -> Tree:
 
 def rate_bound(loop: ClosedLoop) -> BoundEveryN:
     """dV/dt <= −[a b] Θ [a b]ᵀ for every n, from the norms of the letters."""
-    turning = _turning(loop)
+    turning = _turning(loop.desired)
     y: Tree = ("sum", W, ("scale", ("neg", EPS), H))
     energy: Tree = ("add", ("div", _form(y, M, y), ("num", "2")), ("dot", KP, U))
     rates = (

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from lyapcheck.check.expressions.defined import Undefined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
-from lyapcheck.claims.decision import Decision, proved, refuted, undecided
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.every_n import find_every_n
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
+from lyapcheck.claims.procedures.inertia import find_mass_above, find_upper
+from lyapcheck.claims.procedures.loop_property import find_loop_property
 from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
@@ -29,31 +33,24 @@ from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
 from lyapcheck.verdicts import Grade
 
 
-def decide(statement: kinds.Statement | kinds.Missing) -> Decision:
-    """The decision on a statement: the search of its kind proposes, the checker disposes.
+def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
+    """What the search for the kind of a statement finds, if it stands up to the rules that will judge it.
 
-    Soundness: ``proved`` and ``refuted`` are the verdicts of ``check.verify``, the same that
-    judges certificates read from files; no search is trusted.
+    Not a verdict: that is for a fresh process of the checker to give, see ``fresh_check``.
     """
     finding = find(statement)
     if finding.proof is None or isinstance(statement, kinds.Missing):
-        return undecided(finding.reason, finding.method, **finding.evidence)
+        return finding
     try:
         accepted = verify(statement, finding.proof)
     except Undefined as undefined:
-        return undecided(str(undefined), finding.method, **finding.evidence)
+        return still_open(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
-        return undecided(
-            f"what the search found is refused by the checker ({refusal}); report this as a fault",
-            finding.method,
-            **finding.evidence,
-        )
+        reason = f"what the search found is refused by the checker ({refusal}); report this as a fault"
+        return still_open(reason, finding.method, **finding.evidence)
     if accepted.verdict != finding.verdict.value:
         raise AssertionError(f"the search says {finding.verdict.value}, the checker {accepted.verdict}")
-    grade, method, evidence = Grade[accepted.grade.upper()], finding.method, finding.evidence
-    if finding.witness is None:
-        return proved(grade, method, finding.proof, **evidence)
-    return refuted(grade, method, finding.witness, finding.reason, finding.proof, **evidence)
+    return replace(finding, grade=Grade[accepted.grade.upper()])
 
 
 def find(statement: kinds.Statement | kinds.Missing) -> Finding:
@@ -91,6 +88,10 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     kinds.Agrees: find_agrees,
     kinds.TrigonometricBound: find_bounds,
     kinds.TrigonometricPositive: find_positive,
+    LoopProperty: find_loop_property,
+    MassAbove: find_mass_above,
+    MassBelow: find_upper,
+    CoriolisBelow: find_upper,
     state_kinds.Decreasing: find_decreasing,
     state_kinds.DampingBelow: find_damping_below,
     kinds.Theorem: _apply_theorem,

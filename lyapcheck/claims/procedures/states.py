@@ -14,11 +14,22 @@ from flint import ctx
 
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
-from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, StateWitness, closure_of
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    Decreasing,
+    PositiveAndDecreasing,
+    StateWitness,
+    closure_of,
+    mass_positive,
+)
+from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
+from lyapcheck.claims.procedures.inertia import find_mass_above
+from lyapcheck.search.inertia import mass_proof
+from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop.states import State
@@ -37,15 +48,24 @@ ONE_BOX = BoxTree(".")
 def find_decreasing(statement: Decreasing) -> Finding:
     """Norms alone, else a state with dV/dt > 0, else boxes."""
     closure = closure_of(statement)
+    positive = find_mass_above(mass_positive(statement))
+    if positive.verdict is not Verdict.PROVED:
+        return replace(positive, reason=f"M ≻ 0: {positive.reason}" if positive.reason else "")
     if not closure.admissible:
         return still_open("K_p, K_v, B, K_p − ¼ε₀LK_v and ε₀ must be positive, and M symmetric", METHOD)
     if certifies(closure.tail, closure.eps0):
-        return shown(ONE_BOX, f"{METHOD}: norms alone")
+        return shown(_with_mass(statement, ONE_BOX), f"{METHOD}: norms alone")
     if statement.coupling:
         return still_open(
             "norms do not suffice, and no boxes are tried for weights; take a smaller ε₀", METHOD
         )
     return _against(statement) or _by_boxes(statement)
+
+
+def _with_mass(statement: Decreasing | DampingBelow, by: BoxTree) -> PositiveAndDecreasing:
+    """The boxes with what shows M ≻ 0."""
+    inertia = Bisection() if statement.parameters else mass_proof(statement.mass)
+    return PositiveAndDecreasing(inertia, by)
 
 
 def find_damping_below(statement: DampingBelow) -> Finding:
@@ -57,7 +77,7 @@ def find_damping_below(statement: DampingBelow) -> Finding:
             continue
         gains = {"factor of K_v": str(factor), "eps0": str(eps0)}
         witness = {**numbers.witness, "point": gains}
-        proof = DampingAbove(factor, eps0, numbers.proof, ONE_BOX)
+        proof = DampingAbove(factor, eps0, numbers.proof, _with_mass(statement, ONE_BOX))
         return broken(proof, f"{METHOD}: gains that break the bound and have dV/dt < 0", witness)
     return still_open(
         "no gains that break the bound were found to have dV/dt < 0; friction may be lacking", METHOD
@@ -125,7 +145,8 @@ def _by_boxes(statement: Decreasing) -> Finding:
     outcome = certify(Problem(closure, _model(statement)), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
-    return shown(BoxTree(outcome.tree), f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
+    tree = _with_mass(statement, BoxTree(outcome.tree))
+    return shown(tree, f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
 
 
 def setting_of(statement: Decreasing) -> Setting:

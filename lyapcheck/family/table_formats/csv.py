@@ -7,6 +7,7 @@ import io
 from collections.abc import Iterator
 
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.escapes import csv_text
 from lyapcheck.family.table import Table, slope_at_zero
 
 
@@ -18,7 +19,7 @@ def render(table: Table) -> str:
         columns = list(_columns(table, index))
         if index == 0:
             ends = [f"{name}_{end}" for name, _ in columns for end in ("lower", "upper")]
-            writer.writerow(["m", *ends, "slope_at_0"])
+            writer.writerow(["m", *map(csv_text, ends), "slope_at_0"])
         cells = [end for _, value in columns for end in _ends(value, table.digits)]
         writer.writerow([row.m, *cells, slope_at_zero(row.m)])
     return text.getvalue()

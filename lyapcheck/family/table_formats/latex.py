@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from lyapcheck.escapes import latex_text
 from lyapcheck.family.table import Table
 from lyapcheck.family.table_formats.blocks import INFINITY, Block, constants, others
-from lyapcheck.files.printable import printable
 
 HEADS = {
     "m": r"$m$",
@@ -24,13 +24,6 @@ HEADS = {
 }
 """The heads of the columns; those that are not here are names of joints."""
 
-SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    **{c: f"\\{c}" for c in "&%$#_{}"},
-}
-
 
 def render(table: Table) -> str:
     """The constants, then what was asked for beside them; all digits correct."""
@@ -40,13 +33,8 @@ def render(table: Table) -> str:
 
 def _tabular(block: Block) -> list[str]:
     """The lines of a ``tabular`` environment."""
-    heads = [HEADS.get(head) or _name(head) for head in block.heads]
+    heads = [HEADS.get(head) or latex_text(head) for head in block.heads]
     body = [" & ".join(cells).replace(INFINITY, r"$\infty$") + r" \\" for cells in block.rows]
     columns = "r" + "l" * (len(heads) - 1)
     head = [rf"\begin{{tabular}}{{{columns}}}", r"\hline", " & ".join(heads) + r" \\", r"\hline"]
     return [*head, *body, r"\hline", r"\end{tabular}"]
-
-
-def _name(name: str) -> str:
-    """A name as text, with nothing in it that LaTeX would take for a command."""
-    return "".join(SPECIAL.get(c, c) for c in printable(name))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from lyapcheck.escapes import markdown_text
 from lyapcheck.family.table import Table
 from lyapcheck.family.table_formats.blocks import constants, notes, others
-from lyapcheck.markdown import markdown_table, markdown_text
+from lyapcheck.markdown import markdown_table
 
 
 def render(table: Table) -> str:

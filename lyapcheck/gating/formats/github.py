@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lyapcheck.escapes import github_property, github_text
 from lyapcheck.gating.formats.words import KEYS, advice
 from lyapcheck.gating.stability import remarks
 
@@ -31,20 +32,12 @@ def _annotation(result: GateResult, check: Check) -> str:
     level = "error" if result.failed(check) else "warning"
     place = result.file.place(result.gains, KEYS[check.id], check.joint)
     where = "" if place is None else f",line={place.line},col={place.column}"
-    file, title = _property(result.file.path), _property(f"{result.name}: {check.verdict}")
-    return f"::{level} file={file}{where},title={title}::{_message(advice(result, check))}"
+    file, title = github_property(result.file.path), github_property(f"{result.name}: {check.verdict}")
+    return f"::{level} file={file}{where},title={title}::{github_text(advice(result, check))}"
 
 
 def _notice(result: GateResult, remark: str) -> str:
     place = result.file.place(result.gains)
     where = "" if place is None else f",line={place.line},col={place.column}"
-    file, title = _property(result.file.path), _property(result.name)
-    return f"::notice file={file}{where},title={title}::{_message(remark)}"
-
-
-def _message(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-
-def _property(text: str) -> str:
-    return _message(text).replace(":", "%3A").replace(",", "%2C")
+    file, title = github_property(result.file.path), github_property(result.name)
+    return f"::notice file={file}{where},title={title}::{github_text(remark)}"

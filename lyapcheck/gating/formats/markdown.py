@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lyapcheck.escapes import markdown_text
 from lyapcheck.gating.formats.words import (
     RULES,
     SYMBOLS,
@@ -14,7 +15,6 @@ from lyapcheck.gating.formats.words import (
     value_text,
 )
 from lyapcheck.gating.stability import remarks
-from lyapcheck.markdown import markdown_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from lyapcheck.escapes import plot_text
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 
+TICK = 24
+"""Characters of a name that fit beside or below an axis."""
 MARKERS = ("o", "s", "D", "X")
 HATCHES = ("", "///", "\\\\\\")
 """One for each source, for grey prints."""
@@ -33,7 +36,7 @@ def indices_plot(names: Sequence[str], bars: Mapping[str, Sequence[float | None]
             )
             texts = ["" if value is None else f"{value:.1f}" for value in values]
             axis.bar_label(drawn, texts, fontsize=8, padding=2)
-        axis.set_xticks(range(len(names)), names)
+        axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
         axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
         axis.grid(axis="x", visible=False)
         axis.margins(y=0.15)
@@ -55,7 +58,7 @@ def epsilon_plot(names: Sequence[str], epsilons: Mapping[str, Sequence[float | N
                     across, up, label=kind, color=COLOURS[index], marker=MARKERS[index], s=42, zorder=3
                 )
         axis.set_xscale("log")
-        axis.set_yticks(range(len(names)), names)
+        axis.set_yticks(range(len(names)), [plot_text(name, TICK) for name in names])
         axis.invert_yaxis()
         axis.margins(y=0.3)
         axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from lyapcheck.escapes import plot_text
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import panels, styled
 from lyapcheck.report.model import Data
@@ -102,7 +103,7 @@ def _box(axis: object, place: Place, row: Data) -> None:
         "linestyle": FRAME.get(row["grade"], OTHER_FRAME),
     }
     axis.text(  # type: ignore[attr-defined]
-        *place, f"{SYMBOLS[verdict]} {row['id']}", ha="center", va="center", fontsize=8, bbox=style
+        *place, plot_text(f"{SYMBOLS[verdict]} {row['id']}"), ha="center", va="center", fontsize=8, bbox=style
     )
 
 

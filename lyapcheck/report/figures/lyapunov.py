@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.escapes import plot_text
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 
 Array = NDArray[np.float64]
@@ -22,7 +23,7 @@ def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None
     with styled():
         figure, axes = panels(1, 2, height=2.6)
         axes[0, 0].semilogy(t, _positive(V), color=COLOURS[0])
-        axes[0, 0].set(xlabel="t [s]", ylabel="V [J]", title=title, xlim=(t[0], t[-1]))
+        axes[0, 0].set(xlabel="t [s]", ylabel="V [J]", title=plot_text(title), xlim=(t[0], t[-1]))
         axes[0, 1].semilogy(t, _positive(-dV), color=COLOURS[1])
         axes[0, 1].set(xlabel="t [s]", ylabel="−dV/dt [W]", title="rate of decrease", xlim=(t[0], t[-1]))
         if bound is not None:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck.escapes import plot_text
 from lyapcheck.report.figures.style import COLOURS, DASHES, panels, styled
 
 Array = NDArray[np.float64]
@@ -28,12 +29,12 @@ def draw_errors(title: str, t: Array, e: Array, joints: Sequence[str]) -> Any:
             axis.plot(
                 t,
                 np.degrees(e[:, i]),
-                label=joint,
+                label=plot_text(joint),
                 color=COLOURS[i % len(COLOURS)],
                 linestyle=DASHES[i % len(DASHES)],
             )
         axis.axhline(0.0, color="black", linewidth=0.6)
-        axis.set(xlabel="t [s]", ylabel="position error [°]", title=title, xlim=(t[0], t[-1]))
+        axis.set(xlabel="t [s]", ylabel="position error [°]", title=plot_text(title), xlim=(t[0], t[-1]))
         axis.legend(ncols=min(len(joints), ABREAST))
         return figure
 
@@ -50,7 +51,7 @@ def draw_torques(
         for i, axis in enumerate(axes):
             axis.plot(t, tau[:, i], color=COLOURS[i % len(COLOURS)])
             _mark_limit(axis, tau[:, i], limits[i])
-        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        figure.suptitle(plot_text(title), x=0.01, ha="left", fontsize=10)
         return figure
 
 
@@ -62,7 +63,7 @@ def draw_tracking(title: str, t: Array, q: Array, goal: Array, joints: Sequence[
             axis.plot(t, np.degrees(goal[:, i]), color="black", linestyle="--", label="reference")
             axis.plot(t, np.degrees(q[:, i]), color=COLOURS[i % len(COLOURS)], label="joint")
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
-        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        figure.suptitle(plot_text(title), x=0.01, ha="left", fontsize=10)
         return figure
 
 
@@ -74,7 +75,7 @@ def _per_joint(label: str, t: Array, joints: Sequence[str]) -> tuple[Any, list[A
     for axis in list(axes.flat)[len(joints) :]:
         axis.set_axis_off()
     for axis, joint in zip(used, joints, strict=True):
-        axis.set(xlabel="t [s]", title=joint, xlim=(t[0], t[-1]))
+        axis.set(xlabel="t [s]", title=plot_text(joint), xlim=(t[0], t[-1]))
     for axis in used[::columns]:
         axis.set_ylabel(label)
     return figure, used

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from io import StringIO
 from typing import Any
 
+from lyapcheck.escapes import csv_text
 from lyapcheck.report.figures.style import png, settle, svg
 
 Files = dict[str, str | bytes]
@@ -38,7 +39,7 @@ class Plot:
         """The data, one line a row."""
         text = StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.header)
+        writer.writerow(map(csv_text, self.header))
         writer.writerows([_cell(value) for value in row] for row in self.rows)
         return text.getvalue()
 
@@ -46,6 +47,8 @@ class Plot:
 def _cell(value: Any) -> str:
     if value is None:
         return ""
-    if isinstance(value, (str, bool, int)):
+    if isinstance(value, str):
+        return csv_text(value)
+    if isinstance(value, (bool, int)):
         return str(value)
     return f"{float(value) + 0.0:.{DIGITS}g}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from lyapcheck.escapes import plot_text
+from lyapcheck.report.figures.bars import TICK
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 from lyapcheck.report.model import Data
@@ -46,7 +48,7 @@ def _panel(axis: Any, sets: Sequence[Data], quantity: str) -> None:
     for one in sets:
         for number in _of(one, quantity):
             _draw(axis, len(labels), number)
-            labels.append(" ".join(filter(None, (one["name"], number["joint"]))))
+            labels.append(plot_text(" ".join(filter(None, (one["name"], number["joint"]))), TICK))
     axis.set_yticks(range(len(labels)), labels, fontsize=7 if len(labels) > len(sets) else 9)
     axis.set(ylim=(len(labels) - 0.4, -0.6), xlabel=TITLES[quantity])
     axis.grid(axis="y", visible=False)
@@ -143,5 +145,5 @@ def _tornado(axis: Any, one: Data, words: dict[str, str]) -> None:
     axis.axvline(number["nominal"], color="black", linewidth=1.2, label="nominal arm")
     axis.axvline(number["printed"], color=COLOURS[1], linestyle="--", linewidth=1.4, label="printed")
     axis.set_yticks(range(len(widest)), [words[name] for name in widest], fontsize=8)
-    axis.set(ylim=(len(widest) - 0.4, -0.6), xlabel="L2 index [°]", title=one["name"])
+    axis.set(ylim=(len(widest) - 0.4, -0.6), xlabel="L2 index [°]", title=plot_text(one["name"]))
     axis.grid(axis="y", visible=False)

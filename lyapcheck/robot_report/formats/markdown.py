@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from lyapcheck.escapes import markdown_text
+from lyapcheck.markdown import markdown_table
 from lyapcheck.robot_report.build import RobotReport
 from lyapcheck.robot_report.formats.words import (
     CONSTANT_HEADS,
@@ -22,27 +24,29 @@ def render(report: RobotReport) -> str:
         (row.id, row.verdict.value, row.finding.grade.label, row.statement, evidence(row))
         for row in report.properties
     ]
-    lines = [f"# {headline(report)}", "", "## Properties", ""]
-    lines += _table([("property", "verdict", "grade", "statement", "evidence"), *claims])
+    lines = [f"# {markdown_text(headline(report))}", "", "## Properties", ""]
+    lines += _words(("property", "verdict", "grade", "statement", "evidence"), claims)
     if report.prints:
         rows = [(row.verdict.value, row.statement, evidence(row)) for row in report.prints]
-        lines += ["", "## As the source prints it", ""]
-        lines += _table([("verdict", "claim", "evidence"), *rows])
+        lines += ["", "## As the source prints it", "", *_words(("verdict", "claim", "evidence"), rows)]
     lines += [
         "",
         "## Constants",
         "",
         "At nominal parameters; for k_c the last numbers are the direction x.",
         "",
+        *_words(CONSTANT_HEADS, [constant_row(constant) for constant in report.constants]),
     ]
-    lines += _table([CONSTANT_HEADS, *map(constant_row, report.constants)])
-    lines += ["", "## Joints", "", *_table([JOINT_HEADS, *joint_rows(report)]), "", "## Numbers", ""]
-    lines += [f"- {number_line(name, number)}" for name, number in report.model.numbers.items()]
+    lines += ["", "## Joints", "", *_words(JOINT_HEADS, joint_rows(report)), "", "## Numbers", ""]
+    lines += _list([number_line(name, number) for name, number in report.model.numbers.items()])
     if report.model.assumptions:
-        lines += ["", "## Assumed", "", *(f"- {sentence}" for sentence in report.model.assumptions)]
+        lines += ["", "## Assumed", "", *_list(report.model.assumptions)]
     return "\n".join(lines) + "\n"
 
 
-def _table(rows: Sequence[Sequence[str]]) -> list[str]:
-    head, *body = (f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |" for cells in rows)
-    return [head, "|" + "---|" * len(rows[0]), *body]
+def _words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    return markdown_table(heads, rows, words=len(heads) - 1)
+
+
+def _list(sentences: Sequence[str]) -> list[str]:
+    return [f"- {markdown_text(sentence)}" for sentence in sentences]

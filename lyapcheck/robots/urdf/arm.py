@@ -9,6 +9,7 @@ from pathlib import Path
 from flint import fmpq_mpoly_ctx
 
 from lyapcheck.errors import InputError
+from lyapcheck.files import printable
 from lyapcheck.robots import trig
 from lyapcheck.robots.chain import exact_chain
 from lyapcheck.robots.chain_bounds import chain_bounds
@@ -91,13 +92,14 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
     links = [_link(ring, body) for body in read.bodies]
     free_fall = [trig.constant(ring, entry.value) for entry in gravity]
     mass, potential = chain(ring, links, free_fall)
-    file, motors = read.path.name, [motor_of(joint, read.path.name) for joint in read.chain]
+    file, stem = printable(read.path.name), printable(read.path.stem)
+    motors = [motor_of(joint, file) for joint in read.chain]
     numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", gravity, strict=True) if x.value}
     numbers |= link_numbers(read.tree, file) | joint_numbers(read.tree, read.chain, motors, file)
     nothing = (None,) * len(read.chain)
     return RobotModel(
-        name=read.path.stem,
-        title=f"{read.root.attributes.get('name', read.path.stem)[:80]} (URDF)",
+        name=stem,
+        title=f"{read.root.attributes.get('name', stem)[:80]} (URDF)",
         joints=tuple(joint.name for joint in read.chain),
         ring=ring,
         mass=mass,

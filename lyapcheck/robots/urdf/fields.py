@@ -6,6 +6,7 @@ import re
 from fractions import Fraction
 
 from lyapcheck.errors import Problem
+from lyapcheck.files import printable
 from lyapcheck.robots.fields import LARGEST
 from lyapcheck.robots.urdf.xml import Element
 
@@ -25,7 +26,7 @@ class UrdfNotes:
     def fail(self, element: Element, key: str, value: str, rule: str, repair: str) -> None:
         """Note one problem at the line of an element."""
         shown = value if len(value) <= _LONGEST else value[: _LONGEST - 3] + "…"
-        self.problems.append(Problem(self.file, element.line, key, _plain(shown), rule, repair))
+        self.problems.append(Problem(self.file, element.line, key, printable(shown), rule, repair))
 
     def only(self, parent: Element, tag: str, place: str, required: bool = False) -> Element | None:
         """The one child of that tag; more than one is a problem, none only where one is required."""
@@ -86,8 +87,3 @@ def decimal(text: str) -> Fraction | None:
     """The exact value of a decimal as URDF writes it (``1``, ``.5``, ``5.``, ``1e-3``), or ``None``."""
     found = _DECIMAL.fullmatch(text) if len(text) <= _LONGEST else None
     return None if found is None else Fraction(text)
-
-
-def _plain(text: str) -> str:
-    """The text on one line without control characters."""
-    return "".join(letter if letter.isprintable() else "�" for letter in text)

@@ -11,12 +11,14 @@ from pathlib import Path
 from xml.parsers import expat
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.printable import RETYPE, UNPRINTABLE, printable
 
 LARGEST_URDF = 5_000_000
 """Bytes; a humanoid with all its meshes named has about half a million."""
 _MOST_ELEMENTS = 100_000
 _MOST_DEPTH = 40
 _LONGEST = 10_000
+_SHOWN = 60
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,13 @@ class _Builder:
             self._refuse(f"is nested more than {_MOST_DEPTH} deep", "write plain URDF")
         if any(len(text) > _LONGEST for item in attributes.items() for text in item):
             self._refuse(f"has an attribute of more than {_LONGEST} characters", "shorten it")
+        for key, text in (("tag", tag), *attributes.items()):
+            if not (key + text).isprintable():
+                place = f"<{printable(tag)}> {printable(key)}"
+                line = self.parser.CurrentLineNumber
+                raise InputError(
+                    Problem(self.shown, line, place, printable(text)[:_SHOWN], UNPRINTABLE, RETYPE)
+                )
         if self.open:
             self.open[-1].children.append(element)
         else:

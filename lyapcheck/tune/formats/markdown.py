@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lyapcheck.markdown import markdown_table, markdown_text
+from lyapcheck.escapes import markdown_text
+from lyapcheck.markdown import markdown_table
 from lyapcheck.tune.formats.rows import compared_rows, notes, tuned_rows
 from lyapcheck.tune.gain_file import targets_text
 from lyapcheck.tune.results import TUNED, TunedSet, Tuning
@@ -21,8 +22,8 @@ def render(tuning: Tuning) -> str:
 def _section(item: TunedSet, digits: int) -> list[str]:
     if item.status != TUNED:
         reasons = [f"- {markdown_text(text)}" for text in item.reasons]
-        return [f"### ✗ {item.name}: {item.status}", "", *reasons]
-    lines = [f"### ✓ {item.name}", "", *_table(tuned_rows(item, digits))]
+        return [f"### ✗ {markdown_text(item.name)}: {item.status}", "", *reasons]
+    lines = [f"### ✓ {markdown_text(item.name)}", "", *_table(tuned_rows(item, digits))]
     if item.comparison is not None:
         name, source = map(markdown_text, (item.comparison.name, item.comparison.source))
         lines += ["", f"Beside {name} of {source}:", "", *_table(compared_rows(item.comparison))]

@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
-from lyapcheck.check.loop import Closure, proves
-from lyapcheck.check.loop.radial import BITS, Parts, Radial, proves_radially
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, RadialBounds, statement_of
+from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.loop.radial import BITS, Parts, Radial
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,19 +65,17 @@ class Margin:
         return below and joints and self.inertia.inertia > 0
 
 
-def shown(margin: Margin, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
-    """Whether the margin is there: dV/dt < 0 for the reduced closure, and λmax(D⁻¹MD⁻¹) ≤ μ.
+def shown(margin: Margin, positive: Proof, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
+    """Whether the margin is there: M ≻ 0, dV/dt < 0 for the reduced closure, and λmax(D⁻¹MD⁻¹) ≤ μ.
 
     Args:
         margin: what is claimed.
+        positive: untrusted data for M ≻ 0.
         by: untrusted data for the reduced closure.
         jobs: processes to share the leaves of a large tree between.
 
     Returns:
         ``True`` only if proved; ``False`` says nothing.
-
-    Raises:
-        BrokenTree: a text is not a tree of its box.
 
     Soundness: dV/dt of the reduced closure is taken at the same states as that of the arm itself; how it was
         proved to be below 0 does not matter.
@@ -84,10 +85,12 @@ def shown(margin: Margin, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
     with precision(BITS):
         if not Parts(margin.closure, margin.inertia).inertia_shown():
             return False
-    if isinstance(by, BoxTree):
-        return proves(margin.reduced, by.tree, jobs)
-    data = Radial(by.weights, by.inertia, by.lowest, by.angles, by.tree, by.cuts)
-    return proves_radially(margin.reduced, data)
+    try:
+        with shared_between(jobs):
+            found = verify(statement_of(margin.reduced), PositiveAndDecreasing(positive, by))
+    except Refused:
+        return False
+    return found.verdict == "proved"
 
 
 def _scaled(diagonal: Sequence[Fraction], factor: Fraction) -> tuple[Fraction, ...]:

@@ -1,0 +1,45 @@
+"""``recheck`` as a command, the same behind ``lyapcheck recheck`` and ``python -m lyapcheck.check``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from lyapcheck.check.files import Unreadable, gather
+from lyapcheck.check.guard import CannotStart
+from lyapcheck.check.limits import Limits
+from lyapcheck.check.recheck import recheck
+from lyapcheck.check.render import as_json, text
+
+UNUSABLE = 2
+FORMATS = {"text": text, "json": as_json}
+HELP = {
+    "format": "How to write it.",
+    "full": "Write long statements, and what their authors say of them, whole.",
+    "trusted": "Also list the rules and modules that each verdict rests on, with their lines.",
+    "seconds": "The most that judging one certificate may take; past it, it is refused.",
+    "memory": "The most memory that judging one certificate may take, in MiB.",
+}
+REPAIR = "give files written by check --certificates, or their directory"
+
+
+def run(
+    certificates: Sequence[str],
+    format: str,  # noqa: A002
+    full: bool,
+    trusted: bool,
+    seconds: int,
+    memory: int,
+) -> int:
+    """Print the outcome; 0: all accepted, 1: some refused, 2: unusable, 3: some undecided, 4: an alarm."""
+    try:
+        outcome = recheck(gather(certificates), Limits(seconds, memory), full)
+    except Unreadable as error:
+        for name, rule in error.problems:
+            print(f"error: {name}: CERTIFICATE: {rule}; {REPAIR}", file=sys.stderr)
+        return UNUSABLE
+    except CannotStart as error:
+        print(f"error: --memory = {memory}: {error}; allow more", file=sys.stderr)
+        return UNUSABLE
+    sys.stdout.write(FORMATS[format](outcome, trusted))
+    return outcome.code

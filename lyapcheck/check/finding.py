@@ -1,0 +1,45 @@
+"""What judging one certificate by itself finds, as data that one process hands to another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lyapcheck.check.limits import SHOWN
+from lyapcheck.check.refusal import plain
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Why a certificate is refused (``reason``), or what it shows; all text in it is safe to print.
+
+    ``label`` and ``says`` are its author's words, ``statement`` is rendered from data, ``shows`` lists
+    (digest, verdict, which part) for the statement and the parts of it that the proof decides, ``theorems``
+    lists (name, where it is proved), ``granted`` what the statement takes for granted, ``rules`` lists
+    (rule, its module).
+    """
+
+    reason: str = ""
+    unreadable: bool = False
+    digest: str = ""
+    label: str = ""
+    says: str = ""
+    m: int | None = None
+    n: int | None = None
+    statement: str = ""
+    statement_digest: str = ""
+    verdict: str = ""
+    grade: str = ""
+    uses: dict[str, str] = field(default_factory=dict)
+    shows: tuple[tuple[str, str, str], ...] = ()
+    theorems: tuple[tuple[str, str], ...] = ()
+    granted: tuple[str, ...] = ()
+    rules: tuple[tuple[str, str], ...] = ()
+
+    def refused(self, reason: str) -> Finding:
+        """The same, refused."""
+        return replace(self, reason=plain(reason))
+
+
+def shortened(text: str, full: bool) -> str:
+    """The text on one line, without what could steer a terminal; cut unless the whole is wanted."""
+    return plain(text) if full or len(text) <= SHOWN else plain(text[: SHOWN - 1]) + "…"

@@ -1,0 +1,165 @@
+"""A process of its own for judging, with limits on its time and memory; the parent outlives it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from lyapcheck.check.finding import Finding
+from lyapcheck.check.limits import Limits
+
+ROOT = str(Path(__file__).parents[2])
+CODE = """
+import json, sys
+path, seconds, memory = json.loads(sys.argv[1])
+sys.path[:] = path
+from lyapcheck.check.limits import Limits
+from lyapcheck.check.worker import serve
+serve(Limits(seconds, memory))
+"""
+START = 60
+"""Seconds in which a process must have started, however few a certificate may take."""
+
+
+class CannotStart(Exception):
+    """The process that judges does not start."""
+
+
+class Guard:
+    """Judges certificates in a process that is replaced when one of them ends it.
+
+    Use it in a ``with`` statement: at the end, or at Ctrl-C or SIGTERM, no process is left behind.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self.limits = limits
+        self.limited: tuple[str, ...] = ("seconds", "memory")
+        self._process: subprocess.Popen[bytes] | None = None
+        self._exit = ExitStack()
+
+    def __enter__(self) -> Guard:
+        self._exit.callback(self._stop)
+        self._exit.enter_context(_terminable())
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._exit.close()
+
+    def judge(self, content: bytes, full: bool) -> Finding:
+        """What a certificate shows by itself."""
+        answer = self._ask({"task": "judge", "full": full}, [content])
+        if "ended" in answer:
+            return Finding().refused(answer["ended"])
+        found = answer["finding"]
+        pairs = {name: tuple(map(tuple, found[name])) for name in ("shows", "rules", "theorems")}
+        return Finding(**{**found, **pairs, "granted": tuple(found["granted"])})
+
+    def lacks(self, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
+        """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""
+        request = {
+            "task": "premises",
+            "claims": list(used),
+            "digests": [digest for digest, _ in used.values()],
+        }
+        answer = self._ask(request, [content, *(text for _, text in used.values())])
+        return str(answer.get("ended", answer.get("lacks")))
+
+    def _ask(self, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
+        process = self._process or self._start()
+        header = json.dumps({**request, "sizes": list(map(len, documents))}).encode("ascii")
+        answer, late = _exchange(process, [header + b"\n", *documents], self.limits.seconds)
+        if answer is None:
+            self._stop()
+            return {"ended": self._ended(process.returncode, late)}
+        if late or answer.pop("last"):
+            self._stop()
+        return answer
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        path = [ROOT, *(entry for entry in sys.path if entry not in ("", "."))]
+        setting = json.dumps([path, self.limits.seconds, self.limits.memory])
+        command = [sys.executable, "-I", "-c", CODE, setting]
+        self._process = process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+        )
+        hello, _ = _exchange(process, [], START)
+        if hello is None:
+            self._stop()
+            raise CannotStart(f"the process that judges does not start within {self.limits.memory} MiB")
+        self.limited = tuple(hello["limited"])
+        return process
+
+    def _stop(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.wait()
+            for stream in (process.stdin, process.stdout):
+                with suppress(OSError):
+                    stream.close()  # type: ignore[union-attr]
+
+    def _ended(self, code: int, late: bool) -> str:
+        """Why a certificate has no answer."""
+        seconds, memory = self.limits.seconds, self.limits.memory
+        if late or (code < 0 and -code == getattr(signal, "SIGXCPU", 0)):
+            return f"takes more than {seconds} s to judge; --seconds allows more"
+        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        return f"ends the process that judges it ({how}): {memory} MiB may be too few; --memory allows more"
+
+
+def _exchange(
+    process: subprocess.Popen[bytes], parts: list[bytes], seconds: int
+) -> tuple[dict[str, Any] | None, bool]:
+    """The answer to a request (``None``: the process ended without one), and whether its time was up."""
+    late = threading.Event()
+
+    def end() -> None:
+        late.set()
+        process.kill()
+
+    assert process.stdin is not None
+    assert process.stdout is not None
+    timer = threading.Timer(seconds, end)
+    timer.daemon = True
+    timer.start()
+    try:
+        process.stdin.writelines(parts)
+        process.stdin.flush()
+        line = process.stdout.readline()
+    except OSError:
+        line = b""
+    finally:
+        timer.cancel()
+        timer.join()
+    if line.endswith(b"\n"):
+        return json.loads(line), late.is_set()
+    process.wait()
+    return None, late.is_set()
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """SIGTERM and SIGHUP end the program as Ctrl-C does, through what is to be cleaned up."""
+    found = []
+    if threading.current_thread() is threading.main_thread():
+        for name in ("SIGTERM", "SIGHUP"):
+            number = getattr(signal, name, None)
+            if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+                signal.signal(number, _leave)
+                found.append(number)
+    try:
+        yield
+    finally:
+        for number in found:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _leave(number: int, _: object) -> None:
+    raise SystemExit(128 + number)

@@ -1,0 +1,135 @@
+"""One certificate from its bytes to what it shows by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
+from json import JSONDecodeError
+from typing import Any
+
+from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, theorems_of
+from lyapcheck.check.codec import name_of
+from lyapcheck.check.finding import Finding, shortened
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
+from lyapcheck.check.kinds.for_all import Piece
+from lyapcheck.check.kinds.theorem import THEOREMS
+from lyapcheck.check.refusal import Refused, plain, require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.theorems.premises import unmet
+from lyapcheck.check.verify import RULES
+
+
+def certificate_of(content: bytes) -> tuple[Certificate, Any]:
+    """A certificate from the bytes of a file, and its JSON value.
+
+    Raises:
+        UnicodeDecodeError, JSONDecodeError: they are not JSON in UTF-8.
+        Refused: they are no certificate.
+    """
+    data = parse(content.decode("utf-8"))
+    return read(data), data
+
+
+def judged(content: bytes, full: bool = False) -> Finding:
+    """What a certificate shows by itself; whatever goes wrong is the reason why it is refused."""
+    found = Finding()
+    try:
+        certificate, data = certificate_of(content)
+        found = _claimed(certificate, data, full)
+        return _shown(found, certificate, data, judge(certificate).grade, full)
+    except (UnicodeDecodeError, JSONDecodeError) as error:
+        return replace(found.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
+    except Refused as refusal:
+        return found.refused(str(refusal))
+    except Exception as error:
+        return found.refused(f"cannot be judged ({type(error).__name__}: {error})")
+
+
+def lacking(content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
+    """What the claims behind the hypotheses of its theorems fail to state; empty if nothing is missing.
+
+    Args:
+        content: a certificate.
+        used: digest and bytes of accepted certificates, by the claims that it uses.
+    """
+    stated: dict[str, Statement] = {}
+    for claim, (digest, text) in used.items():
+        premise, data = certificate_of(text)
+        require(data["digest"] == digest, claim, digest, "changed while it was judged")
+        stated[claim] = premise.statement
+    theorems = theorems_of(certificate_of(content)[0].statement)
+    found = (unmet(theorem, stated) for theorem in theorems)
+    return plain(next((lacks for lacks in found if lacks is not None), ""))
+
+
+def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
+    """What it says of itself."""
+    claim = certificate.claim
+    return Finding(
+        digest=data["digest"],
+        label=claim.id,
+        says=shortened(claim.says, full),
+        m=claim.m,
+        n=claim.n,
+        verdict=certificate.verdict,
+        uses=dict(sorted(certificate.uses.items())),
+    )
+
+
+def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full: bool) -> Finding:
+    """What it shows, now that its proof is accepted."""
+    statement = certificate.statement
+    decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
+    shows = tuple((digest_of(part), verdict, where) for part, verdict, where in decided)
+    return replace(
+        found,
+        grade=grade,
+        statement=shortened(statement.text(), full),
+        statement_digest=shows[0][0],
+        shows=shows,
+        theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement)),
+        granted=statement.granted,
+        rules=tuple(sorted(set(_rules(certificate)))),
+    )
+
+
+def decided_by(
+    statement: Statement, proof: Proof, verdict: str, data: Any, where: str = ""
+) -> Iterator[tuple[Any, str, str]]:
+    """A statement and its parts, as data, that an accepted proof decides; the verdict, and which part."""
+    yield data, verdict, where
+    if isinstance(statement, AllOf):
+        decided: dict[int, Proof] = {}
+        if isinstance(proof, EveryPart):
+            decided = dict(enumerate(proof.parts))
+        if isinstance(proof, OnePart):
+            decided = {proof.part: proof.proof}
+        for k, own in decided.items():
+            inner = f"{where}.{k + 1}" if where else f"part {k + 1}"
+            yield from decided_by(statement.parts[k][1], own, verdict, data["parts"][k][1], inner)
+
+
+def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
+    """The rule of the proof, and the kinds and rules inside it, each with the module that it is in."""
+    kind, by = type(certificate.statement), type(certificate.proof)
+    yield f"{name_of(kind)} by {name_of(by)}", RULES[kind, by].__module__
+    if theorems_of(certificate.statement):
+        yield "premises", unmet.__module__
+    waiting: list[Any] = [*_values(certificate.statement), *_values(certificate.proof)]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, (Statement, Proof, Piece)):
+            yield name_of(type(value)), type(value).__module__
+        if is_dataclass(value):
+            waiting += _values(value)
+        elif isinstance(value, tuple) and not _is_expression(value):
+            waiting += value
+
+
+def _is_expression(value: tuple[Any, ...]) -> bool:
+    """Whether a tuple is an expression, or a pair of texts: no proofs or statements in it."""
+    return value != () and isinstance(value[0], str) and not any(map(is_dataclass, value))
+
+
+def _values(value: Any) -> list[Any]:
+    return [getattr(value, field.name) for field in fields(value)]

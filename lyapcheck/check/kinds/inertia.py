@@ -1,0 +1,269 @@
+"""M(q) and the Coriolis matrix of one arm: how small and how large they are at most.
+
+References: ``reyes2019family``, Properties 2.1, 2.2 and 2.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from hashlib import sha256
+from itertools import chain
+
+from flint import arb
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.loop.inertia import Inertia
+from lyapcheck.check.loop.links import Motion, RigidLink
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
+from lyapcheck.check.verify import Accepted, rule
+
+MAX_ARM = 9
+MAX_POWER = 40
+MAX_PARAMETERS = 16
+LONGEST = 600
+"""Characters beyond which M(q) is no longer written out."""
+Mass = tuple[tuple[Monomials, ...], ...]
+
+
+def require_mass(mass: Mass, parameters: tuple[Ends, ...]) -> None:
+    """Refuse what is not a square matrix of polynomials in sines, cosines and parameters.
+
+    Raises:
+        Refused: at the first fault.
+    """
+    n, length = len(mass), 2 * len(mass) + len(parameters)
+    require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    require(all(len(row) == n for row in mass), "mass", "a row", f"must have {n} entries")
+    for powers, _ in chain.from_iterable(chain.from_iterable(mass)):
+        fits = len(powers) == length and all(0 <= p <= MAX_POWER for p in powers)
+        require(fits, "exponents", powers, f"must be {length} numbers from 0 to {MAX_POWER}")
+    require(len(parameters) <= MAX_PARAMETERS, "parameters", len(parameters), "are too many")
+    for low, high in parameters:
+        require(low <= high, "range", f"[{low}, {high}]", "is empty")
+
+
+def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
+    """M(q) written out, or where that is long its size and a digest of its entries."""
+    n = len(mass)
+    ranged = [f"p{k + 1} in [{number_text(a)}, {number_text(b)}]" for k, (a, b) in enumerate(parameters)]
+    names = [*(f"sin q{i + 1}" for i in range(n)), *(f"cos q{i + 1}" for i in range(n))]
+    names += [f"p{k + 1}" for k in range(len(parameters))]
+    entries = [
+        f"M{i + 1}{j + 1} = {_polynomial_text(mass[i][j], names)}" for i in range(n) for j in range(i, n)
+    ]
+    written = ", ".join([*entries, *ranged])
+    if len(written) <= LONGEST:
+        return written
+    digest = sha256(repr((mass, parameters)).encode()).hexdigest()[:16]
+    more = f" and {len(parameters)} uncertain numbers" if parameters else ""
+    return f"the M(q) of {n} joints{more} with digest {digest}"
+
+
+def _polynomial_text(entry: Monomials, names: list[str]) -> str:
+    terms = []
+    for powers, c in entry:
+        factors = [f"{name}^{p}" if p > 1 else name for name, p in zip(names, powers, strict=True) if p]
+        terms.append("·".join([number_text(c), *factors]))
+    return " + ".join(terms).replace("+ −", "− ") or "0"
+
+
+@dataclass(frozen=True)
+class _OfArm(Statement):
+    """What the kinds below share: ``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
+
+    mass: Mass
+    parameters: tuple[Ends, ...]
+
+    def require_well_formed(self) -> None:
+        """A matrix of polynomials."""
+        require_mass(self.mass, self.parameters)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None: polynomials have values everywhere."""
+        return []
+
+    @property
+    def inertia(self) -> Inertia:
+        """M(q)."""
+        return Inertia(self.mass, self.parameters)
+
+    @property
+    def over(self) -> str:
+        """``for all q …``."""
+        return f"for all q, {mass_text(self.mass, self.parameters)}"
+
+
+@dataclass(frozen=True)
+class MassAbove(_OfArm):
+    """M(q) is symmetric and M(q) − low·I positive definite, for all q and parameters; kg·m²."""
+
+    low: Fraction
+
+    def require_well_formed(self) -> None:
+        """A matrix of polynomials, and a bound that is not negative."""
+        super().require_well_formed()
+        require(self.low >= 0, "low", self.low, "must not be negative")
+
+    def text(self) -> str:
+        """``M(q) = M(q)ᵀ ≻ low·I …``."""
+        return f"M(q) = M(q)ᵀ ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
+
+
+@dataclass(frozen=True)
+class MassBelow(_OfArm):
+    """‖M(q)‖ <= high, for all q and parameters; kg·m²."""
+
+    high: Fraction
+
+    def text(self) -> str:
+        """``‖M(q)‖ ≤ high …``."""
+        return f"‖M(q)‖ ≤ {number_text(self.high)} {self.over}"
+
+
+@dataclass(frozen=True)
+class CoriolisBelow(_OfArm):
+    """‖C(q, x)y‖ <= high ‖x‖ ‖y‖ for the C of Christoffel symbols, all q, x, y and parameters; kg·m²."""
+
+    high: Fraction
+
+    def text(self) -> str:
+        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
+        bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
+        return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
+
+
+@dataclass(frozen=True)
+class Bisection(Proof):
+    """The checker cuts the angles and parameters into boxes until each shows it."""
+
+    rule = "bisection"
+
+
+@dataclass(frozen=True)
+class Links(Proof):
+    """The links of the arm: M ≻ 0, because the first that moves has a positive energy."""
+
+    rule = "links"
+    links: tuple[RigidLink, ...]
+
+
+@dataclass(frozen=True)
+class HarmonicSizes(Proof):
+    """The sum of the sizes of the harmonics of each entry suffices."""
+
+    rule = "sizes of harmonics"
+
+
+@dataclass(frozen=True)
+class PostureWitness(Proof):
+    """A posture q, parameters and vectors x, y at which the bound fails, by balls; y for C alone."""
+
+    rule = "posture"
+    q: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
+    x: tuple[Fraction, ...]
+    y: tuple[Fraction, ...] = ()
+
+
+@rule(MassAbove, Bisection)
+def by_bisection(statement: MassAbove, proof: Bisection) -> Accepted:
+    """Soundness: see :meth:`Inertia.above`."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
+    require(statement.inertia.above(statement.low), "M", "", "is not shown to exceed the bound by boxes")
+    return Accepted("proved", "enclosure")
+
+
+@rule(MassAbove, Links)
+def by_links(statement: MassAbove, proof: Links) -> Accepted:
+    """Soundness: xᵀMx is the sum of energies none of which is negative; the first that moves is positive."""
+    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
+    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
+    same = len(proof.links) == len(statement.mass) and all(link.fits for link in proof.links)
+    require(same, "links", len(proof.links), "must be one real body a joint")
+    motion = Motion(proof.links)
+    require(motion.makes(statement.mass), "links", "", "do not make this M(q)")
+    require(motion.first_to_move(), "links", "", "have one without energy about its own axis")
+    return Accepted("proved", "exact")
+
+
+@rule(MassBelow, HarmonicSizes)
+def by_rows(statement: MassBelow, proof: HarmonicSizes) -> Accepted:
+    """Soundness: a symmetric matrix is nowhere larger than its largest row sum of absolute values."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
+    reached = statement.inertia.largest_row()
+    require(reached <= statement.high, "largest row", reached, f"is above {statement.high}")
+    return Accepted("proved", "exact")
+
+
+@rule(CoriolisBelow, HarmonicSizes)
+def by_symbols(statement: CoriolisBelow, proof: HarmonicSizes) -> Accepted:
+    """Soundness: see :meth:`Inertia.squares_of_symbols`."""
+    reached = statement.inertia.squares_of_symbols()
+    require(statement.high >= 0, "high", statement.high, "must not be negative")
+    require(reached <= statement.high**2, "squares", reached, f"are above {statement.high}²")
+    return Accepted("proved", "exact")
+
+
+@rule(MassAbove, PostureWitness)
+def by_small_direction(statement: MassAbove, proof: PostureWitness) -> Accepted:
+    """Soundness: xᵀM(q)x < low xᵀx at one posture, by balls."""
+    found = _at(statement, proof)
+    form = sum((x * y for x, y in zip(found.x, found.inertia_times_x, strict=True)), arb(0))
+    require(form < to_arb(statement.low) * _square(found.x), "posture", "", "does not show xᵀMx < low xᵀx")
+    return Accepted("refuted", "enclosure")
+
+
+@rule(MassBelow, PostureWitness)
+def by_large_direction(statement: MassBelow, proof: PostureWitness) -> Accepted:
+    """Soundness: ‖M(q)x‖ > high ‖x‖ at one posture, by balls."""
+    found = _at(statement, proof)
+    bound = to_arb(max(statement.high, Fraction(0))) ** 2 * _square(found.x)
+    require(_square(found.inertia_times_x) > bound, "posture", "", "does not show ‖Mx‖ > high ‖x‖")
+    return Accepted("refuted", "enclosure")
+
+
+@rule(CoriolisBelow, PostureWitness)
+def by_turning(statement: CoriolisBelow, proof: PostureWitness) -> Accepted:
+    """Soundness: ‖C(q, x)y‖ > high ‖x‖ ‖y‖ at one posture, by balls."""
+    found = _at(statement, proof)
+    require(len(proof.y) == len(proof.x), "y", len(proof.y), f"must have {len(proof.x)} entries")
+    y = [to_arb(value) for value in proof.y]
+    turned = statement.inertia.coriolis(proof.q, proof.parameters, found.x, y)
+    bound = to_arb(max(statement.high, Fraction(0))) ** 2 * _square(found.x) * _square(y)
+    require(_square(turned) > bound, "posture", "", "does not show ‖C(q, x)y‖ > high ‖x‖ ‖y‖")
+    return Accepted("refuted", "enclosure")
+
+
+@dataclass(frozen=True)
+class _Posture:
+    """x and M(q)x in balls."""
+
+    x: list[arb]
+    inertia_times_x: list[arb]
+
+
+def _at(statement: _OfArm, proof: PostureWitness) -> _Posture:
+    """The posture of a witness, if it is one of this arm.
+
+    Raises:
+        Refused: sizes do not fit, a parameter is out of its range, or x = 0.
+    """
+    n = len(statement.mass)
+    require(len(proof.q) == n and len(proof.x) == n, "posture", len(proof.q), f"must have {n} joints")
+    require(any(proof.x), "x", "0", "must not be the zero vector")
+    known = len(proof.parameters) == len(statement.parameters)
+    require(known, "parameters", len(proof.parameters), f"must be {len(statement.parameters)}")
+    for value, (low, high) in zip(proof.parameters, statement.parameters, strict=True):
+        require(low <= value <= high, "parameter", value, f"must be between {low} and {high}")
+    x = [to_arb(value) for value in proof.x]
+    rows = statement.inertia.at(proof.q, proof.parameters)
+    return _Posture(x, [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows])
+
+
+def _square(x: list[arb]) -> arb:
+    return sum((value * value for value in x), arb(0))

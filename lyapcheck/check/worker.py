@@ -1,0 +1,99 @@
+"""The process that judges: requests on its standard input, a line of JSON for each on its standard output.
+
+A request is a line of JSON, {"task", "sizes", …}, then for each document as many bytes as ``sizes`` says.
+Whatever a certificate does to this process, the one that asks goes on: see ``guard``.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from contextlib import suppress
+from dataclasses import asdict
+from importlib import import_module
+from importlib.util import find_spec
+from types import ModuleType
+from typing import IO, Any
+
+from lyapcheck.check.limits import Limits
+
+resource: Any = import_module("resource") if find_spec("resource") else None
+"""The limits of a POSIX system; elsewhere there are none."""
+
+RECURSION = 6_000
+"""Levels of calls: an expression may be 300 deep, and a level of it takes several calls."""
+SHARE = 8
+"""A process that has come to this share of its memory is replaced, so that each certificate has its own."""
+GRACE = 5
+"""Seconds by which the limit of the system lies above that of the parent, which gives the better reason."""
+
+
+def serve(limits: Limits) -> None:
+    """Answer until there are no more requests."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this process
+    answers, requests = os.fdopen(os.dup(1), "wb"), sys.stdin.buffer
+    os.dup2(2, 1)  # nothing that a library prints is an answer
+    sys.setrecursionlimit(RECURSION)
+    limited = _limit(limits)
+    judging = import_module("lyapcheck.check.judging")  # now: it must find room within the limits
+    _send(answers, {"limited": limited})
+    while line := requests.readline():
+        request = json.loads(line)
+        _limit_seconds(limits)
+        answer = _answer(judging, request, [requests.read(size) for size in request["sizes"]])
+        last = _is_spent(limits)
+        _send(answers, {**answer, "last": last})
+        if last:
+            return
+
+
+def _answer(judging: ModuleType, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
+    if request["task"] == "judge":
+        return {"finding": asdict(judging.judged(documents[0], request["full"]))}
+    pairs = zip(request["digests"], documents[1:], strict=True)
+    try:
+        return {"lacks": judging.lacking(documents[0], dict(zip(request["claims"], pairs, strict=True)))}
+    except Exception as error:
+        return {"lacks": f"what its theorem needs cannot be judged ({type(error).__name__}: {error})"}
+
+
+def _send(answers: IO[bytes], answer: dict[str, Any]) -> None:
+    answers.write(json.dumps(answer).encode("ascii") + b"\n")
+    answers.flush()
+
+
+def _limit(limits: Limits) -> list[str]:
+    """Set what holds for the whole process, and say which limits the system keeps."""
+    if resource is None:
+        return []
+    with suppress(ValueError, OSError):
+        _lower(resource.RLIMIT_CORE, 0)
+    try:
+        _lower(resource.RLIMIT_AS, limits.memory * 2**20)
+    except (ValueError, OSError):
+        return ["seconds"]
+    return ["seconds", "memory"]
+
+
+def _lower(limit: int, wanted: int) -> None:
+    """Set a limit of the system, within what the process may."""
+    hard = resource.getrlimit(limit)[1]
+    resource.setrlimit(limit, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
+
+
+def _limit_seconds(limits: Limits) -> None:
+    """The limit of the system on what this certificate may take, above what was used before."""
+    if resource is not None:
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        _lower(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime) + limits.seconds + GRACE)
+
+
+def _is_spent(limits: Limits) -> bool:
+    """Whether the process has grown so much that the next certificate would have less memory."""
+    if resource is None:
+        return False
+    unit = 1 if sys.platform == "darwin" else 1024
+    most: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+    return most * SHARE > limits.memory * 2**20

@@ -1,0 +1,72 @@
+"""The verdicts on certificates, from a process that has seen nothing but their files."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.claims.handover import Key
+from lyapcheck.claims.python_process import command, environment
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What the checker says about one certificate; verdict and grade only where it is accepted.
+
+    ``grade`` is the weakest of the certificate's own and of those it rests on.
+    """
+
+    accepted: bool
+    reason: str
+    verdict: str | None
+    grade: str | None
+
+
+class Alarm(Exception):
+    """One statement is both proved and refuted: the checker is wrong, and no verdict of this run counts."""
+
+    def __init__(self, found: list[tuple[str, list[str], list[str]]]) -> None:
+        self.statements = tuple(statement for statement, _, _ in found)
+        super().__init__(
+            "one statement is both proved and refuted, so the checker is wrong; trust none of its verdicts, "
+            f"and report this: {'; '.join(self.statements)}"
+        )
+
+
+def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
+    """What ``python -m lyapcheck.check`` says about certificates that use none but each other.
+
+    Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
+
+    Raises:
+        Alarm: it proves and refutes one statement.
+        RuntimeError: the checker does not answer, or answers about something else.
+    """
+    if not certificates:
+        return {}
+    files = {f"{number}.json": key for number, key in enumerate(certificates)}
+    with TemporaryDirectory(prefix="lyapcheck-") as folder:
+        for name, key in files.items():
+            Path(folder, name).write_text(certificates[key].text(), encoding="utf-8")
+        words = command("lyapcheck.check", "--format", "json", folder)
+        run = subprocess.run(words, capture_output=True, env=environment(), check=False)
+    try:
+        answer = json.loads(run.stdout)
+    except ValueError as error:
+        raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}") from error
+    if answer["alarms"]:
+        raise Alarm([(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]])
+    rows = {row["file"]: row for row in answer["certificates"]}
+    return {key: _judged(rows[name], certificates[key].claim) for name, key in files.items()}
+
+
+def _judged(row: dict[str, Any], claim: About) -> Judged:
+    if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
+        raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
+    return Judged(row["accepted"] is True, row["reason"], row["verdict"], row["grade"])

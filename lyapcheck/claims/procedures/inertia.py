@@ -1,0 +1,136 @@
+"""How small and how large M(q) and the Coriolis matrix of one arm are.
+
+M ≻ 0 by its links where they are known, else by boxes of angles that are cut until each shows it; upper
+bounds by the sizes of harmonics; against any of them the worst of many random postures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.check.kinds.inertia import (
+    Bisection,
+    CoriolisBelow,
+    HarmonicSizes,
+    MassAbove,
+    MassBelow,
+    PostureWitness,
+)
+from lyapcheck.check.loop.inertia import Inertia
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.search.inertia import mass_proof
+
+METHOD = "inertia"
+SAMPLES = 400
+SEED = 20190301
+MOST_BOXES_JOINTS = 4
+OfArm = MassAbove | MassBelow | CoriolisBelow
+
+
+def find_mass_above(statement: MassAbove) -> Finding:
+    """A posture that refutes it, else the links, else boxes."""
+    proofs: list[Proof] = (
+        [mass_proof(statement.mass)] if statement.low == 0 and not statement.parameters else []
+    )
+    if len(statement.mass) <= MOST_BOXES_JOINTS:
+        proofs.append(Bisection())
+    advice = "take a smaller bound, or name an arm whose links are known"
+    return _found(statement, proofs, advice)
+
+
+def find_upper(statement: MassBelow | CoriolisBelow) -> Finding:
+    """The sizes of harmonics, else a posture that refutes it."""
+    return _found(statement, [HarmonicSizes()], "take a larger bound")
+
+
+def _found(statement: OfArm, proofs: list[Proof], advice: str) -> Finding:
+    for against in _postures(statement):
+        if _verdict(statement, against) == "refuted":
+            return broken(against, f"{METHOD}: a posture", _witness(statement, against))
+    for proof in proofs:
+        if _verdict(statement, proof) == "proved":
+            return shown(proof, f"{METHOD}: {proof.rule}")
+    return still_open(f"it is not shown, and no posture breaks it; {advice}", METHOD)
+
+
+def _verdict(statement: Statement, proof: Proof) -> str:
+    try:
+        return verify(statement, proof).verdict
+    except Refused:
+        return ""
+
+
+def _postures(statement: OfArm) -> Iterator[PostureWitness]:
+    """The worst of many random postures, in double precision."""
+    random, inertia, n = np.random.default_rng(SEED), statement.inertia, len(statement.mass)
+    worst: tuple[float, PostureWitness] | None = None
+    for _ in range(SAMPLES):
+        q = tuple(Fraction(int(k), 64) for k in random.integers(-201, 202, n))
+        shares = [Fraction(int(k), 8) for k in random.integers(0, 9, len(statement.parameters))]
+        parameters = tuple(
+            low + (high - low) * share
+            for (low, high), share in zip(statement.parameters, shares, strict=True)
+        )
+        value, proof = _at(statement, inertia, q, parameters, random)
+        if worst is None or value > worst[0]:
+            worst = value, proof
+    if worst is not None:
+        yield worst[1]
+
+
+def _at(
+    statement: OfArm,
+    inertia: Inertia,
+    q: tuple[Fraction, ...],
+    parameters: tuple[Fraction, ...],
+    random: np.random.Generator,
+) -> tuple[float, PostureWitness]:
+    """How far a posture breaks the bound, and the witness with its worst vectors."""
+    n = inertia.n
+    if isinstance(statement, CoriolisBelow):
+        x, y = (tuple(Fraction(int(k), 8) for k in random.integers(-8, 9, n)) or None for _ in range(2))
+        x, y = (v if v is not None and any(v) else (Fraction(1),) * n for v in (x, y))
+        turned = np.array([float(c) for c in inertia.coriolis(q, parameters, _balls(x), _balls(y))])
+        size = float(np.linalg.norm(turned)) / (_norm(x) * _norm(y))
+        return size - float(statement.high), PostureWitness(q, parameters, x, y)
+    rows = np.array([[float(c) for c in row] for row in inertia.at(q, parameters)])
+    values, vectors = np.linalg.eigh(rows)
+    low = isinstance(statement, MassAbove)
+    x = tuple(Fraction(float(c)).limit_denominator(10**6) for c in vectors[:, 0 if low else -1])
+    gap = (
+        float(statement.low) - values[0]
+        if isinstance(statement, MassAbove)
+        else values[-1] - float(statement.high)
+    )
+    return float(gap), PostureWitness(q, parameters, x)
+
+
+def _balls(x: tuple[Fraction, ...]) -> list[object]:
+    from lyapcheck.check.numbers.balls import to_arb
+
+    return [to_arb(value) for value in x]
+
+
+def _norm(x: tuple[Fraction, ...]) -> float:
+    return math.sqrt(sum(value * value for value in x))
+
+
+def _witness(statement: OfArm, proof: PostureWitness) -> dict[str, object]:
+    point = {f"{name}{i + 1}": str(v) for name in "qxy" for i, v in enumerate(getattr(proof, name))}
+    point |= {f"p{i + 1}": str(v) for i, v in enumerate(proof.parameters)}
+    bound = statement.low if isinstance(statement, MassAbove) else statement.high
+    decimals = list(Enclosure.exact(bound).decimals(12))
+    value, _ = _at(statement, statement.inertia, proof.q, proof.parameters, np.random.default_rng(SEED))
+    reached = list(Enclosure.exact(Fraction(value) + bound).decimals(6))
+    if isinstance(statement, MassAbove):
+        reached = list(Enclosure.exact(bound - Fraction(value)).decimals(6))
+        return {"point": point, "left": decimals, "operator": "<", "right": reached}
+    return {"point": point, "left": reached, "operator": "<=", "right": decimals}

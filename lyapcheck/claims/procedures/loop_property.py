@@ -1,0 +1,67 @@
+"""Properties of the closed loop and of V: bounds of h are proposed, then each fact about it is decided.
+
+The facts are about h, h' and U in one variable; the checker says why they are enough.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.loop_property import SMOOTH, UNBOUNDED, Facts, LoopProperty, facts_of
+from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
+
+METHOD = "facts in one variable"
+FARTHEST = 40.0
+STARTS = (1, 2, 4, 8, 16)
+
+
+def find_loop_property(statement: LoopProperty) -> Finding:
+    """Decide every fact; one that fails leaves the property open, as it is only sufficient."""
+    from lyapcheck.claims.procedures import find
+
+    numbers = _numbers(statement)
+    if numbers is None:
+        return still_open("h, h' or h(x)/x has no bound that sampling would show; check the function", METHOD)
+    facts = [(name, find(fact)) for name, fact in facts_of(statement, numbers)]
+    for name, found in facts:
+        if not found.is_proof:
+            reason = found.reason or "it fails"
+            return still_open(f"{name} is not shown: {reason}", METHOD)
+    proofs = tuple(found.proof for _, found in facts if found.proof is not None)
+    return shown(Facts(numbers, proofs), conjunction(facts).method)
+
+
+def _numbers(statement: LoopProperty) -> tuple[Fraction, ...] | None:
+    """c, its x and γ, or ρ and L: a little beyond what is met on a grid."""
+    if statement.property == UNBOUNDED:
+        x = np.linspace(0.0, FARTHEST, 8001)
+        h = _values(statement.h, x)
+        least = [(float(np.min(h[x >= start])), start) for start in STARTS]
+        low, start = max(least)
+        largest = float(np.max(np.abs(h)))
+        if not (low > 0 and np.isfinite(largest)):
+            return None
+        return Fraction(low / 2).limit_denominator(100) or Fraction(1, 1000), Fraction(start), _above(largest)
+    if statement.property == SMOOTH:
+        x = np.concatenate([np.geomspace(1e-6, 1e-2, 40), np.linspace(1e-2, FARTHEST, 16001)])
+        slope, secant = _values(statement.slope, x), _values(statement.h, x) / x
+        sizes = [float(np.max(np.abs(values))) for values in (slope, secant)]
+        return (_above(sizes[0]), _above(sizes[1])) if np.all(np.isfinite(sizes)) else None
+    return ()
+
+
+def _values(
+    tree: Tree, x: np.ndarray[tuple[int], np.dtype[np.float64]]
+) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    from lyapcheck.claims.procedures.sampling import values_of
+
+    with np.errstate(all="ignore"):
+        return np.broadcast_to(values_of(tree, {"x": x}), x.shape)
+
+
+def _above(value: float) -> Fraction:
+    """A short number clearly above."""
+    return Fraction(int(value * 1010) + 2, 1000)

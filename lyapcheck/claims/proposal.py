@@ -1,0 +1,49 @@
+"""What is to be decided about one claim for one m, and what the search proposes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from lyapcheck.check.certificate import theorems_of
+from lyapcheck.check.theorems.premises import unmet
+from lyapcheck.claims.finding import Finding, still_open
+from lyapcheck.claims.handover import Key, Told
+from lyapcheck.claims.statements import Missing, Statement
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A claim for one m (``None``: it does not depend on m), its statement, and what was found.
+
+    ``used`` are the rows that it uses, ``finding`` takes them into account.
+    """
+
+    claim: Told
+    m: int | None
+    n: int | None
+    stated: Statement | Missing
+    used: tuple[Key, ...]
+    finding: Finding
+    seconds: float
+
+
+def rests_on(ids: Iterable[str]) -> str:
+    """Why a step that holds is not enough."""
+    return f"its own step holds, but it rests on {', '.join(ids)}; prove those, or prove it without them"
+
+
+def chained(finding: Finding, statement: Statement | Missing, used: Iterable[Proposal]) -> Finding:
+    """The finding on a step, open if what it uses does not carry it; a counterexample needs none of that."""
+    if not finding.is_proof or isinstance(statement, Missing):
+        return finding
+    rows = list(used)
+    open_uses = [row.claim.id for row in rows if not row.finding.is_proof]
+    if open_uses:
+        return replace(still_open(rests_on(open_uses), finding.method), evidence=finding.evidence)
+    stated = {row.claim.id: row.stated for row in rows if not isinstance(row.stated, Missing)}
+    for theorem in theorems_of(statement):
+        lacks = unmet(theorem, stated)
+        if lacks is not None:
+            return replace(still_open(f"{lacks}; state it there", finding.method), evidence=finding.evidence)
+    return finding

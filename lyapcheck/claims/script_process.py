@@ -1,0 +1,144 @@
+"""``python -m lyapcheck.claims.script_process``: the process in which a proof script runs.
+
+The request comes pickled on standard input, from the process that trusts no script; the answer goes as JSON
+to the file that the request names. What the script prints goes to standard error. This process ends with the
+one that started it, which is when standard input ends.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import pickle
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from threading import Thread
+from typing import BinaryIO
+
+from lyapcheck.claims.case import Case, Lacking
+from lyapcheck.claims.claim import Claim
+from lyapcheck.claims.handover import TOO_DEEP, Answer, Given, Handover, Request, Told, statement_json, write
+from lyapcheck.claims.order import in_order, needed
+from lyapcheck.claims.script import check_ids, load_proof
+from lyapcheck.claims.statements import Statement
+from lyapcheck.errors import InputError, Problem
+
+Lines = dict[Statement, tuple[int, str]]
+"""The number and the line of each statement."""
+
+
+def main() -> None:
+    """Answer one request and leave at once, whatever threads and exit handlers the script has left."""
+    gc.disable()  # a short life, most of it building trees
+    own, code = os.getpid(), 1
+    try:
+        stream = _only_ours()
+        request = pickle.load(stream)
+        Thread(target=_end_with, args=(stream,), daemon=True).start()
+        text = answer(request)
+        if os.getpid() == own:  # a copy that the script has forked has nothing to say
+            Path(request.answer).write_text(text, encoding="utf-8")
+            code = 0
+    except BaseException as error:
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+    finally:
+        os._exit(code)
+
+
+def _only_ours() -> BinaryIO:
+    """Standard input, which the script must not read; what it prints is not for standard output."""
+    stream = os.fdopen(os.dup(0), "rb")
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    sys.stdout = sys.stderr
+    return stream
+
+
+def _end_with(stream: BinaryIO) -> None:
+    """End this process, and all that the script has started in its group, when the stream ends."""
+    stream.read()
+    os.killpg(os.getpid(), signal.SIGKILL)
+
+
+def answer(request: Request) -> str:
+    """The handover of the script as JSON: its claims with their statements, or what is wrong with it."""
+    try:
+        return _handover(request)
+    except InputError as error:
+        problems = tuple((p.file, p.line, p.key, p.value, p.rule, p.repair) for p in error.problems)
+        return write(Handover(problems=problems), [])
+
+
+def _handover(request: Request) -> str:
+    proof = load_proof(Path(request.path), request.shown)
+    check_ids(proof.claims, request.only, request.shown)
+    in_order(proof.claims, request.shown)
+    wanted = needed(proof.claims, request.only or proof.claims)
+    statements: Lines = {}
+    told = []
+    for claim in proof.claims.values():
+        answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
+        told.append(Told(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
+    return write(
+        Handover(proof.name, proof.title, proof.reference, tuple(told)),
+        (line for _, line in statements.values()),
+    )
+
+
+def _answers(claim: Claim, request: Request, statements: Lines) -> Iterator[Answer]:
+    for given in request.asked:
+        yield _answer(claim, given, statements, request.shown)
+    for given in request.others:
+        try:
+            yield _answer(claim, given, statements, request.shown)
+        except InputError as error:
+            yield Answer(None, str(error), ())
+
+
+def _answer(claim: Claim, given: Given, statements: Lines, shown: str) -> Answer:
+    case = Case(*given)
+    try:
+        statement = _statement(claim, case, shown)
+        if statement not in statements:
+            statements[statement] = len(statements), statement_json(statement)
+    except Lacking as lack:
+        return Answer(None, str(lack), tuple(sorted(case.read)))
+    except RecursionError:
+        return Answer(None, f"its statement {TOO_DEEP}", tuple(sorted(case.read)))
+    except (TypeError, ValueError, AttributeError) as error:
+        rule = f"its statement is not plain data ({type(error).__name__}: {error})"
+        repair = "build it with the functions of lyapcheck.claims"
+        raise InputError(Problem(shown, None, claim.id, "", rule, repair)) from error
+    return Answer(statements[statement][0], "", tuple(sorted(case.read)))
+
+
+def _statement(claim: Claim, case: Case, shown: str) -> Statement:
+    """What a claim states for a case.
+
+    Raises:
+        Lacking: the case lacks something.
+        InputError: the function raises something else, or gives no statement.
+    """
+    try:
+        statement = claim.statement(case)
+    except (Lacking, InputError):
+        raise
+    except BaseException as error:  # a script must not choose the exit code
+        rule = f"its statement raises {type(error).__name__}: {error}"
+        raise InputError(
+            Problem(shown, None, claim.id, "", rule, "correct the function of this claim")
+        ) from error
+    returned: object = statement
+    if not isinstance(returned, Statement):
+        rule = f"its function returns a {type(returned).__name__}, not a statement"
+        repair = (
+            "return for_all(...), identity(...), norm_bound(...), implies(...), agrees(...) or all_of(...)"
+        )
+        raise InputError(Problem(shown, None, claim.id, "", rule, repair))
+    return statement
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""A proof of stability that a search proposes, and whether the checker accepts it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    Decreasing,
+    PositiveAndDecreasing,
+    RadialBounds,
+    statement_of,
+)
+from lyapcheck.check.kinds.inertia import Bisection, Links
+from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it."""
+
+    closure: Closure
+    by: BoxTree | RadialBounds
+    inertia: Bisection | Links
+
+    @property
+    def boxes(self) -> int:
+        """How many boxes the data consist of."""
+        return self.by.tree.count(".")
+
+    @property
+    def statement(self) -> Decreasing:
+        """What is proved."""
+        return statement_of(self.closure)
+
+    @property
+    def certificate(self) -> PositiveAndDecreasing:
+        """The proof as certificates bring it forward."""
+        return PositiveAndDecreasing(self.inertia, self.by)
+
+    def accepted(self, jobs: int = 1) -> bool:
+        """Whether the checker accepts it, in so many processes."""
+        try:
+            with shared_between(jobs):
+                return verify(self.statement, self.certificate).verdict == "proved"
+        except Refused:
+            return False

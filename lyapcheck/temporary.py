@@ -1,0 +1,30 @@
+"""Files and folders that must not outlive the command that makes them, however it ends."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+_pending: set[str] = set()
+
+
+@contextmanager
+def pending(path: str | Path) -> Iterator[None]:
+    """While this lasts, `clear` removes the file or folder; who made it removes or moves it otherwise."""
+    _pending.add(str(path))
+    try:
+        yield
+    finally:
+        _pending.discard(str(path))
+
+
+def clear() -> None:
+    """Remove what is pending: for a process that ends here and now."""
+    for path in tuple(_pending):
+        if os.path.isdir(path):
+            shutil.rmtree(path, ignore_errors=True)
+        elif os.path.exists(path):
+            os.unlink(path)

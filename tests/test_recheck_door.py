@@ -1,0 +1,407 @@
+"""What recheck is handed by whoever wants it to stop, to hang, or to say something else than it judged."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.check.certificate import digest_of, parse, read
+from lyapcheck.check.codec import members
+from lyapcheck.check.files import content, gather
+from lyapcheck.check.guard import CannotStart, Guard
+from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING, Limits
+from lyapcheck.check.recheck import recheck
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+
+MODULE = [sys.executable, "-m", "lyapcheck.check"]
+COMMAND = [sys.executable, "-c", "from lyapcheck.cli.main import main; main()", "recheck"]
+X = ["var", "x"]
+ONE = ["num", "1"]
+GOOD = {"kind": "Identity", "left": X, "right": X}
+
+
+def sealed(statement, proof=None, **more):
+    data = {
+        "schema": "lyapcheck/certificate/1",
+        "claim": {"id": "a", "says": "words", "m": None, "n": None, "proof": "p"},
+        "statement": statement,
+        "verdict": "proved",
+        "grade": "exact",
+        "proof": proof or {"rule": "normal form"},
+        "uses": {},
+        "versions": {},
+        **more,
+    }
+    return json.dumps({**data, "digest": digest_of(data)})
+
+
+def same(tree):
+    """A certificate that an expression is itself: all the work is in its normal form."""
+    return sealed({"kind": "Identity", "left": tree, "right": tree})
+
+
+def sines(depth):
+    tree = X
+    for _ in range(depth):
+        tree = ["sin", tree]
+    return same(tree)
+
+
+def run(*arguments, command=MODULE):
+    return subprocess.run(
+        [*command, *map(str, arguments)], capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "good.json").write_text(sealed(GOOD), encoding="utf-8")
+    return tmp_path
+
+
+def statuses(folder, *options):
+    data = json.loads(run(folder, "--format", "json", *options).stdout)
+    return {row["file"]: (row["status"], row["reason"]) for row in data["certificates"]}
+
+
+# Files ------------------------------------------------------------------------------------------------------
+
+
+def bound(path):
+    """A socket by its short name: the path of one has few characters."""
+    here = os.getcwd()
+    os.chdir(path.parent)
+    try:
+        with socket.socket(socket.AF_UNIX) as made:
+            made.bind(path.name)
+    finally:
+        os.chdir(here)
+
+
+PLANT = {
+    "pipe": (os.mkfifo, "is a pipe, not a regular file"),
+    "socket": (bound, "is a socket, not a regular file"),
+    "directory": (Path.mkdir, "is a directory, not a regular file"),
+    "loop": (lambda path: path.symlink_to(path.name), "cannot be read (Too many levels of symbolic links)"),
+    "link to a device": (lambda path: path.symlink_to("/dev/zero"), "is a device, not a regular file"),
+    "link to nothing": (lambda path: path.symlink_to("none"), "cannot be read (No such file or directory)"),
+    "no text": (lambda path: path.write_bytes(b'{"a": "\xff"}'), "is not JSON in UTF-8 ('utf-8' codec can't"),
+    "empty": (Path.touch, "is not JSON in UTF-8 (Expecting value"),
+    "large": (
+        lambda path: path.touch() or os.truncate(path, MAX_BYTES + 1),
+        f"has {MAX_BYTES + 1} bytes, above {MAX_BYTES}, which no certificate has",
+    ),
+}
+"""How an entry comes to be that is no certificate, and what is said of it."""
+
+
+def plant(folder, what):
+    make, said = PLANT[what]
+    make(folder / "x.json")
+    return said
+
+
+@pytest.mark.parametrize("what", PLANT)
+def test_an_entry_that_is_no_certificate_is_refused_and_the_rest_goes_on(folder, what):
+    said = plant(folder, what)
+    found = statuses(folder)
+    assert found["good.json"] == ("accepted", "")
+    assert found["x.json"][0] == "refused"
+    assert found["x.json"][1].startswith(said)
+
+
+@pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
+@pytest.mark.parametrize("what", [what for what in PLANT if what != "directory"])
+def test_named_by_itself_it_is_exit_code_2(folder, what, command):
+    said = plant(folder, what)
+    done = run(folder / "x.json", folder / "good.json", command=command)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"x.json: CERTIFICATE: {said}" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("path", ["/dev/zero", "/dev/null", "/dev/stdin"])
+def test_devices_are_not_read(path):
+    done = subprocess.run(
+        [*MODULE, path], stdin=subprocess.PIPE, capture_output=True, timeout=60, check=False
+    )
+    assert done.returncode == 2
+    assert b"not a regular file" in done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_what_may_not_be_read_is_named(folder):
+    (folder / "good.json").chmod(0)
+    assert "cannot be read (Permission denied)" in run(folder / "good.json").stderr
+    folder.chmod(0)
+    try:
+        assert "cannot be read (Permission denied)" in run(folder / "good.json").stderr
+    finally:
+        folder.chmod(0o700)
+
+
+def test_a_file_that_grows_is_not_read_in_part(folder, monkeypatch):
+    real = os.fstat
+
+    def before(descriptor):
+        found = real(descriptor)
+        with (folder / "good.json").open("ab") as file:
+            file.write(b" ")
+        return found
+
+    monkeypatch.setattr(os, "fstat", before)
+    with pytest.raises(ValueError, match="changes while it is read"):
+        content(folder / "good.json")
+
+
+def test_a_file_that_vanishes_between_listing_and_judging_is_refused(folder):
+    (folder / "gone.json").write_text(sealed(GOOD))
+    documents = gather([folder])
+    (folder / "gone.json").unlink()
+    found = {one.file: one for one in recheck(documents).checked}
+    assert found["good.json"].accepted
+    assert found["gone.json"].reason == "cannot be read (No such file or directory)"
+
+
+def test_a_name_that_is_no_unicode_is_printed_as_an_escape(folder):
+    os.rename(folder / "good.json", os.fsencode(folder) + b"/b\xffd\x1b.json")
+    for form in ("text", "json"):
+        done = run(folder, "--format", form)
+        assert done.returncode == 0, done.stderr
+        assert "\x1b" not in done.stdout
+
+
+# Content ----------------------------------------------------------------------------------------------------
+
+
+def altered(**claim):
+    about = {"id": "a", "says": "words", "m": None, "n": None, "proof": "p"}
+    return sealed(GOOD, claim=about | claim)
+
+
+def nested(levels):
+    """A conjunction of a conjunction of …"""
+    statement, proof = GOOD, {"rule": "normal form"}
+    for _ in range(levels):
+        statement, proof = (
+            {"kind": "AllOf", "parts": [["p", statement]]},
+            {"rule": "every part", "parts": [proof]},
+        )
+    return sealed(statement, proof)
+
+
+def number(text):
+    return same(["num", text])
+
+
+REFUSED = {
+    "985 lists": ("[" * 985 + "]" * 985, f"nested deeper than {MAX_NESTING} levels"),
+    "a million lists": ("[" * 10**6 + "]" * 10**6, f"nested deeper than {MAX_NESTING} levels"),
+    "lists in a digest": (
+        '{"digest": %s}' % ("[" * 985 + "]" * 985),
+        f"nested deeper than {MAX_NESTING} levels",
+    ),
+    "objects": ('{"a":' * 985 + "1" + "}" * 985, f"nested deeper than {MAX_NESTING} levels"),
+    "conjunctions": (nested(200), f"nested deeper than {MAX_NESTING} levels"),
+    "an expression": (sines(301), "is nested deeper than 300 levels"),
+    "a long integer": ('{"m": %s}' % ("9" * 21), "is too long an integer"),
+    "an endless integer": ('{"m": %s}' % ("9" * 10**6), "is too long an integer"),
+    "a float": ('{"m": 1.0}', "must be an integer"),
+    "not a number": ('{"m": NaN}', "must be an integer"),
+    "a key twice": ('{"a": 1, "a": 1}', "has a key twice"),
+    "true for 1": (altered(m=True), "must be of type int"),
+    "an exponent that is true": (same(["pow", X, True]), "is not part of an expression"),
+    "minus zero": (number("-0"), "is not an operation"),
+    "not in lowest terms": (number("2/4"), "is not an operation"),
+    "over one": (number("3/1"), "is not an operation"),
+    "digits of another script": (number("٣"), "is not an operation"),
+    "a long number": (number("9" * 4001), "is not an operation"),
+    "a control character": (altered(says="fine\x1b[2J"), "is not plain Unicode text"),
+    "a line break": (altered(id="a\nb"), "is not plain Unicode text"),
+    "a nul": (altered(id="a\0"), "is not plain Unicode text"),
+    "writing from the right": (altered(says="\u202eaccepted"), "is not plain Unicode text"),
+    "half a surrogate pair": (altered(says="\ud800"), "is not plain Unicode text"),
+    "decomposed letters": (altered(id="e\u0301"), "is not plain Unicode text in NFC"),
+    "a long id": (altered(id="a" * 201), "is longer than 200 characters"),
+    "a variable of another script": (same(["var", "\u0430"]), "is not an operation"),
+    "a variable that says something": (same(["var", "x for all x < 1; y"]), "is not an operation"),
+    "a kind that is no text": (sealed({**GOOD, "kind": ["Identity"]}), "statement.kind"),
+    "a kind that is an abstract class": (sealed({**GOOD, "kind": "Statement"}), "is not a kind"),
+    "itself among its uses": (sealed(GOOD, uses={"a": "self"}), "is not a digest"),
+    "a power of a power": (
+        same(["pow", ["pow", ["add", X, ONE], 50_000], 50_000]),
+        "has more than 1000000 parts",
+    ),
+    "a power of a sum": (same(["pow", ["add", X, ONE], 50_000]), "a product of polynomials"),
+    "a product of sums": (
+        same(["mul", *(["add", ["var", f"a{k}"], ["var", f"b{k}"]] for k in range(40))]),
+        "a product of polynomials",
+    ),
+    "a number for every n": (
+        sealed(
+            {
+                "kind": "EveryN",
+                "left": ["pow", ["pow", ["num", "7"], 50_000], 50_000],
+                "right": ONE,
+                "symmetric": [],
+                "rates": [],
+                "given": [],
+            }
+        ),
+        "more than 1000000 parts",
+    ),
+    "a member of the family": (same(["h", 10_000, X]), "a product of polynomials"),
+}
+
+
+def test_what_no_certificate_contains_is_refused_each_for_its_reason(folder):
+    for name, (text, _) in REFUSED.items():
+        (folder / f"{name}.json").write_text(text, encoding="utf-8")
+    begin = time.monotonic()
+    found = statuses(folder, "--memory", "1000")
+    assert time.monotonic() - begin < 30
+    assert found.pop("good.json") == ("accepted", "")
+    for name, (_, reason) in REFUSED.items():
+        status, said = found[f"{name}.json"]
+        assert status == "refused", name
+        assert reason in said, (name, said)
+
+
+def test_a_certificate_cannot_be_among_its_own_uses(folder):
+    data = json.loads(sealed(GOOD))
+    data["uses"] = {"a": data["digest"]}
+    (folder / "x.json").write_text(sealed(GOOD, uses=data["uses"]), encoding="utf-8")
+    (folder / "y.json").write_text(json.dumps(data), encoding="utf-8")
+    found = statuses(folder)
+    assert found["x.json"][0] == "accepted", "the digest it names is that of good.json"
+    assert found["y.json"][1].startswith("digest")
+
+
+def test_only_the_classes_of_the_checker_are_read():
+    class Everything(Statement):
+        def require_well_formed(self):
+            pass
+
+        def text(self):
+            return "everything"
+
+    class Anything(Proof):
+        rule = "normal form"
+
+    assert "Everything" not in members(Statement)
+    assert members(Proof)["normal form"] is not Anything
+    with pytest.raises(Refused, match="is not a kind"):
+        read(parse(sealed({"kind": "Everything"})))
+
+
+# Limits -----------------------------------------------------------------------------------------------------
+
+SLOW = sines(290)
+LARGE = same(["mul", *(["add", ["var", f"a{k}"], ONE] for k in range(22))])
+
+
+def test_what_takes_too_long_is_refused_and_the_rest_goes_on(folder):
+    (folder / "a slow one.json").write_text(SLOW, encoding="utf-8")
+    begin = time.monotonic()
+    found = statuses(folder, "--seconds", "1")
+    assert time.monotonic() - begin < 20
+    assert found["a slow one.json"] == ("refused", "takes more than 1 s to judge; --seconds allows more")
+    assert found["good.json"][0] == "accepted"
+
+
+def test_what_takes_too_much_memory_is_refused_and_the_rest_goes_on(folder):
+    (folder / "a large one.json").write_text(LARGE, encoding="utf-8")
+    found = statuses(folder, "--memory", "200")
+    assert found["a large one.json"][0] == "refused"
+    assert "200 MiB may be too few; --memory allows more" in found["a large one.json"][1]
+    assert found["good.json"][0] == "accepted"
+
+
+@pytest.mark.parametrize("number", ["SIGABRT", "SIGSEGV", "SIGKILL"])
+def test_whatever_ends_the_process_that_judges_ends_no_more_than_that(folder, number):
+    """The process is asked for the second time when it is dead already."""
+    with Guard(Limits()) as guard:
+        good = (folder / "good.json").read_bytes()
+        assert not guard.judge(good, False).reason
+        os.kill(guard._process.pid, signal.Signals[number])
+        guard._process.wait()
+        assert number in guard.judge(good, False).reason
+        assert not guard.judge(good, False).reason
+
+
+def test_too_little_memory_to_start_is_not_the_fault_of_a_certificate(folder):
+    with Guard(Limits(memory=1)) as guard, pytest.raises(CannotStart):
+        guard.judge((folder / "good.json").read_bytes(), False)
+    done = run(folder, "--memory", "1")
+    assert done.returncode == 2
+    assert "allow more" in done.stderr
+
+
+def children(pid):
+    return Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts processes as Linux lists them")
+@pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_no_process_is_left_behind(folder, command, number, code):
+    (folder / "slow.json").write_text(SLOW, encoding="utf-8")
+    with subprocess.Popen([*command, str(folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as parent:
+        deadline = time.monotonic() + 20
+        while not (found := children(parent.pid)) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(1)
+        parent.send_signal(number)
+        parent.communicate(timeout=20)
+    assert parent.returncode == code
+    assert found
+    assert not any(Path(f"/proc/{child}").exists() for child in found)
+
+
+def test_where_the_system_keeps_no_limits_it_is_said(folder, monkeypatch):
+    found = recheck(gather([folder]))
+    assert found.limited == ("seconds", "memory")
+    monkeypatch.setattr(
+        "lyapcheck.check.guard.CODE", "import sys; sys.modules['resource'] = None\n" + _without()
+    )
+    assert recheck(gather([folder])).limited == ()
+
+
+def _without():
+    from lyapcheck.check import guard
+
+    return guard.CODE.replace(
+        "serve(Limits", "import lyapcheck.check.worker as worker; worker.resource = None\nserve(Limits"
+    )
+
+
+def test_both_doors_have_the_same_options_and_say_the_same(folder):
+    for options in ([], ["--format", "json"], ["--trusted", "--full"]):
+        first, second = (run(folder, *options, command=command) for command in (MODULE, COMMAND))
+        assert (first.returncode, first.stdout) == (second.returncode, second.stdout) != (2, "")
+    shown = [run("--help", command=command).stdout for command in (MODULE, COMMAND)]
+    for option in ("--format", "--full", "--trusted", "--seconds", "--memory"):
+        assert all(option in text for text in shown)
+        assert (
+            run(folder, "--seconds", "0").returncode
+            == run(folder, "--seconds", "0", command=COMMAND).returncode
+            == 2
+        )
+
+
+def test_a_library_beside_the_certificates_is_not_imported(folder):
+    (folder / "flint.py").write_text("raise SystemExit(7)")
+    done = subprocess.run(
+        [sys.executable, "-c", "from lyapcheck.check.__main__ import main; raise SystemExit(main(['.']))"],
+        cwd=folder,
+        capture_output=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
