@@ -34,7 +34,7 @@ proof.add("a", "tanh x ≤ x", for_all(tanh(x) <= x, 0))
 proof.add("b", "1 ≤ 2", Constant(expr(1) <= 2), uses=["a"])
 proof.add("c", "√2 ≤ 3", Constant(sqrt(2) <= 3), uses=["b"])
 proof.add("d", "3 ≤ 1", Constant(expr(3) <= 1), uses=["a"])
-proof.add("e", "open", Constant(tanh(expr(1)) <= (exp(expr(2)) - 1) / (exp(expr(2)) + 1)))
+proof.add("e", "open", identity(log((1 + x**2) ** 2), 2 * log(1 + x**2)))
 
 @proof.claim("f", "h_m ≤ 1.06", uses=["c"])
 def _(case):
