@@ -262,7 +262,7 @@ def _with_numbers(random: Random) -> Made:
     return Made(statement, "numbers among the letters")
 
 
-@generates("BoundEveryN", 8)
+@generates("BoundEveryN", 3)
 def bound(random: Random) -> Made:
     """A sum of terms against the product of norms, with coefficients that suffice or not."""
     words: list[tuple[Fraction, Tree, Tree]] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from math import isqrt
 from random import Random
@@ -10,10 +11,17 @@ from typing import Any
 from mpmath import mp
 
 from tests.statement_fuzz.oracle import exact, kinds
-from tests.statement_fuzz.oracle.entries import all_letters, letters_of, meets, shown_entries, solved
+from tests.statement_fuzz.oracle.entries import (
+    all_letters,
+    letters_of,
+    meets,
+    read_letter,
+    shown_entries,
+    solved,
+)
 from tests.statement_fuzz.oracle.evaluate import Tree, names
-from tests.statement_fuzz.oracle.letters import Entries, Values
-from tests.statement_fuzz.oracle.numbers import DIGITS, Undefined, Unsure, Value, sign
+from tests.statement_fuzz.oracle.letters import Entries, Letter, Values
+from tests.statement_fuzz.oracle.numbers import DIGITS, Undefined, Unsure, Value, power, sign
 from tests.statement_fuzz.oracle.region import Objection, holds
 
 
@@ -48,14 +56,19 @@ def _values(statement: Any, n: int, random: Random) -> Values:
     sizes = [size for _, size in (*statement.norms, *statement.least)]
     variables = sorted(names(statement.right, *sizes))
     free = {name: Fraction(random.choice((0, 1, 1, 2, 5, 9)), random.choice((1, 2, 3))) for name in variables}
-    extra = [letter for letters, _ in statement.norms for letter in letters]
     values: Values = {}
-    for sort, name in sorted(
-        set(all_letters(statement)) | letters_of(*extra, *(a for a, _ in statement.least))
-    ):
+    for sort, name in letters_of_bound(statement):
         values[sort, name] = _sharp(sort, name, n, random, name in statement.symmetric)
     values |= {("var", name): value for name, value in free.items()}
     return values
+
+
+def letters_of_bound(statement: Any) -> list[Letter]:
+    """All letters of a statement, those of its norms and sizes among them."""
+    sizes = [size for _, size in (*statement.norms, *statement.least)]
+    extra = [letter for letters, _ in statement.norms for letter in letters]
+    found = letters_of(*extra, *(number for number, _ in statement.least), statement.right, *sizes)
+    return sorted(set(all_letters(statement)) | found)
 
 
 def _at_the_border(statement: Any, values: Values, n: int) -> Entries | None:
@@ -141,3 +154,46 @@ def _within(at: Entries, letters: Any, size: Tree) -> bool:
     for letter in letters:
         total *= norm(_letter_value(at.values, letter))
     return holds("<=", total, at.of(size))
+
+
+@kinds.judges("BoundEveryN")
+def entries_break(statement: Any, witness: Mapping[str, Any]) -> bool | None:
+    """Whether entries break a bound while the norms hold; ``None`` for matrices whose norm is not plain."""
+    point = dict(witness["point"])
+    n = int(point.pop("n"))
+    letters = letters_of_bound(statement)
+    values = {
+        (sort, name): read_letter(sort, name, n, point, name in statement.symmetric) for sort, name in letters
+    }
+    at = Entries(values, n, dict(statement.rates))
+    if any(value < 0 for (sort, _), value in values.items() if sort == "var"):
+        return False
+    try:
+        with mp.workdps(DIGITS):
+            least = all(holds("<=", at.of(low), at.of(number)) for number, low in statement.least)
+            if not meets(statement, at) or not least:
+                return False
+            norms = [_certainly_within(at, *known) for known in statement.norms]
+            if holds("<=", at.of(statement.left), at.of(statement.right)):
+                return False
+            return True if all(norms) else None
+    except Undefined:
+        return False
+    except Unsure:
+        return None
+
+
+def _certainly_within(at: Entries, letters: Any, size: Tree) -> bool:
+    """Whether a product of norms is within a bound, with Frobenius norms for those of matrices."""
+    squares = Fraction(1)
+    for letter in letters:
+        if letter[0] == "diag":
+            squares *= max((a * a for a in at.values["vec", letter[1]]), default=Fraction(0))
+        else:
+            squares *= sum((a * a for a in _flat(at.values[letter[0], letter[1]])), Fraction(0))
+    allowed = at.of(size)
+    return sign(allowed) >= 0 and holds("<=", squares, power(allowed, 2))
+
+
+def _flat(value: Any) -> list[Fraction]:
+    return [a for part in value for a in _flat(part)] if isinstance(value, list) else [value]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import product
 from random import Random
@@ -125,3 +125,17 @@ def shown_entries(at: Entries) -> str:
 
 def _text(value: Any) -> str:
     return "[" + ", ".join(map(_text, value)) + "]" if isinstance(value, list) else str(value)
+
+
+def read_letter(sort: str, name: str, n: int, point: Mapping[str, str], symmetric: bool) -> Any:
+    """The value of a letter in a witness; an entry that it does not give does not matter and is 1."""
+    if sort == "var":
+        return Fraction(point.get(name, "1"))
+    if sort == "vec":
+        return [Fraction(point.get(f"{name}[{i + 1}]", "1")) for i in range(n)]
+
+    def entry(i: int, j: int) -> Fraction:
+        i, j = (min(i, j), max(i, j)) if symmetric else (i, j)
+        return Fraction(point.get(f"{name}[{i + 1},{j + 1}]", "1"))
+
+    return [[entry(i, j) for j in range(n)] for i in range(n)]

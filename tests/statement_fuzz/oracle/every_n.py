@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 from random import Random
 from typing import Any
 
 from mpmath import mp
 
 from tests.statement_fuzz.oracle import kinds
-from tests.statement_fuzz.oracle.entries import all_letters, meets, places, shown_entries
+from tests.statement_fuzz.oracle.entries import all_letters, meets, places, read_letter, shown_entries
 from tests.statement_fuzz.oracle.letters import Entries, Values
 from tests.statement_fuzz.oracle.numbers import DIGITS, Undefined, Unsure
 from tests.statement_fuzz.oracle.region import Objection, holds
@@ -41,7 +40,7 @@ def entries_refute(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     n = int(point.pop("n"))
     values: Values = {}
     for sort, name in all_letters(statement):
-        values[sort, name] = _read(sort, name, n, point, name in statement.symmetric)
+        values[sort, name] = read_letter(sort, name, n, point, name in statement.symmetric)
     at = Entries(values, n, dict(statement.rates))
     try:
         positive = getattr(statement, "positive", ()) or ()
@@ -53,17 +52,3 @@ def entries_refute(statement: Any, witness: Mapping[str, Any]) -> bool | None:
         return False
     except Unsure:
         return None
-
-
-def _read(sort: str, name: str, n: int, point: Mapping[str, str], symmetric: bool) -> Any:
-    """The value of a letter; an entry that the witness does not give does not matter and is 1."""
-    if sort == "var":
-        return Fraction(point.get(name, "1"))
-    if sort == "vec":
-        return [Fraction(point.get(f"{name}[{i + 1}]", "1")) for i in range(n)]
-
-    def entry(i: int, j: int) -> Fraction:
-        i, j = (min(i, j), max(i, j)) if symmetric else (i, j)
-        return Fraction(point.get(f"{name}[{i + 1},{j + 1}]", "1"))
-
-    return [[entry(i, j) for j in range(n)] for i in range(n)]
