@@ -64,7 +64,7 @@ class Theorem(Statement):
         known, loop = THEOREMS.get(self.name), self.loop
         if known is None:
             return f"by a theorem that the checker does not know, {self.name}"
-        given = ", ".join(f"{label} by {claim}" for label, claim in self.hypotheses)
+        given = ", ".join(f"{label} by the claim “{claim}”" for label, claim in self.hypotheses)
         torque = TRACKING_TORQUE if loop.desired else TORQUE
         condition = " and ".join(map(relation_text, loop.condition))
         under = f", for ε₀ and constants with {condition}" if condition else ""
