@@ -137,7 +137,7 @@ def _tally(outcome: Outcome) -> str:
 
 
 def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
-    found, read = one.finding, bool(one.finding.digest)
+    found, read = one.finding, bool(one.finding.verdict)
     return {
         "file": one.file,
         "status": one.status,
