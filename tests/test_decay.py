@@ -17,6 +17,8 @@ from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, Rad
 from lyapcheck.check.kinds.settling import require_margin
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.decay.least import Well
+from lyapcheck.check.loop.radial import Parts
+from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
@@ -249,6 +251,16 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
     by = RadialBounds(own.weights, own.inertia, own.lowest, own.angles, own.tree, own.cuts)
     assert shown(margin, at.inertia_proof, by)
     assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), at.inertia_proof, by)
+
+
+@pytest.mark.parametrize("friction", [F(1, 10), F(3, 5)])
+def test_bounds_of_the_inertia_hold_beside_the_friction_that_is_left(friction: Fraction) -> None:
+    at = setting("buap3", 0)
+    data = radial_data(at)
+    assert data is not None
+    margin = margin_at(at, F(1, 100), friction, F(0), data)
+    with precision(64):
+        assert Parts(margin.reduced, reduced_radial(margin)).inertia_shown()
 
 
 def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:

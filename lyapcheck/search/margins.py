@@ -101,11 +101,19 @@ def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialB
 
 
 def reduced_radial(margin: Margin) -> Radial:
-    """The data in r for (1 − η)B: weights shrink by a root of it, and μ grows by its inverse."""
-    data = margin.inertia
-    root = Fraction(math.isqrt(math.floor((1 - margin.friction) * 10**12)), 10**6)
-    weights = tuple(d * root for d in data.weights)
-    return replace(data, weights=weights, inertia=data.inertia / (root * root))
+    """The data in r for (1 − η)B."""
+    return _shrunk(margin.inertia, _root_below(1 - margin.friction))
+
+
+def _shrunk(data: Radial, root: Fraction) -> Radial:
+    """The data with smaller weights, in which M̃, and with it μ and ν, grow by the inverse of the square."""
+    weights, square = tuple(d * root for d in data.weights), root * root
+    return replace(data, weights=weights, inertia=data.inertia / square, lowest=data.lowest / square)
+
+
+def _root_below(value: Fraction) -> Fraction:
+    """A rational not above the square root."""
+    return Fraction(math.isqrt(math.floor(value * 10**12)), 10**6)
 
 
 def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
@@ -128,14 +136,8 @@ def _by_bounds(inertia: Radial) -> Callable[[Closure], bool]:
     """Whether the inequality in ‖e‖ holds."""
 
     def allows(closure: Closure) -> bool:
-        root = min(
-            Fraction(math.isqrt(math.floor(b / (d * d) * 10**12)), 10**6)
-            for b, d in zip(closure.arm.viscous, inertia.weights, strict=True)
-        )
-        weights = tuple(d * root for d in inertia.weights)
-        return holds_radially(
-            closure, replace(inertia, weights=weights, inertia=inertia.inertia / (root * root))
-        )
+        rows = zip(closure.arm.viscous, inertia.weights, strict=True)
+        return holds_radially(closure, _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows)))
 
     return allows
 
