@@ -204,6 +204,15 @@ def test_more_disturbance_leaves_more() -> None:
     assert levels[0] < levels[1]
 
 
+def test_a_torque_that_moves_the_arm_away_from_its_goal_is_bounded() -> None:
+    at = setting("reyes-kelly2", 0)
+    found = disturbance_bound(at, [0.0, 0.0], torque=[0.05, 0.05])
+    motion = disturbed(at.gains, at.model, goal(at), goal(at), T=20.0, torque=[0.05, 0.05], points=101)
+    assert len(found.largest_errors) == 2
+    assert np.abs(motion.e).max() > 0
+    assert np.all(np.abs(motion.e) <= np.array([float(x) for x in found.largest_errors]))
+
+
 def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
     at = setting("reyes-kelly2", 0)
     found = disturbance_bound(at, goal(at), dry=[61, 6])

@@ -31,7 +31,7 @@ COARSE = 0.6
 FINE = 0.93
 """Ratio of neighbouring levels, to compare margins and for the answer."""
 NOT_FALLING = "V was not shown to fall at all levels between"
-TOO_LARGE = "the disturbance is too large beside k_pi and the friction: V is not shown to fall at the start"
+TOO_LARGE = "the disturbance is too large beside k_pi and the friction: V is not shown to fall at any level"
 NO_MARGIN = "no margin of dV/dt < 0 was proved"
 
 

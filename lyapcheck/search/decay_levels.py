@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,6 +14,8 @@ from lyapcheck.search.levels import Slopes, falling
 
 DEEPEST = Fraction(1, 10**9)
 """Levels below this share of the first one are not looked at for what a disturbance leaves."""
+RISE, RISES = 4, 24
+"""How often, and how much, the first level is raised until V is shown to fall there."""
 SMALLEST = Fraction(1, 10**9)
 """J: a first level for starts at the goal."""
 
@@ -50,24 +51,34 @@ def descent(
         ratio: of neighbouring levels.
 
     Returns:
-        ``None`` where the goal is not reached, or not even the first level is left.
+        ``None`` where the goal is not reached, or no level is left for a lower one.
     """
     first = max(short_above(estimate.start_level(*start)), SMALLEST)
-    last = first * DEEPEST if goal is None else short_below(estimate.level_within(goal))
+    if goal is None:
+        return _lowest(estimate, family, first, ratio)
+    last = short_below(estimate.level_within(goal))
     if last >= first:
         return Descent(((Fraction(0), first),), ())
     if last == 0:
         return None
-    found = _descend(estimate, family, first, map(short_below, falling(first, last, ratio)))
-    reached = found.level < first if goal is None else found.level == last
-    return found if reached else None
+    found = _descend(estimate, family, first, last, ratio)
+    return found if found.level == last else None
 
 
-def _descend(estimate: Estimate, family: Family, first: Fraction, levels: Iterable[Fraction]) -> Descent:
-    """Down from the first level, as long as V is shown to fall."""
+def _lowest(estimate: Estimate, family: Family, first: Fraction, ratio: float) -> Descent | None:
+    """From the first level, or a higher one: near the goal a disturbance may make V rise."""
+    for power in range(RISES):
+        found = _descend(estimate, family, first * RISE**power, first * DEEPEST, ratio)
+        if found.slopes:
+            return found
+    return None
+
+
+def _descend(estimate: Estimate, family: Family, first: Fraction, last: Fraction, ratio: float) -> Descent:
+    """Down from the first level to the last one, as long as V is shown to fall."""
     best = Slopes(estimate, family).best
     envelope, slopes = [(Fraction(0), first)], []
-    for low in levels:
+    for low in map(short_below, falling(first, last, ratio)):
         time, high = envelope[-1]
         if low >= high:
             continue
