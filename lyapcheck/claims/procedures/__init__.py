@@ -42,7 +42,10 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     if isinstance(statement, kinds.Missing):
         return still_open(statement.reason, "not applicable")
     try:
+        statement.require_well_formed()
         finding = find(statement)
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the statement", "form of the statement")
     except (ValueError, ArithmeticError) as problem:
         return still_open(
             _without_value(statement) or f"the search ends with {problem}; simplify it", "search"
@@ -54,8 +57,8 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     except Undefined as undefined:
         return still_open(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
-        reason = f"what the search found is refused by the checker ({refusal}); report this as a fault"
-        return still_open(reason, finding.method, **finding.evidence)
+        fault = f"what the search found is refused by the checker ({refusal}); report this as a fault"
+        return still_open(_without_value(statement) or fault, finding.method, **finding.evidence)
     if accepted.verdict != finding.verdict.value:
         raise AssertionError(f"the search says {finding.verdict.value}, the checker {accepted.verdict}")
     return replace(finding, grade=Grade[accepted.grade.upper()])
