@@ -14,6 +14,7 @@ from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
@@ -50,10 +51,13 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
         return still_open(
             _without_value(statement) or f"the search ends with {problem}; simplify it", "search"
         )
-    if finding.proof is None:
-        return finding
+    return finding if finding.proof is None else _verified(statement, finding, finding.proof)
+
+
+def _verified(statement: kinds.Statement, finding: Finding, proof: Proof) -> Finding:
+    """The finding with the grade that the rules give it, or why they refuse it."""
     try:
-        accepted = verify(statement, finding.proof)
+        accepted = verify(statement, proof)
     except Undefined as undefined:
         return still_open(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:

@@ -44,7 +44,7 @@ def _refuted(statement: Identity, places: Iterator[Point]) -> Finding | None:
 
 
 def points(statement: Identity) -> Iterator[Point]:
-    """Rational points without symmetry: different variables get different values, of both signs if they may."""
+    """Rational points without symmetry: variables get different values, of both signs where they may."""
     lows = {variable.name: variable.low for variable in statement.variables}
     for k in range(TRIES):
         spread = {name: _spread(k, i) for i, name in enumerate(sorted(statement.names))}
