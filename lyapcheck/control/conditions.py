@@ -6,7 +6,7 @@ With N = √n γ the three read
     (10p)  k_pi + k_vi < (τmax_i − k_gi) / N          for each joint i
     (19)   k_vi < λmin(B) / N                         for each joint i, which is λmax(K_v) < λmin(B)/N
 
-Each check is a statement about numbers, and its verdict that of ``lyapcheck.check.verify``; see ``threshold``.
+Each check is a statement about numbers and has the verdict of ``lyapcheck.check.verify``; see ``threshold``.
 """
 
 from __future__ import annotations

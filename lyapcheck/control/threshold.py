@@ -1,7 +1,7 @@
 """What the conditions compare gains with: terms of which the checker judges and whose digits are shown.
 
-    scaled   budget/(√n γ)        of (10p) and (19), which gains must stay below
-    norms    (√T − √G)/(√n γ)     of (10), which gains must not exceed; T = ‖τmax‖² and G = k_g²
+scaled   budget/(√n γ)        of (10p) and (19), which gains must stay below
+norms    (√T − √G)/(√n γ)     of (10), which gains must not exceed; T = ‖τmax‖² and G = k_g²
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
     scalar   dV/dt < 0 at every state but the origin, from norms of M and C alone
     global   the same by boxes or by bounds in ‖e‖, which prove a larger ε₀
 
-Both are statements ``Decreasing``, M(q) ≻ 0 included, and accepted where ``lyapcheck.check.verify`` proves them.
+Both are statements ``Decreasing``, M(q) ≻ 0 included, accepted where ``lyapcheck.check.verify`` proves them.
 A search that finds nothing refutes nothing: there is no ``rejected`` here.
 """
 
@@ -59,7 +59,9 @@ class Prover:
         reason = self._unphysical(setting)
         proof = None
         if not reason:
-            proof, reason = norm_epsilon(setting, self._friction) if name == "scalar" else self._global(setting)
+            proof, reason = (
+                norm_epsilon(setting, self._friction) if name == "scalar" else self._global(setting)
+            )
         if proof is None:
             return Check(name, None, None, None, None, None, reason)
         found = judged(proof.statement, [proof.certificate])

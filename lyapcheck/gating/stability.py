@@ -10,7 +10,9 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.gating.gate import CERTIFICATES, GateResult
 
-_NO_ARM = "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
+_NO_ARM = (
+    "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
+)
 
 
 def stable_otherwise(result: GateResult) -> Check | None:

@@ -37,13 +37,13 @@ def unphysical(setting: Setting) -> str:
     if against is None or not refuted:
         return "M(q) is not shown to be positive definite; lyapcheck robot says what is known of the arm"
     q = ", ".join(map(decimal_text, against.q))
-    return f"M(q) is not positive definite at q = ({q}) rad: no arm is like that; correct its masses and inertias"
+    return f"M(q) is not positive definite at q = ({q}) rad; correct the masses and inertias"
 
 
 def _against(setting: Setting, parameters: tuple[tuple[Fraction, Fraction], ...]) -> PostureWitness | None:
-    """The nominal arm at the one of many postures where M(q) is the least; ``None`` where that is positive."""
+    """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive."""
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, setting.n))
-    q = np.round(np.vstack([np.zeros(setting.n), q]), DIGITS)
+    q = np.round(q, DIGITS)
     sizes, vectors = np.linalg.eigh(setting.numeric.mass(q))
     worst = int(np.argmin(sizes[:, 0]))
     if not sizes[worst, 0] < 0:
