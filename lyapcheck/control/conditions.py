@@ -31,7 +31,7 @@ __all__ = ["ACCEPTED", "CONDITIONS", "REJECTED", "UNDECIDED", "Check", "Conditio
 
 _UNBOUNDED = "the function is unbounded (γ = ∞): no gain keeps the torque within a limit for every state"
 _NO_TORQUE = "the arm has no torque limit for this joint; give [bounds] torque"
-_UNTOLD = "the checker does not tell the value from the limit ({}); change its last digit"
+_UNTOLD = "the checker gives no verdict: {}"
 _NO_FRICTION = "the arm has no viscous friction; give [bounds] viscous_min"
 
 

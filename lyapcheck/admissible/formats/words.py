@@ -21,7 +21,7 @@ LEGEND = (
     "state but the origin; falsified: a state with dV/dt > 0 proved."
 )
 NUMBER = (
-    "* a number from norms in floating point: the checker proves less from norms, so it has no certificate."
+    "* a number from norms in floating point, without a certificate: the checker proves less from norms."
 )
 
 
