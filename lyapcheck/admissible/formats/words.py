@@ -20,9 +20,7 @@ LEGEND = (
     "published: end of (18), a claim; scalar: from norms; certified: dV/dt < 0 proved at every "
     "state but the origin; falsified: a state with dV/dt > 0 proved."
 )
-NUMBER = (
-    "* a number from norms in floating point, without a certificate: the checker proves less from norms."
-)
+NUMBER = "* a number from norms in floating point, without a certificate: the checker proves less from norms."
 
 
 def ratio_text(value: Fraction | None) -> str | None:
