@@ -198,9 +198,7 @@ def test_stability_is_not_said_where_it_was_not_verified() -> None:
     result = judged(paper_gain_file())["tau_m2"]
     assert result.verdict == "rejected"
     assert stable_otherwise(result) is None
-    assert remarks(result) == [
-        "(19) fails, but it is only sufficient; --condition scalar looks for a proof"
-    ]
+    assert remarks(result) == ["(19) fails, but it is only sufficient; --condition scalar looks for a proof"]
 
 
 def test_where_it_is_verified_the_flag_that_accepts_it_is_named() -> None:
