@@ -39,7 +39,7 @@ WORDS = st.lists(
     st.sampled_from(
         [
             "a.toml", "b c.toml", "--format", "--format=json", "json", "text", "--condition", "10", "scalar",
-            "--condition=19", "--robot", "--robot=", "buap3", "--gamma=printed", "--gamma", "true",
+            "--condition=19", "--robot", "--robot=", "buap3", "--gamma=printed", "--gamma", "true", "--certificates", "--certificates=made",
             "--strict", "--", "--help", "-h", "--nope", "--strict=1", "--form", "-", "", "--condition=20",
         ]
     ),
@@ -254,12 +254,12 @@ def cpu_seconds(*words: str) -> float:
 SILENT = [(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)]
 
 
-def test_the_gate_starts_nearly_as_fast_as_python() -> None:
-    """The goal is 2.5 times the start of Python; the bound leaves room for a busy machine."""
-    bare = [sys.executable, "-c", "pass"]
+def test_the_gate_starts_nearly_as_fast_as_the_arithmetic_of_the_checker() -> None:
+    """The goal is 1.7 times the start of python-flint; the bound leaves room for a busy machine."""
+    bare = [sys.executable, "-c", "import flint"]
     gate = [sys.executable, "-c", RUN, "gate", str(paper_gain_file())]
     times = [(cpu_seconds(*bare), cpu_seconds(*gate)) for _ in range(12)]
-    assert min(gate for _, gate in times) < 3 * min(bare for bare, _ in times)
+    assert min(gate for _, gate in times) < 2.5 * min(bare for bare, _ in times)
 
 
 def test_a_reader_that_goes_away_gets_no_traceback() -> None:

@@ -138,9 +138,12 @@ def norms(torque_squared: Fraction, gravity_squared: Fraction, n: int, gamma: Tr
 
     References: (10) of reyes2019family.
     """
-    budget = root(torque_squared)
-    if gravity_squared:
-        budget = ("add", budget, ("neg", root(gravity_squared)))
+    T, G = (x.numerator * x.denominator for x in (torque_squared, gravity_squared))
+    # roots of numbers whose quotient is no square are never multiples of each other
+    short = root if not G or isqrt(T * G) ** 2 == T * G else _plain_root
+    budget = short(torque_squared)
+    if G:
+        budget = ("add", budget, ("neg", short(gravity_squared)))
     return Threshold(budget, n, gamma, "<=")
 
 
@@ -153,6 +156,10 @@ def root(square: Fraction) -> Tree:
         return _number(factor if whole else Fraction(0))
     surd: Tree = ("sqrt", _number(Fraction(inside)))
     return surd if factor == 1 else ("mul", _number(factor), surd)
+
+
+def _plain_root(square: Fraction) -> Tree:
+    return "sqrt", _number(square)
 
 
 def _square_out(whole: int) -> tuple[int, int]:
