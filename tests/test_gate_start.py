@@ -39,7 +39,8 @@ WORDS = st.lists(
     st.sampled_from(
         [
             "a.toml", "b c.toml", "--format", "--format=json", "json", "text", "--condition", "10", "scalar",
-            "--condition=19", "--robot", "--robot=", "buap3", "--gamma=printed", "--gamma", "true", "--certificates", "--certificates=made",
+            "--condition=19", "--robot", "--robot=", "buap3", "--gamma=printed", "--gamma", "true",
+            "--certificates", "--certificates=made",
             "--strict", "--", "--help", "-h", "--nope", "--strict=1", "--form", "-", "", "--condition=20",
         ]
     ),

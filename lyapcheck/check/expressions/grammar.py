@@ -25,7 +25,7 @@ Parts = list[Any]
 
 
 class Remembered:
-    """Expressions without variables that passed a check, so that it need not be made of the same object again.
+    """Expressions without variables that passed a check, which need not be looked at again as same objects.
 
     They are immutable, and kept here, so that their ids stay their own.
     """
