@@ -16,6 +16,7 @@ from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
@@ -45,20 +46,26 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     if isinstance(statement, kinds.Missing):
         return still_open(statement.reason, "not applicable")
     try:
+        statement.require_well_formed()
         finding = find(statement)
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the statement", "form of the statement")
     except (ValueError, ArithmeticError) as problem:
         return still_open(
             _without_value(statement) or f"the search ends with {problem}; simplify it", "search"
         )
-    if finding.proof is None:
-        return finding
+    return finding if finding.proof is None else _verified(statement, finding, finding.proof)
+
+
+def _verified(statement: kinds.Statement, finding: Finding, proof: Proof) -> Finding:
+    """The finding with the grade that the rules give it, or why they refuse it."""
     try:
-        accepted = verify(statement, finding.proof)
+        accepted = verify(statement, proof)
     except Undefined as undefined:
         return still_open(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
-        reason = f"what the search found is refused by the checker ({refusal}); report this as a fault"
-        return still_open(reason, finding.method, **finding.evidence)
+        fault = f"what the search found is refused by the checker ({refusal}); report this as a fault"
+        return still_open(_without_value(statement) or fault, finding.method, **finding.evidence)
     if accepted.verdict != finding.verdict.value:
         raise AssertionError(f"the search says {finding.verdict.value}, the checker {accepted.verdict}")
     return replace(finding, grade=Grade[accepted.grade.upper()])
