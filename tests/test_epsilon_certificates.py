@@ -75,6 +75,17 @@ def scale(factor: Fraction, *path: Any) -> Callable[[Document], None]:
     return change
 
 
+def with_tree(change_of: Callable[[str], str]) -> Callable[[Document], None]:
+    """Change the tree of boxes that shows dV/dt < 0."""
+
+    def change(data: Document) -> None:
+        rate = data["proof"]["rate"]
+        assert rate["rule"] == "tree of boxes"
+        rate["tree"] = change_of(rate["tree"])
+
+    return change
+
+
 AGAINST_PROOF = {
     "larger ε₀": scale(F(11, 10), "statement", "eps0"),
     "negative ε₀": scale(F(-1), "statement", "eps0"),
@@ -90,10 +101,15 @@ AGAINST_PROOF = {
     "steeper member": put(9, "statement", "m"),
     "member 0": put(0, "statement", "m"),
     "fewer joints": lambda data: data["statement"]["kp"].pop(),
-    "a gap in the tree": lambda data: data["proof"].update(tree=data["proof"]["tree"][:-1]),
-    "one box for all": put(".", "proof", "tree"),
-    "unknown side": lambda data: data["proof"].update(tree="9" + data["proof"]["tree"][1:]),
-    "no tree": put("", "proof", "tree"),
+    "a gap in the tree": with_tree(lambda tree: tree[:-1]),
+    "one box for all": with_tree(lambda _: "."),
+    "unknown side": with_tree(lambda tree: "9" + tree[1:]),
+    "no tree": with_tree(lambda _: ""),
+    "M by no links": put({"rule": "links", "links": []}, "proof", "inertia"),
+    "M by the boxes of V": lambda data: data["proof"].update(inertia=data["proof"]["rate"]),
+    "V by the boxes of M": lambda data: data["proof"].update(rate=data["proof"]["inertia"]),
+    "boxes of V alone": lambda data: data.update(proof=data["proof"]["rate"]),
+    "boxes of M alone": lambda data: data.update(proof=data["proof"]["inertia"]),
     "other verdict": put("refuted", "verdict"),
     "better grade": put("exact", "grade"),
     "negative exponent": put(-1, "statement", "mass", 0, 0, 0, 0, 0),

@@ -107,10 +107,9 @@ def test_the_global_value_is_proved_and_below_what_a_state_refutes(everywhere: d
 def test_what_the_checker_refuses_is_not_accepted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
     import lyapcheck.gating.certificates as room
-    import lyapcheck.search.certified as search
+    from lyapcheck.search.proof import Proof
 
-    monkeypatch.setattr(search, "proves", lambda *_: False)
-    monkeypatch.setattr(room, "proves", lambda *_: False)
+    monkeypatch.setattr(Proof, "accepted", lambda *_, **__: False)
     monkeypatch.setattr(room, "radial_epsilon", lambda _: None)
     monkeypatch.setattr(room, "CEILINGS", (64, 4))
     (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), "global").values()
