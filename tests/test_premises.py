@@ -29,24 +29,21 @@ variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc"
 corner, side, low = theta(var("eps0") * var("share"), b_min + var("more"))
 odd, positive_right = identity(tanh(-x), -T), for_all(expr(0) < T, 0, open_low=True)
 
-proof.add("rest", "at rest only at 0", all_of(
-    odd=odd, right=positive_right, closed=loop_closed(loop)
-))
-proof.add("smooth", "V is differentiable", all_of(
-    slope=identity(diff(T, "x"), SLOPE),
-    above=for_all(SLOPE <= 1),
-    below=for_all(-known.rho <= SLOPE),
-    linear=norm_bound(T, 2, 1, power=1),
-))
-proof.add("positive", "V is positive definite", all_of(
-    derivative=identity(diff(U, "x"), T),
+F = (T, SLOPE, U)
+
+proof.add("rest", "at rest only at 0", loop_property("the origin is the only equilibrium", F))
+proof.add("smooth", "V is differentiable", loop_property("V is continuously differentiable", F))
+proof.add("positive", "V is positive definite", loop_property("V is positive definite", F))
+proof.add("unbounded", "V is radially unbounded", loop_property("V is radially unbounded", F))
+proof.add("sizes", "bounds of tanh", all_of(
     odd=odd,
     right=positive_right,
-))
-proof.add("unbounded", "V is radially unbounded", all_of(
-    away=for_all(expr("1/2") <= T, 1),
-    bounded=for_all(T <= 1),
-    odd=odd,
+    top=for_all(T <= 1),
+    bottom=for_all(expr(-1) <= T),
+    slope=identity(diff(T, "x"), SLOPE),
+    above=for_all(SLOPE <= 1),
+    below=for_all(expr(-1) <= SLOPE),
+    linear=norm_bound(T, 1, 1, power=1),
 ))
 proof.add("rate", "the bound of dV/dt", rate_bound(loop))
 proof.add("small", "Θ is positive definite for small ε₀", all_of(
@@ -58,13 +55,14 @@ names = {
     "differentiable": "smooth",
     "positive_definite": "positive",
     "radially_unbounded": "unbounded",
+    "bounds_of_h": "sizes",
     "rate_bounded_by_a_form": "rate",
     "form_negative_definite": "small",
 }
 proof.add("P", "globally asymptotically stable", theorem("Lyapunov's direct method", loop, **names),
           uses=names.values())
 """
-CLAIMS = ("rest", "smooth", "positive", "unbounded", "rate", "small")
+CLAIMS = ("rest", "smooth", "positive", "unbounded", "sizes", "rate", "small")
 UNRELATED = "Constant(expr(1) <= 2)"
 
 
@@ -93,16 +91,41 @@ def test_a_premise_that_proves_something_unrelated_proves_nothing(tmp_path, clai
 WEAKER = {
     "another function": ("T, SLOPE, U), theta", "tanh(2 * x) / 2, SLOPE, U), theta"),
     "another potential": ("(T, SLOPE, U)", "(T, SLOPE, 2 * U)"),
-    "a bound that is not proved": (
-        "known = FamilyBounds(2, gamma=1, rho=1",
-        'known = FamilyBounds(2, gamma=1, rho="0.9"',
-    ),
-    "more joints": ("norm_bound(T, 2, 1", "norm_bound(T, 1, 1"),
+    "a bound of h that is not proved": ("(2, gamma=1, rho=1, L=1)", '(2, gamma="0.9", rho=1, L=1)'),
+    "a bound of its slope that is not proved": ("(2, gamma=1, rho=1, L=1)", '(2, gamma=1, rho="0.9", L=1)'),
+    "a bound of its secants that is not proved": ("(2, gamma=1, rho=1, L=1)", '(2, gamma=1, rho=1, L="0.9")'),
+    "bounded, not linear": ("norm_bound(T, 1, 1, power=1)", "norm_bound(T, 1, 1)"),
+    "steeper secants": ("norm_bound(T, 1, 1, power=1)", "norm_bound(T, 1, 2, power=1)"),
     "only right of 1": ("for_all(expr(0) < T, 0, open_low=True)", "for_all(expr(0) < T, 1)"),
-    "positive from somewhere on, but not above a positive number": ('expr("1/2") <= T, 1', "expr(0) <= T, 1"),
-    "up to 100 only": ('expr("1/2") <= T, 1', 'expr("1/2") <= T, 1, 100'),
+    "not negative right of 0": ("for_all(expr(0) < T, 0, open_low=True)", "for_all(expr(0) <= T, 0)"),
+    "up to 100 only": ("for_all(expr(0) < T, 0, open_low", "for_all(expr(0) < T, 0, 100, open_low"),
     "not odd": ("    odd=odd,\n    right", "    right"),
     "bounded on one side of 0 only": ("for_all(T <= 1)", "for_all(T <= 1, 0)"),
+    "bounded from above only": ("    bottom=for_all(expr(-1) <= T),\n", ""),
+    "a larger bound": ("bottom=for_all(expr(-1) <= T)", "bottom=for_all(expr(-2) <= T)"),
+    "rising slope on one side of 0 only": ("for_all(SLOPE <= 1)", "for_all(SLOPE <= 1, 0)"),
+    "slope bounded from above only": ("    below=for_all(expr(-1) <= SLOPE),\n", ""),
+    "a slope of something": ('    slope=identity(diff(T, "x"), SLOPE),\n', ""),
+    "the positive definiteness of another V": (
+        'loop_property("V is positive definite", F)',
+        'loop_property("V is positive definite", (T, SLOPE, 2 * U))',
+    ),
+    "the smoothness of V with another slope": (
+        'loop_property("V is continuously differentiable", F)',
+        'loop_property("V is continuously differentiable", (T, 1 / cosh(x) ** 2, U))',
+    ),
+    "a property of V in place of another": (
+        'loop_property("V is radially unbounded", F)',
+        'loop_property("V is positive definite", F)',
+    ),
+    "an equilibrium, not the only one": (
+        '"the origin is the only equilibrium"',
+        '"the origin is an equilibrium"',
+    ),
+    "the equilibrium of another loop": (
+        '"the origin is the only equilibrium", F)',
+        '"the origin is the only equilibrium", (tanh(x) / 2, SLOPE / 2, U / 2))',
+    ),
     "a weak inequality": ("(), side**2 < corner * low", "(), side**2 <= corner * low"),
     "under a condition": ("variables, (), side**2", "variables, (k < b_min,), side**2"),
     "for constants above others": (
