@@ -19,7 +19,7 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, MassBelow, PostureWitness
 from lyapcheck.check.kinds.theorem import THEOREMS, Application, Theorem
-from lyapcheck.check.kinds.trigonometric import TrigonometricBound
+from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
@@ -78,6 +78,10 @@ WRONGLY_REFUTED: dict[str, tuple[Statement, Proof]] = {
     "a derivative has no value": (
         EveryN(YY, num(0), rates=((S, ("div", num(1), num(0))),)),
         at_one("y[1]"),
+    ),
+    "another entry has no value": (
+        TrigonometricBound(((("sin", X), F(1, 10)), (("div", num(1), num(0)), F(1)))),
+        EntryWitness(0, False, (("x", F(1)),)),
     ),
     "M that its text does not show": (
         MassBelow(((ONE, ()), (FIVE, ONE)), (), F(2)),
