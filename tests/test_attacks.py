@@ -1,0 +1,194 @@
+"""Attacks on the checker: false or undefined statements, and texts that say something else, must not pass."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction as F
+from math import isqrt
+
+import pytest
+
+import lyapcheck.check.recheck as rechecking
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.files import content, gather
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers
+from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
+from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, MassBelow, PostureWitness
+from lyapcheck.check.kinds.theorem import THEOREMS, Application, Theorem
+from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Relation, Statement, Variable
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.check.verify import verify
+
+A, Y, Z = ("mat", "A"), ("vec", "y"), ("vec", "z")
+S, X = ("var", "s"), ("var", "x")
+YY = ("dot", Y, Y)
+ONE = (((0, 0, 0, 0), F(1)),)
+SINE = (((1, 0, 0, 0), F(10)),)
+FIVE = (((0, 0, 0, 0), F(5)),)
+
+
+def num(value):
+    return ("num", str(F(value)))
+
+
+def near_root():
+    """A·x = √2·y holds for x = 1.414… but for 1e-90, which the left side makes 1e10."""
+    Ax = ("apply", A, ("vec", "x"))
+    gap = ("add", ("dot", Ax, Ax), ("neg", ("mul", num(2), YY)))
+    given = (Given("A", "x", ("scale", ("sqrt", num(2)), Y)),)
+    left = ("mul", num(10**100), gap)
+    root = F(isqrt(2 * 10**180) + 1, 10**90)
+    point = (("A[1,1]", F(1)), ("x[1]", root), ("y[1]", F(1)))
+    return BoundEveryN(left, num(1), (), (), given, (), ()), EntriesWitness(1, point)
+
+
+def near_least():
+    """y·y ≥ √2 holds for this y but for 1e-100; then −10¹¹⁰ y·y ≤ −10¹¹⁰ · 1.414…, a number below √2."""
+    below = F(isqrt(2 * 10**400), 10**200)
+    y = F(isqrt(isqrt(2 * 10**400)), 10**100)
+    left, right = ("neg", ("mul", num(10**110), YY)), ("neg", ("mul", num(10**110), num(below)))
+    statement = BoundEveryN(left, right, (), (), (), (), ((YY, ("sqrt", num(2))),))
+    return statement, EntriesWitness(1, (("y[1]", y),))
+
+
+def at_one(*names):
+    return EntriesWitness(1, tuple((name, F(1)) for name in names))
+
+
+HALF = num("1/2")
+NOWHERE = ("pow", ("sqrt", num(-1)), 0)
+"""Without a value, though its evaluation in balls gives 1."""
+WRONGLY_REFUTED: dict[str, tuple[Statement, Proof]] = {
+    "what is given holds nearly": near_root(),
+    "a lower bound holds nearly": near_least(),
+    "a bound of a norm has no value": (
+        BoundEveryN(YY, HALF, (), (), (), (((Y,), NOWHERE),), ()),
+        at_one("y[1]"),
+    ),
+    "a lower bound has no value": (
+        BoundEveryN(YY, HALF, (), (), (), (), ((S, ("pow", ("log", ("neg", S)), 0)),)),
+        at_one("s", "y[1]"),
+    ),
+    "a derivative has no value": (
+        EveryN(YY, num(0), rates=((S, ("div", num(1), num(0))),)),
+        at_one("y[1]"),
+    ),
+    "another entry has no value": (
+        TrigonometricBound(((("sin", X), F(1, 10)), (("div", num(1), num(0)), F(1)))),
+        EntryWitness(0, False, (("x", F(1)),)),
+    ),
+    "M that its text does not show": (
+        MassBelow(((ONE, ()), (FIVE, ONE)), (), F(2)),
+        PostureWitness((F(0), F(0)), (), (F(1), F(0))),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WRONGLY_REFUTED)
+def test_a_true_or_undefined_statement_is_not_refuted(name):
+    with pytest.raises(Refused):
+        verify(*WRONGLY_REFUTED[name])
+
+
+def test_christoffel_symbols_are_of_a_symmetric_matrix():
+    """With M12 = M21 = 10 sin q1, as the text reads, C has the entry 10 cos q1 in place 211."""
+    with pytest.raises(Refused):
+        verify(CoriolisBelow(((ONE, SINE), ((), ONE)), (), F(8)), HarmonicSizes())
+
+
+def scaled(kind, name, x):
+    return ("scale", ("var", name), x) if kind == "var" else ("apply", ("mat", name), x)
+
+
+def swapped(kind):
+    """M and N change places: true for numbers, false for matrices."""
+    left, right = (scaled(kind, a, scaled(kind, b, Y)) for a, b in ("MN", "NM"))
+    return EveryN(("dot", Z, left), ("dot", Z, right))
+
+
+def damping(family, friction):
+    one = (((0, 0), F(1)),)
+    ranges = ((F(friction), F(friction)),)
+    return DampingBelow(((one,),), ranges, (), family, None, (F(1),), (F(1),), num(3))
+
+
+def small(conclusion, variables=(), bounded=()):
+    return ForSmall("eps", variables, (), conclusion, bounded)
+
+
+PAIRS = {
+    "numbers and matrices": (swapped("var"), swapped("mat")),
+    "h and friction of a loop": (damping("tanh", 1), damping("arctan", 100)),
+    "the lower half of M": (
+        MassBelow(((ONE, ()), ((), ONE)), (), F(2)),
+        MassBelow(((ONE, ()), (FIVE, ONE)), (), F(2)),
+    ),
+    "a number named as L_2": (
+        BoundEveryN(("var", "L_2"), ("L", 2), (), (), (), (), ()),
+        BoundEveryN(("L", 2), ("L", 2), (), (), (), (), ()),
+    ),
+    "an angle named as π": (
+        TrigonometricBound(((("sin", ("var", "π")), F(1, 10)),)),
+        TrigonometricBound(((("sin", ("pi",)), F(1, 10)),)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_statements_that_differ_have_texts_that_differ(name):
+    one, other = PAIRS[name]
+    assert one != other
+    assert one.text() != other.text()
+
+
+def test_a_variable_does_not_look_like_a_number():
+    statement = Identity(("var", "γ_2"), ("gamma", 2))
+    left, _, right = statement.text().partition(" for all ")[0].partition(" = ")
+    assert left != right
+
+
+def test_the_text_of_a_claim_for_small_values_says_over_what_its_bounded_variables_run():
+    gap = ("add", ("var", "t"), ("mul", ("var", "eps"), ("var", "t")))
+    text = small(Relation(num(0), "<", gap), bounded=("t",)).text()
+    assert "(0, 1]" in text
+
+
+def test_the_text_of_a_claim_for_small_values_lets_the_threshold_depend_on_the_variables():
+    """ε < x for small ε is true at each x > 0, and false as “for small ε: for all x > 0”."""
+    text = small(Relation(("var", "eps"), "<", X), (Variable("x", F(0)),)).text()
+    assert text.index("x > 0") < text.index("small enough")
+
+
+NAME = "Lyapunov's direct method"
+
+
+def test_a_theorem_is_judged_from_the_bytes_whose_premises_are_judged(tmp_path, monkeypatch):
+    """h(x) = −x: the file is read twice, and says something else the second time."""
+    truth = Constant(Relation(num(0), "<", num(1)))
+    trivial = Certificate(About("c", "", None, None, "p"), truth, "proved", "exact", ExactNumbers())
+    loop = ClosedLoop(
+        2, ("neg", X), num(-1), X, F(1), F(1), F(1), F(2), F(1), (num(-1), num(0), num(-1))
+    )
+    theorem = Theorem(NAME, loop, tuple((label, "c") for label in sorted(THEOREMS[NAME].hypotheses)))
+    about = About("T", "", None, None, "p")
+    uses = {"c": trivial.digest}
+    false = Certificate(about, theorem, "proved", "exact", Application(), uses)
+    (tmp_path / "c.json").write_text(trivial.text(), encoding="utf-8")
+    (tmp_path / "T.json").write_text(false.text(), encoding="utf-8")
+    harmless = replace(false, statement=truth, proof=ExactNumbers()).text().encode("utf-8")
+    times = []
+
+    def changing(path):
+        if path.name == "T.json":
+            times.append(path)
+        return harmless if path.name == "T.json" and len(times) > 1 else content(path)
+
+    monkeypatch.setattr(rechecking, "content", changing)
+    found = {one.file: one.status for one in rechecking.recheck(gather([tmp_path])).checked}
+    assert found == {"c.json": "accepted", "T.json": "refused"}
