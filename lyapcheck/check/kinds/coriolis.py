@@ -107,6 +107,15 @@ class _OfCoriolis(_OfMass):
             return self._printed[i][j][k]
         return self.inertia.symbols.get((i, max(j, k), min(j, k)), {})
 
+    def lost(self, i: int, j: int) -> Iterator[tuple[tuple[int, ...], Uncertain]]:
+        """∂M_ij/∂q_k − c_ijk − c_jik for each rate, and what has none."""
+        for k in range(self.joints):
+            yield (
+                (k,),
+                mixed([(1, self.rate(i, j, k)), (-1, self.symbol(i, j, k)), (-1, self.symbol(j, i, k))]),
+            )
+        yield (), mixed([(-1, self.symbol(i, j, self.joints)), (-1, self.symbol(j, i, self.joints))])
+
     @property
     def over(self) -> str:
         """``for all q …``, and what C is."""
@@ -147,12 +156,15 @@ class RateOfMass(_OfCoriolis):
     """Ṁ(q) = C(q, w) + C(q, w)ᵀ, and both are symmetric, for all q, w and parameters."""
 
     def gaps(self) -> Iterator[Gap]:
-        """∂M_ij/∂q_k − c_ijk − c_jik, above the diagonal as below: the sum on the right is symmetric."""
-        n = self.joints
-        for i, j, k in product(range(n), range(n), range(n + 1)):
-            rate = self.rate(i, j, k) if k < n else {}
-            gap = mixed([(1, rate), (-1, self.symbol(i, j, k)), (-1, self.symbol(j, i, k))])
-            yield f"entry {i + 1}{j + 1}", (k,) if k < n else (), gap
+        """∂M_ij/∂q_k − c_ijk − c_jik below the diagonal; Ṁ is to be symmetric, as the sum on the right is."""
+        for i, j in product(range(self.joints), repeat=2):
+            if j <= i:
+                for rates, gap in self.lost(i, j):
+                    yield f"entry {i + 1}{j + 1}", rates, gap
+            elif self.inertia.mass[i][j] != self.inertia.mass[j][i]:
+                for k in range(self.joints):
+                    skew = mixed([(1, self.rate(i, j, k)), (-1, self.rate(j, i, k))])
+                    yield f"asymmetry {i + 1}{j + 1}", (k,), skew
 
     def text(self) -> str:
         """``Ṁ(q) = C(q, w) + C(q, w)ᵀ …``."""
@@ -166,12 +178,13 @@ class RateLessTwiceCoriolis(_OfCoriolis):
 
     def gaps(self) -> Iterator[Gap]:
         """∂(M_ij + M_ji)/∂q_k − 2c_ijk − 2c_jik; a skew-symmetric matrix has the quadratic form 0."""
-        n = self.joints
-        for i, j, k in product(range(n), range(n), range(n + 1)):
+        for i, j in product(range(self.joints), repeat=2):
             if j <= i:
-                rates = [(1, self.rate(i, j, k)), (1, self.rate(j, i, k))] if k < n else []
-                gap = mixed([*rates, (-2, self.symbol(i, j, k)), (-2, self.symbol(j, i, k))])
-                yield f"entry {i + 1}{j + 1}", (k,) if k < n else (), gap
+                same = self.inertia.mass[i][j] == self.inertia.mass[j][i]
+                for rates, gap in self.lost(i, j):
+                    other = [] if same else [(1, self.rate(j, i, k)) for k in rates]
+                    other += [] if same else [(-1, self.rate(i, j, k)) for k in rates]
+                    yield f"entry {i + 1}{j + 1}", rates, mixed([(2, gap), *other]) if gap or other else gap
 
     def text(self) -> str:
         """``Ṁ(q) − 2C(q, w) is skew-symmetric …``."""

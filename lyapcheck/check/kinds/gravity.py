@@ -5,7 +5,7 @@ References: ``reyes2019family``, Property 2.8.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -57,6 +57,10 @@ class GravityBelow(Statement):
         """The g_i."""
         return [by_parameters(entry, self.joints) for entry in self.gravity]
 
+    def at(self, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> list[arb]:
+        """The g_i in balls at one posture."""
+        return [value_at(entry, q, parameters) for entry in self.entries]
+
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
         """Whether Σ g_i² < high² throughout, by boxes that are cut until they show it."""
         square = to_arb(self.high * self.high)
@@ -71,7 +75,7 @@ class GravityBelow(Statement):
 
     def text(self) -> str:
         """``‖(g1, …)‖ ≤ high …``."""
-        size = "‖g(q)‖" if len(self.gravity) > 1 else "|g1(q)|"
+        size = "‖g(q)‖" if len(self.gravity) > 1 else "|g(q)|"
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"{size} ≤ {number_text(self.high)} for all q, {about}"
 
@@ -79,7 +83,9 @@ class GravityBelow(Statement):
 def gravity_text(gravity: tuple[Monomials, ...], n: int, parameters: tuple[Ends, ...]) -> str:
     """g(q) written out, or its digest."""
     names = variable_names(n, len(parameters))
-    entries = [f"g{i + 1} = {polynomial_text(entry, names)}" for i, entry in enumerate(gravity)]
+    entries = [
+        f"g{i + 1 if len(gravity) > 1 else ''} = {polynomial_text(g, names)}" for i, g in enumerate(gravity)
+    ]
     return written_out(entries, f"{len(gravity)} torques of {n} joints", gravity, parameters)
 
 
@@ -102,7 +108,7 @@ def by_boxes(statement: GravityBelow, proof: Bisection) -> Accepted:
 def by_posture(statement: GravityBelow, proof: PostureWitness) -> Accepted:
     """Soundness: Σ g_i² > high² at one posture, by balls."""
     require_posture(proof, statement.joints, statement.parameters)
-    values = [value_at(entry, proof.q, proof.parameters) for entry in statement.entries]
+    values = statement.at(proof.q, proof.parameters)
     size = sum((value * value for value in values), arb(0))
     require(size > to_arb(statement.high**2), "posture", "", "does not show a larger torque")
     return Accepted("refuted", "enclosure")
