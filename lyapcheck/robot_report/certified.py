@@ -42,6 +42,8 @@ BOXES = 2000
 DIGITS = 6
 MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
 """How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
+MARGINS_OF_MANY = (Fraction(1, 200), Fraction(1, 20))
+"""The same for k_c, whose boxes cost more and end in a coarser bound anyway."""
 BITS = 64
 SAMPLES = 4096
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
@@ -66,6 +68,7 @@ class _Bound:
         sizes: what the sizes of harmonics show; none for λmin(M).
         witness: the posture that shows the other end.
         seen: the constant there.
+        margins: those that are tried.
     """
 
     state: Callable[[Fraction], Statement]
@@ -74,6 +77,7 @@ class _Bound:
     sizes: Fraction | None
     witness: PostureWitness
     seen: Fraction
+    margins: tuple[Fraction, ...] = MARGINS
 
 
 def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Question]:
@@ -133,7 +137,7 @@ def _question(name: str, side: str, sign: int, bound: _Bound, value: Fraction, f
 def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, Finding] | None:
     """The best bound for all angles that is shown, and by what."""
     coarse = None if bound.sizes is None else _rounded(bound.sizes, sign)
-    for margin in MARGINS if n <= FEW else ():
+    for margin in bound.margins if n <= FEW else ():
         value = _rounded(bound.start * (1 + sign * margin), sign)
         if coarse is not None and coarse <= value:
             break
@@ -189,6 +193,7 @@ def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) ->
         arm.kc,
         PostureWitness(q, (), x, x),
         Fraction(float(np.linalg.norm(turned)) / size),
+        MARGINS_OF_MANY,
     )
 
 
