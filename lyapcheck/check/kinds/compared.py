@@ -67,26 +67,28 @@ K = TypeVar("K", bound=type[Compared])
 
 
 def compared(kind: K) -> K:
-    """Enter both rules for a kind."""
-    rule(kind, SameHarmonics)(_same)
-    rule(kind, MovingPosture)(_different)
+    """Enter both rules for a kind, as of its own module: they rest on the differences that it forms."""
+
+    def by_harmonics(statement: Compared, proof: SameHarmonics) -> Accepted:
+        """Soundness: the form as harmonics is unique, and so is that as a polynomial of rates."""
+        for place, _, gap in statement.gaps():
+            require(not gap, place, "", "is not the same on both sides")
+        return Accepted("proved", "exact")
+
+    def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
+        """Soundness: the difference at one place lies in a ball without 0."""
+        n = statement.joints
+        require_posture(proof, n, statement.parameters)
+        require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
+        found = any(not value.contains(0) for _, value in differences(statement, proof))
+        require(found, "posture", "", "does not show a difference")
+        return Accepted("refuted", "enclosure")
+
+    for judge in (by_harmonics, by_posture):
+        judge.__module__ = kind.__module__
+    rule(kind, SameHarmonics)(by_harmonics)
+    rule(kind, MovingPosture)(by_posture)
     return kind
-
-
-def _same(statement: Compared, proof: SameHarmonics) -> Accepted:
-    """Soundness: the form as harmonics is unique, and so is that as a polynomial of rates."""
-    for place, _, gap in statement.gaps():
-        require(not gap, place, "", "is not the same on both sides")
-    return Accepted("proved", "exact")
-
-
-def _different(statement: Compared, proof: MovingPosture) -> Accepted:
-    """Soundness: the difference at one place lies in a ball without 0."""
-    require_posture(proof, statement.joints, statement.parameters)
-    require(len(proof.x) == statement.joints, "x", len(proof.x), f"must have {statement.joints} entries")
-    found = any(not value.contains(0) for _, value in differences(statement, proof))
-    require(found, "posture", "", "does not show a difference")
-    return Accepted("refuted", "enclosure")
 
 
 def differences(statement: Compared, at: MovingPosture) -> Iterator[tuple[str, arb]]:
