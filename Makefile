@@ -3,13 +3,14 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report test test-slow test-robots lint types bench lock clean help
+.PHONY: report test test-slow test-robots fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
 	@echo "make test       the fast tests"
 	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
+	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
 	@echo "make lint       style (ruff) and formatting"
 	@echo "make types      static types (mypy --strict)"
 	@echo "make bench      benchmarks; writes reports/benchmarks.md"
@@ -28,6 +29,9 @@ test-slow: .venv/.ready
 test-robots: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
 	$(BIN)/pytest tests/against_pinocchio.py
+
+fuzz: .venv/.ready
+	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md
 
 lint: .venv/.ready
 	$(BIN)/ruff check .

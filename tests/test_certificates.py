@@ -21,6 +21,7 @@ from lyapcheck.check.kinds.agrees import Corners, OutsideRounding
 from lyapcheck.check.kinds.all_of import EveryPart, OnePart
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
+from lyapcheck.check.kinds.for_small import SmallWitness
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
 from lyapcheck.check.kinds.signs import Multiple, SignIdentity
@@ -32,6 +33,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     Constant,
     FamilyBounds,
+    ForSmall,
     agrees,
     all_of,
     always_positive,
@@ -331,6 +333,16 @@ def test_a_refutation_that_claims_to_rest_on_others_is_refused():
 EVEN = for_all(expr(0) < 1 + x**2 * exp(x), -1, 3)
 TOP = for_all(h(2, x) <= "1.06", 0)
 TRANSITIVE = implies(positive("a", "b", "c"), (a < b, b <= var("c")), a < var("c"))
+SMALL = ForSmall(
+    "eps", positive("a", "b"), (b <= a,), var("t") + var("eps") / (2 - var("eps")) < b - b / 2, ("t",)
+)
+
+
+def small_at(below=1, **at):
+    point = {"a": 1, "b": 1, "t": 1} | at
+    return SmallWitness(tuple((name, F(value)) for name, value in point.items()), F(below))
+
+
 PRINTED = agrees(a * b, "100", a="9", b="10")
 E0, KP = var("eps"), var("kp")
 LOOP = FamilyBounds(1, 1, 1, 1).loop((tanh(x), 1 - tanh(x) ** 2, tanh(x)), (E0 * KP, E0, KP))
@@ -444,6 +456,13 @@ FORGED = {
         "positive monomial",
     ),
     "a generator that does not exist": (TRANSITIVE, steps((0, 1, ((99, 1),)), (1, 1, ())), "generator = 99"),
+    "small values: no such point": (SMALL, SmallWitness((("a", F(1)),), F(1)), "must give a, b, t"),
+    "small values: outside": (SMALL, small_at(a=-1), "a = -1: must be above"),
+    "small values: beyond the bounded": (SMALL, small_at(t=2), "t = 2: must be above 0 and at most 1"),
+    "small values: where the hypothesis breaks": (SMALL, small_at(b=2), "breaks a hypothesis"),
+    "small values: where it holds": (SMALL, small_at(t="1/3"), "does not break the conclusion"),
+    "small values: up to nothing": (SMALL, small_at(below=0), "below = 0: must be positive"),
+    "small values: a term without a value": (SMALL, small_at(below=3), "is not shown to have a value"),
     "corners of other inputs": (PRINTED, Corners((0,), (1, 1), 128), "0 or 1 for each"),
     "corners on one side": (PRINTED, Corners((0, 0), (0, 0), 128), "below the printed"),
     "not outside": (PRINTED, OutsideRounding(128), "meets the rounding"),
@@ -506,6 +525,8 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         (for_all(tanh(x) < x, 0, 1, open_low=True), NEAR_ZERO),
         (TRANSITIVE, steps((0, 1, ()), (1, 1, ()))),
         (PRINTED, Corners((0, 0), (1, 1), 128)),
+        (SMALL, small_at()),
+        (SMALL, small_at(t="1/2")),
         (CASES["not all"], OnePart(1, SeparateBalls(128))),
     ]
     for statement, proof in fine:

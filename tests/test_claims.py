@@ -17,6 +17,7 @@ from lyapcheck.claims import (
     AnyMatrix,
     Constant,
     ForSmall,
+    above,
     agrees,
     all_of,
     always_positive,
@@ -24,10 +25,13 @@ from lyapcheck.claims import (
     any_vector,
     at_most_every_n,
     atan,
+    below,
     bounded,
     cos,
     cosh,
+    decreasing,
     dh,
+    diagonal,
     diff,
     dot,
     every_n,
@@ -39,9 +43,11 @@ from lyapcheck.claims import (
     h,
     identity,
     implies,
+    largest_with,
     log,
     nonnegative,
     norm_bound,
+    pi,
     positive,
     potential,
     rate,
@@ -54,8 +60,10 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.decision import Decision, decided, undecided
+from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.run import paper_case
 from lyapcheck.verdicts import Grade, Verdict
 
 x, y, a, b, c = map(var, "xyabc")
@@ -115,6 +123,18 @@ PROVED = {
 }
 
 REFUTED = {
+    "leading term of unknown sign": ForSmall("eps", positive("a", "b"), (), var("eps") * a + a < b),
+    "a leading term that vanishes": ForSmall("eps", positive("a"), (), a + var("eps") < a),
+    "the sign of the lowest order": ForSmall(
+        "eps", positive("a") + reals("b"), (b <= 0,), b + sqrt(3) * var("eps") ** 2 < a * var("eps") ** 3
+    ),
+    "a quotient for small ε": ForSmall(
+        "eps", positive("a"), (), 1 / (1 + var("eps")) <= 1 - 2 * a * var("eps"), ()
+    ),
+    "for some share of ε": ForSmall(
+        "eps", positive("a"), (), var("eps") * gamma(3) < var("eps") * var("t"), ("t",)
+    ),
+    "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
     "larger ε": at_most_every_n(x * y * dot(V, V), x**2 * a**2, [(x, y), (V, a)]),
     "norms for every n, other symbols": norms_for_every_n(form(V, A, W), a * b**2),
     "no symmetry for every n": every_n(form(V, A, W), form(W, A, V)),
@@ -146,9 +166,12 @@ REFUTED = {
 }
 
 UNDECIDED = {
-    "norms for every n, too small a bound": norms_for_every_n(2 * form(V, A, W), a * b * c),
-    "leading term of unknown sign": ForSmall("eps", positive("a", "b"), (), var("eps") * a + a < b),
-    "a leading term that vanishes": ForSmall("eps", positive("a"), (), a + var("eps") < a),
+    "a leading term that vanishes at √2 alone": ForSmall(
+        "eps", positive("a"), (expr(2) <= a**2, a**2 <= 2), var("eps") + a**2 < 2
+    ),
+    "small values without a value": ForSmall(
+        "eps", positive("a"), (), 1 / (a - a) + var("eps") < 1 / (a - a)
+    ),
 }
 
 
@@ -299,3 +322,43 @@ def test_what_is_not_defined_at_an_end_is_not_proved_there() -> None:
     assert closed.verdict is Verdict.UNDECIDED
     assert "not defined at 0" in closed.reason
     assert propose(for_all(sinh(x) / x >= 1, 0, open_low=True)).verdict is Verdict.PROVED
+
+
+def test_what_is_written_where_a_number_belongs_is_that_number_or_is_refused():
+    assert exact_value(expr(2) * 3 / 4) == Fraction(3, 2)
+    assert exact_value(sqrt(4) + sqrt(2) * sqrt(2) - gamma(1)) == 3
+    assert exact_value(sqrt(3) - sqrt(3)) == 0
+    assert for_all(x >= 0, sqrt(4)).low == 2
+    for refused in (
+        lambda: for_all(x >= "1.5", gamma(2)),
+        lambda: for_all(x >= 0, 0, pi),
+        lambda: bounded([expr("1.5") * cos(x)], by=[gamma(2)]),
+        lambda: decreasing(paper_case(1).robot, paper_case(1).gains, h(1, "0.001")),
+        lambda: largest_with(lambda eps: eps < 1, start=sqrt(2)),
+    ):
+        with pytest.raises(ValueError, match=r"not shown to be rational.*round it by above\("):
+            refused()
+    for refused in (exact_value, above, below):
+        with pytest.raises(ValueError, match="2·a·b contains a, b; give a number"):
+            refused(2 * a * b)
+        with pytest.raises(ValueError, match="not shown to have a value"):
+            refused(1 / (sqrt(2) * sqrt(2) - 2))
+    assert above(gamma(2)) - below(gamma(2)) == Fraction(1, 10**4)
+
+
+def test_only_letters_are_taken_for_letters():
+    for refused, words in (
+        (lambda: diagonal(V + W), r"diagonal: V \+ W is not the letter of a vector"),
+        (lambda: every_n(a, a, symmetric=[A.T]), "symmetric: Aᵀ is not the letter of a matrix"),
+        (lambda: every_n(a, a, given=[(A, V + V, W)]), "given: .* is not the letter of a vector"),
+        (lambda: every_n(a, a, positive=[1 + a]), r"positive: 1 \+ a is not the letter of a number"),
+    ):
+        with pytest.raises(ValueError, match=f"{words}; give it a letter of its own"):
+            refused()
+
+
+def test_the_hypotheses_of_a_bound_are_printed_with_it():
+    statement = at_most_every_n(
+        x * dot(V, W), x * a * b, [(V, a), ((x, W), b), (diagonal(W), c)], [(dot(V, W), 0)]
+    )
+    assert statement.text() == "x·Vᵀ·W ≤ x·a·b for every n, ‖V‖ ≤ a, ‖x‖‖W‖ ≤ b, ‖diag(W)‖ ≤ c, Vᵀ·W ≥ 0"

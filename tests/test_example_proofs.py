@@ -57,8 +57,8 @@ CHANGES = [
     (
         ARCTAN,
         "bounds",
-        'term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=2',
-        'term_9=chain("eps eps h(e) C(q,w) h(e)", known.reach, eps=3',
+        "term_9=term(9, eps**2 * known.reach",
+        "term_9=term(9, eps**3 * known.reach",
     ),
     (ARCTAN, "arm", '"0.02"', '"20"'),
     (MUST_FAIL, "right", "x - x**3 / 3 <= atan(x), 0)", "x - x**3 / 4 <= atan(x), 0)"),

@@ -85,7 +85,7 @@ def test_what_is_printed_answers_the_five_questions():
         "uses      2.6: a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖",
         "used by   16",
         "asks      for m = 2, n = 3:",
-        "decided   Products of norms",
+        "decided   Upper bounds for every n by norms",
         "run       lyapcheck check published.py --only 16.9",
     ):
         assert line in out

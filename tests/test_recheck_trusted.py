@@ -16,8 +16,9 @@ HEADLINES = (
     "Identity by normal form",
     "EveryN by normal form",
     "BoundEveryN by covered terms",
-    "Decreasing by tree of boxes",
-    "Decreasing by bounds in ‖e‖",
+    "MassAbove by links",
+    "Decreasing by M positive and V decreasing",
+    "LoopProperty by facts in one variable",
     "Theorem by theorem",
 )
 PREMISES = [("premises", "lyapcheck.check.theorems.premises")]

@@ -127,18 +127,27 @@ def _require_shallow(value: Any) -> None:
         depth += 1
 
 
+def sealed(data: Any) -> dict[str, Any]:
+    """What a document says beside its digest.
+
+    Raises:
+        Refused: it is none of this schema, or its digest is another one.
+    """
+    require(isinstance(data, dict), "document", data, "must be an object")
+    require(data.get("schema") == SCHEMA, "schema", data.get("schema"), f"must be {SCHEMA}")
+    content = {key: value for key, value in data.items() if key != "digest"}
+    digest = data.get("digest")
+    require(digest == digest_of(content), "digest", digest, "is not that of the content")
+    return content
+
+
 def read(data: Any) -> Certificate:
     """A certificate from its JSON value; the proof in it is not judged.
 
     Raises:
         Refused: the value is not a certificate of this schema, or its digest is another one.
     """
-    require(isinstance(data, dict), "document", data, "must be an object")
-    require(data.get("schema") == SCHEMA, "schema", data.get("schema"), f"must be {SCHEMA}")
-    content = {key: value for key, value in data.items() if key != "digest"}
-    require(
-        data.get("digest") == digest_of(content), "digest", data.get("digest"), "is not that of the content"
-    )
+    content = sealed(data)
     require_keys(
         content,
         {"schema", "claim", "statement", "verdict", "grade", "proof", "uses", "versions"},

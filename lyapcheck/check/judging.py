@@ -7,7 +7,7 @@ from dataclasses import fields, is_dataclass, replace
 from json import JSONDecodeError
 from typing import Any
 
-from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, theorems_of
+from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, sealed, theorems_of
 from lyapcheck.check.codec import name_of
 from lyapcheck.check.finding import Finding, shortened
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
@@ -34,7 +34,10 @@ def judged(content: bytes, full: bool = False) -> Finding:
     """What a certificate shows by itself; whatever goes wrong is the reason why it is refused."""
     found = Finding()
     try:
-        certificate, data = certificate_of(content)
+        data = parse(content.decode("utf-8"))
+        sealed(data)
+        found = replace(found, digest=data["digest"])
+        certificate = read(data)
         found = _claimed(certificate, data, full)
         return _shown(found, certificate, data, judge(certificate).grade, full)
     except (UnicodeDecodeError, JSONDecodeError) as error:

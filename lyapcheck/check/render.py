@@ -22,13 +22,14 @@ def text(outcome: Outcome, trusted: bool = False) -> str:
     """Alarms first, then each certificate, then what all of them rest on and how many there are."""
     lines = [*_alarms(outcome)]
     for one in outcome.checked:
-        lines += _certificate(one, outcome.granted.get(one.file, ()))
+        lines += _certificate(one)
     lines.append("")
     if trusted:
         lines += [*_trusted(outcome), ""]
     for name, files in outcome.theorems.items():
         claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
         lines.append(f"{claims} on {name} ({outcome.references[name]}): {', '.join(files)}")
+    lines += _granted(outcome)
     lines += ["every verdict takes for granted:", *(f"  {sentence}" for sentence in GENERAL)]
     lines += [f"the system keeps no limit on {name} here" for name in _unlimited(outcome)]
     lines += [*_alarms(outcome), _tally(outcome)]
@@ -62,7 +63,7 @@ def as_json(outcome: Outcome, trusted: bool = False) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
-def _certificate(one: Checked, granted: tuple[str, ...]) -> Iterator[str]:
+def _certificate(one: Checked) -> Iterator[str]:
     found = one.finding
     if one.accepted:
         yield f"accepted   {one.file}: {found.verdict} [{one.grade}]: {found.statement}"
@@ -74,9 +75,17 @@ def _certificate(one: Checked, granted: tuple[str, ...]) -> Iterator[str]:
         member = f" (m = {found.m})" if found.m is not None else ""
         words = f"{found.label}{member}: “{found.says}”"
         yield f"{INDENT}statement {found.statement_digest[:12]}; the author's words: {words}"
-    if granted:
-        yield f"{INDENT}taken for granted:"
-        yield from (f"{INDENT}  {sentence}" for sentence in granted)
+
+
+def _granted(outcome: Outcome) -> Iterator[str]:
+    """What statements take for granted, once for all the files of which that is so."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for one in outcome.checked:
+        if granted := outcome.granted.get(one.file):
+            groups.setdefault(granted, []).append(one.file)
+    for granted, files in groups.items():
+        yield f"{', '.join(files)}: taken for granted:"
+        yield from (f"  {sentence}" for sentence in granted)
 
 
 def _alarms(outcome: Outcome) -> Iterator[str]:
@@ -137,7 +146,7 @@ def _tally(outcome: Outcome) -> str:
 
 
 def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
-    found, read = one.finding, bool(one.finding.digest)
+    found, read = one.finding, bool(one.finding.verdict)
     return {
         "file": one.file,
         "status": one.status,

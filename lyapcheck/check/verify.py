@@ -59,14 +59,12 @@ def verify(statement: Statement, proof: Proof) -> Accepted:
         (``expressions.defined``), and on nothing that searches. Whatever goes wrong inside them, an overflow
         or a division by zero included, is a refusal.
     """
-    statement.require_well_formed()
-    judge = RULES.get((type(statement), type(proof)))
-    if judge is None:
-        kind = type(statement).__name__
-        raise Refused(
-            "rule", getattr(proof, "rule", ""), f"is not a way to decide a statement of kind {kind}"
-        )
     try:
+        statement.require_well_formed()
+        judge = RULES.get((type(statement), type(proof)))
+        if judge is None:
+            kind = type(statement).__name__
+            raise Refused("rule", proof.rule, f"is not a way to decide a statement of kind {kind}")
         with ctx.workprec(BITS):
             accepted = judge(statement, proof)
             if accepted.verdict == "proved":

@@ -18,7 +18,7 @@ INDENT = 10
 
 def text(found: Explanation) -> str:
     """Plain text, a paragraph a question."""
-    lines = [_paragraph(found.id, found.says)]
+    lines = [_paragraph(found.id, _words(found))]
     for label, answers in _answers(found):
         lines += [_paragraph("" if number else label, answer) for number, answer in enumerate(answers)]
     return "\n".join(lines) + "\n"
@@ -35,7 +35,7 @@ def as_json(found: Explanation) -> str:
 
 def markdown(found: Explanation) -> str:
     """A heading and a list."""
-    lines = [f"## {markdown_text(found.id)}: {markdown_text(found.says)}", ""]
+    lines = [f"## {markdown_text(found.id)}: {markdown_text(_words(found))}", ""]
     for label, answers in _answers(found):
         lines += [f"- **{label}** {markdown_text(' '.join(line.split()))}" for line in answers]
     return "\n".join(lines) + "\n"
@@ -45,8 +45,16 @@ def html(found: Explanation) -> str:
     """A table of questions and answers."""
     rows = [(label, " ".join(line.split())) for label, lines in _answers(found) for line in lines]
     return (
-        html_paragraph(f"{found.id}: {found.says}") + "\n" + html_table(("question", "answer"), rows) + "\n"
+        html_paragraph(f"{found.id}: {_words(found)}")
+        + "\n"
+        + html_table(("question", "answer"), rows)
+        + "\n"
     )
+
+
+def _words(found: Explanation) -> str:
+    """What the author calls it; what is decided stands below, rendered from data."""
+    return f"“{found.says}” (the author's words)"
 
 
 def renderer(name: str) -> Callable[[Explanation], str]:

@@ -81,7 +81,7 @@ def tally(result: ProofResult) -> str:
 
 def details(row: ClaimResult) -> list[str]:
     """What supports the verdict: the witness, the reason, the claims that broke it."""
-    found = []
+    found = [f"the author's words: “{row.comment}”"]
     witness = row.decision.witness
     if witness is not None:
         found.append(_witness(witness))
@@ -119,4 +119,4 @@ def _line(row: ClaimResult, timings: bool) -> str:
     member = f" (m = {row.m})" if row.m is not None else ""
     seconds = f"  {row.seconds:.2f} s" if timings else ""
     grade = f" [{row.decision.grade.label}]" if row.verdict.value != "undecided" else ""
-    return f"  {row.verdict.value:<9}  {row.id}{member}  {row.statement}{grade}{seconds}"
+    return f"  {row.verdict.value:<9}  {row.id}{member}{grade}{seconds}  {row.statement}"

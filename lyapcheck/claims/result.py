@@ -4,29 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.check.certificate import Certificate, digest_of
+from lyapcheck.check.codec import to_json
+from lyapcheck.check.finding import shortened
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import Decision
 from lyapcheck.claims.statements import Missing
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
-SCHEMA = "lyapcheck/check/1"
+SCHEMA = "lyapcheck/check/2"
 
 
 @dataclass(frozen=True)
 class ClaimResult:
     """What was found out about one claim for one m (``None``: the claim does not depend on m).
 
-    ``statement`` is the claim in words, ``stated`` the same as data; ``decision`` takes into account what the
-    claim uses.
+    ``stated`` is what was decided, ``comment`` the author's words for it; ``decision`` takes into account
+    what the claim uses.
     """
 
     id: str
     m: int | None
     n: int | None
-    statement: str
+    comment: str
     place: str
     section: str
     kind: str
@@ -35,6 +38,16 @@ class ClaimResult:
     decision: Decision
     stated: Statement | Missing
     seconds: float
+
+    @cached_property
+    def statement(self) -> str:
+        """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
+        if isinstance(self.stated, Missing):
+            return "no statement"
+        text = self.stated.text()
+        short = shortened(text, full=False)
+        digest = "" if short == text else f" [statement {digest_of(to_json(self.stated))[:12]}]"
+        return short + digest
 
     @property
     def verdict(self) -> Verdict:
@@ -48,6 +61,7 @@ class ClaimResult:
             "m": self.m,
             "n": self.n,
             "statement": self.statement,
+            "comment": self.comment,
             "place": self.place,
             "section": self.section,
             "kind": self.kind,

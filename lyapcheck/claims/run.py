@@ -167,7 +167,7 @@ def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[
             id=claim.id,
             m=row.m,
             n=row.n,
-            statement=claim.says,
+            comment=claim.says,
             place=claim.place,
             section=claim.section,
             kind=type(row.stated).__name__,

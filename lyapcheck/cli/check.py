@@ -42,11 +42,13 @@ def command(
     undecided and nothing refuted.
     """
     from lyapcheck.claims import run_proof
+    from lyapcheck.claims.fresh_check import Alarm
     from lyapcheck.claims.render import renderer
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.cli.progress import progress
     from lyapcheck.errors import argument_error
+    from lyapcheck.verdicts import Exit
 
     if n is not None and robot is not None:
         raise argument_error(
@@ -55,8 +57,12 @@ def command(
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
     folder = None if certificates is None else open_folder("--certificates", Path(certificates))
-    with progress("check") as advance:
-        result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
+    try:
+        with progress("check") as advance:
+            result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
+    except Alarm as alarm:
+        sys.stderr.write(f"ALARM: {alarm}\n")
+        raise typer.Exit(int(Exit.INTERNAL)) from alarm
     if folder is not None:
         for name, certificate in result.certificates.items():
             write_whole(folder / name, certificate.text())

@@ -32,7 +32,7 @@ def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
     for claim_id, rows in refuted.items():
         first = rows[0]
         ms = tuple(row["m"] for row in rows if row["m"] is not None)
-        yield Finding(f"claim {claim_id}", ms, f"{first['statement']}: {witness_words(first)}", "refuted")
+        yield Finding(f"claim {claim_id}", ms, f"“{first['comment']}”: {witness_words(first)}", "refuted")
 
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:

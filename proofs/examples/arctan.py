@@ -13,7 +13,6 @@ How a script is made:
 The proof is that of ``proofs/scalar.py`` for another function: h = arctan has γ = π/2, ρ = 1 and L = 1.
 """
 
-from dataclasses import replace
 from fractions import Fraction
 
 from lyapcheck.claims import (
@@ -31,7 +30,7 @@ from lyapcheck.claims import (
     identity,
     implies,
     log,
-    loop_closed,
+    loop_property,
     loops,
     nonnegative,
     norm_bound,
@@ -42,7 +41,6 @@ from lyapcheck.claims import (
     theorem,
     total,
     var,
-    vector,
 )
 from lyapcheck.control import GainSet
 
@@ -57,9 +55,13 @@ U = x * atan(x) - log(1 + x**2) / 2
 SLOPE = 1 / (1 + x**2)
 
 
+ARCTAN = (atan(x), SLOPE, U)
+"""h, h' and U."""
+
+
 def known_of(case):
-    """γ, √nγ, ρ, L and G, rounded up to decimals."""
-    return FamilyBounds(case.n, gamma=pi / 2, rho=1, L=1)
+    """γ, √nγ, ρ, L and G; γ is above π/2 by enough to be shown without going far out."""
+    return FamilyBounds(case.n, gamma="1.58", rho=1, L=1)
 
 
 def loop_of(case):
@@ -67,7 +69,7 @@ def loop_of(case):
     known = known_of(case)
     eps, k, b_min, b_max, kv_max, beta, kc = map(var, ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc"))
     form = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
-    return known.loop((atan(x), SLOPE, U), form)
+    return known.loop(ARCTAN, form)
 
 
 # One variable: inequalities on the whole line or on a part of it --------------------------------------------
@@ -137,50 +139,31 @@ def _(case):
     return implies(variables, (a <= reach, a <= L * r), a / (1 + r) <= reach * L / (reach + L))
 
 
+@proof.claim("positive", "V is positive definite", section=LYAPUNOV, uses=["potential"])
+def _(case):
+    return loop_property("V is positive definite", ARCTAN)
+
+
 @proof.claim(
     "smooth", "V is continuously differentiable, also at q̃ = 0", section=LYAPUNOV, uses=["slope", "steep"]
 )
 def _(case):
-    r, eps0, a = map(var, ("r", "eps0", "norm_h"))
-    known, variables = known_of(case), positive("eps0") + nonnegative("r", "norm_h")
-    return all_of(
-        derivative=identity(diff(atan(x), "x"), SLOPE),
-        slope_from_above=for_all(known.rho >= SLOPE),
-        slope_from_below=for_all(-known.rho <= SLOPE),
-        at_most_the_error=norm_bound(atan(x), case.n, known.L, power=1),
-        differentiable=implies(variables, (a <= r,), (eps0 - eps0 / (1 + r)) * a <= eps0 * r**2),
-        gradient=implies(variables, (a <= r,), eps0 * a / (1 + r) ** 2 <= eps0 * r),
-    )
+    return loop_property("V is continuously differentiable", ARCTAN)
 
 
 @proof.claim("unbounded", "V is radially unbounded", section=LYAPUNOV, uses=["bound", "potential"])
 def _(case):
-    """U takes care of q̃; ‖q̇‖ exceeds ‖y‖ by no more than ε₀√nγ."""
-    y, w, a, eps, eps0, reach = map(var, ("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach"))
-    variables = nonnegative("norm_y", "norm_w", "norm_h", "eps", "eps0", "reach")
-    return all_of(
-        odd=identity(atan(-x), -atan(x)),
-        away_from_0=for_all(expr("1/2") <= atan(x), 1),
-        bounded=for_all(atan(x) <= pi / 2),
-        rounded_up=Constant(pi / 2 <= known_of(case).gamma),
-        velocity=implies(variables, (w <= y + eps * a, a <= reach, eps <= eps0), w <= y + eps0 * reach),
-    )
+    return loop_property("V is radially unbounded", ARCTAN)
 
 
-@proof.claim(
-    "equilibrium", "at rest Mẇ = K_p arctan(q̃), which vanishes only with q̃", section=LYAPUNOV, uses=["sign"]
-)
+@proof.claim("equilibrium", "the origin is the only equilibrium", section=LYAPUNOV, uses=["sign"])
 def _(case):
-    s, zero = loops.loop(case.n), [expr(0)] * case.n
-    still = replace(s, w=zero, hw=zero)
-    z = vector("z", case.n)
-    pull = total(z_i * k * a for z_i, k, a in zip(z, s.kp, s.h, strict=True))
-    return all_of(
-        from_the_controller=loop_closed(loop_of(case)),
-        at_rest=identity(dot(z, loops.force(still)), pull),
-        odd=identity(atan(-x), -atan(x)),
-        positive=for_all(expr(0) < atan(x), 0, open_low=True),
-    )
+    return loop_property("the origin is the only equilibrium", ARCTAN)
+
+
+@proof.claim("sizes", "γ, ρ and L bound arctan, its derivative and arctan(x)/x", section=LYAPUNOV)
+def _(case):
+    return known_of(case).of_h(ARCTAN)
 
 
 @proof.claim("rate", "dV/dt is the sum of eleven terms", section=LYAPUNOV, uses=["potential", "smooth"])
@@ -268,7 +251,7 @@ def _(case):
     "stable",
     "the origin is globally asymptotically stable for every arm with friction and all positive gains",
     section=CONCLUSION,
-    uses=["equilibrium", "smooth", "potential", "unbounded", "form", "small"],
+    uses=["equilibrium", "smooth", "positive", "unbounded", "sizes", "form", "small"],
 )
 def _(case):
     """The checker looks into the claims named here: each must state what its hypothesis comes to."""
@@ -277,8 +260,9 @@ def _(case):
         loop_of(case),
         only_equilibrium="equilibrium",
         differentiable="smooth",
-        positive_definite="potential",
+        positive_definite="positive",
         radially_unbounded="unbounded",
+        bounds_of_h="sizes",
         rate_bounded_by_a_form="form",
         form_negative_definite="small",
     )

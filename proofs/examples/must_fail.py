@@ -11,7 +11,19 @@
 The command ends with exit code 1, which says that something was refuted.
 """
 
-from lyapcheck.claims import Constant, Proof, atan, decreasing, expr, for_all, form, identity, loops, var
+from lyapcheck.claims import (
+    Constant,
+    Proof,
+    atan,
+    decreasing,
+    expr,
+    for_all,
+    form,
+    identity,
+    loops,
+    positive,
+    var,
+)
 
 proof = Proof("must_fail", "A proof that must not be accepted")
 
@@ -32,7 +44,7 @@ def _(case):
 def _(case):
     s = loops.loop(case.n)
     expanded = form(s.w, s.M, s.w) / 2 + s.eps * form(s.h, s.M, s.w) + s.eps**2 * form(s.h, s.M, s.h) / 2
-    return identity(form(s.y, s.M, s.y) / 2, expanded)
+    return identity(form(s.y, s.M, s.y) / 2, expanded, positive("r"))
 
 
 @proof.claim("large", "dV/dt < 0 at every state but the origin with ε₀ = 2")

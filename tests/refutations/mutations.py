@@ -9,6 +9,8 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
+from lyapcheck.check.expressions.expression import variables
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.claims.statements import (
     Agrees,
     Constant,
@@ -16,9 +18,7 @@ from lyapcheck.claims.statements import (
     ForSmall,
     Identity,
     Implies,
-    Majorant,
     NormBound,
-    NormChain,
     Relation,
     Statement,
     TrigonometricBound,
@@ -234,26 +234,21 @@ def _wrong_digit(statement: Statement) -> list[Statement]:
     return found
 
 
-def _other_majorants(bound: Majorant) -> Iterator[Majorant]:
-    """A bound with one power changed, or ε for ε₀."""
-    powers = dict(bound.powers)
-    for name, power in bound.powers:
-        for k in (power - 1, power + 1):
-            yield replace(bound, powers=tuple(sorted((powers | {name: k}).items())))
-    if "eps0" in powers:
-        less = {name: k for name, k in powers.items() if name != "eps0"}
-        yield replace(bound, powers=tuple(sorted((less | {"eps": less.get("eps", 0) + 1}).items())))
-
-
 def _wrong_norms(statement: Statement) -> list[Statement]:
     """A norm too many or too few, or a factor twice."""
     if isinstance(statement, NormBound):
         return [replace(statement, power=1 - statement.power), replace(statement, n=statement.n + 4)]
-    if not isinstance(statement, NormChain):
+    if not isinstance(statement, BoundEveryN):
         return []
-    found: list[Statement] = [replace(statement, bound=b) for b in _other_majorants(statement.bound)]
-    found += [replace(statement, factors=(*statement.factors, f)) for f in statement.factors[1:]]
-    return found
+    more: list[Statement] = []
+    for k, (known, size) in enumerate(statement.norms):
+        for other in (("mul", size, size), ("num", "1")):
+            norms = (*statement.norms[:k], (known, other), *statement.norms[k + 1 :])
+            more.append(replace(statement, norms=norms))
+        more.append(replace(statement, norms=statement.norms[:k] + statement.norms[k + 1 :]))
+    for name in sorted(variables(statement.right)):
+        more.append(replace(statement, right=("mul", ("var", name), statement.right)))
+    return more
 
 
 def _halved(statement: Statement) -> list[Statement]:
@@ -262,9 +257,8 @@ def _halved(statement: Statement) -> list[Statement]:
         return [replace(statement, left=("mul", ("num", "2"), statement.left))]
     if isinstance(statement, NormBound):
         return [replace(statement, bound=("div", statement.bound, ("num", "2")))]
-    if isinstance(statement, NormChain):
-        half = ("div", statement.bound.constant, ("num", "2"))
-        return [replace(statement, bound=replace(statement.bound, constant=half))]
+    if isinstance(statement, BoundEveryN):
+        return [replace(statement, right=("div", statement.right, ("num", "2")))]
     return []
 
 

@@ -15,6 +15,7 @@ import mpmath
 import numpy as np
 from mpmath import mp, mpf
 
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.claims.statements import (
     Agrees,
@@ -24,14 +25,13 @@ from lyapcheck.claims.statements import (
     Identity,
     Implies,
     NormBound,
-    NormChain,
     Relation,
     Statement,
     TrigonometricBound,
     TrigonometricPositive,
     Variable,
 )
-from tests.refutations.every_n_oracle import every_n_is_false
+from tests.refutations.every_n_oracle import bound_every_n_is_false, every_n_is_false
 
 Tree = tuple[Any, ...]
 Point = dict[str, Any]
@@ -365,28 +365,6 @@ def _half_units(text: str) -> tuple[mpf, mpf, mpf]:
     return mpf(text) - half, mpf(text), mpf(text) + half
 
 
-def _norm_chain(statement: NormChain) -> bool:
-    """Norms at which even the least majorant of each factor multiplies to more than the bound."""
-    every = [*(m for factor in statement.factors for m in factor), statement.bound]
-    names = sorted(
-        {name for m in every for name, _ in m.powers} | {s for pair in statement.smaller for s in pair}
-    )
-    points = _draw(tuple(Variable(name, mpf(0)) for name in names), 4000)
-    for small, large in statement.smaller:
-        points[small] = np.minimum(points[small], points[large])
-
-    def size(m: Any) -> Any:
-        result = float(value(m.constant, {}, mpmath)) * np.ones(4000)
-        for name, power in m.powers:
-            result = result * points[name] ** power
-        return result
-
-    reached = np.ones(4000)
-    for factor in statement.factors:
-        reached = reached * np.min([size(m) for m in factor], axis=0)
-    return bool(np.any(reached > size(statement.bound) * (1 + 1e-9)))
-
-
 def _angles(trees: tuple[Tree, ...]) -> dict[str, Any]:
     names = sorted(set().union(*(names_in(tree) for tree in trees)))
     generator = np.random.default_rng(SEED)
@@ -425,7 +403,7 @@ ORACLES: dict[type[Statement], Any] = {
     Implies: _implies,
     ForSmall: _for_small,
     Agrees: _agrees,
-    NormChain: _norm_chain,
+    BoundEveryN: bound_every_n_is_false,
     TrigonometricBound: _trigonometric_bound,
     TrigonometricPositive: _trigonometric_positive,
     EveryN: every_n_is_false,

@@ -15,6 +15,7 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
@@ -121,6 +122,8 @@ def by_corners(statement: Agrees, proof: Corners) -> Accepted:
 def by_outside(statement: Agrees, proof: OutsideRounding) -> Accepted:
     """Soundness: the formula, enclosed over all roundings of the inputs, misses the half unit."""
     value, target = over_all(statement, proof.bits), printed_range(statement.printed)
+    for tree, domain in statement.terms():
+        require_defined(tree, domain)
     outside = value.upper < target.lower or value.lower > target.upper
     require(outside, "result", value.decimals(8), "meets the rounding of the printed one")
     return Accepted("refuted", "enclosure")

@@ -31,8 +31,10 @@ class AllOf(Statement):
         return tuple(dict.fromkeys(line for _, part in self.parts for line in part.granted))
 
     def text(self) -> str:
-        """The parts by name, in one line."""
-        return "; ".join(f"{name}: {part.text()}" for name, part in self.parts)
+        """The parts by number; their names are the author's."""
+        if len(self.parts) == 1:
+            return self.parts[0][1].text()
+        return "; ".join(f"({k}) {part.text()}" for k, (_, part) in enumerate(self.parts, 1))
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ from lyapcheck.check.kinds.every_n import (
     Equation,
     EveryN,
     Given,
-    known_text,
+    known_of,
     rates_fit,
     solved_at,
     words_of,
@@ -120,7 +120,8 @@ class BoundEveryN(Statement):
             for known, size in self.norms
         ]
         least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in self.least]
-        return f"{sides} for every n{known_text(self.identity)}, {', '.join(norms + least)}"
+        known = "; ".join([*known_of(self.identity), *norms, *least])
+        return f"{sides} for every n and all letters, no number negative, if {known or 'nothing more'}"
 
 
 @dataclass(frozen=True)

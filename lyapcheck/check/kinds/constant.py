@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from flint import ctx
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, Unsupported
 from lyapcheck.check.expressions.normal_form import normal_form
@@ -57,7 +58,7 @@ def by_exact_numbers(statement: Constant, proof: ExactNumbers) -> Accepted:
     truth = exact_truth(statement.relation)
     if truth is None:
         raise Refused("difference", "", "of both sides is not rational")
-    return Accepted("proved" if truth else "refuted", "exact")
+    return _with_values(statement, truth, "exact")
 
 
 @rule(Constant, SeparateBalls)
@@ -67,7 +68,14 @@ def by_separate_balls(statement: Constant, proof: SeparateBalls) -> Accepted:
         truth = holds(statement.relation.comparison, {})
     if truth is None:
         raise Refused("bits", proof.bits, "are too few to tell both sides apart")
-    return Accepted("proved" if truth else "refuted", "enclosure")
+    return _with_values(statement, truth, "enclosure")
+
+
+def _with_values(statement: Constant, truth: bool, grade: str) -> Accepted:
+    """The verdict, if both sides have values: a refutation needs them as much as a proof."""
+    for tree, domain in statement.terms():
+        require_defined(tree, domain)
+    return Accepted("proved" if truth else "refuted", grade)
 
 
 def exact_truth(relation: Relation) -> bool | None:

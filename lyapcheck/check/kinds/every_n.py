@@ -89,7 +89,8 @@ class EveryN(Statement):
     def text(self) -> str:
         """The statement in one line."""
         sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
-        return f"{sides} for every n{known_text(self)}"
+        known = "; ".join(known_of(self))
+        return f"{sides} for every n and all letters{f', if {known}' if known else ''}"
 
 
 @dataclass(frozen=True)
@@ -175,13 +176,13 @@ def words_of(statement: EveryN) -> Words:
     return Words(statement.symmetric, dict(statement.rates), given)
 
 
-def known_text(statement: EveryN) -> str:
-    """What is known of the letters."""
+def known_of(statement: EveryN) -> list[str]:
+    """What is supposed of the letters, in sentences."""
     known = [f"{name}ᵀ = {name}" for name in statement.symmetric]
     known += [f"{name} > 0" for name in statement.positive]
     known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
     known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
-    return f", with {', '.join(known)}" if known else ""
+    return known
 
 
 def signs_at_entries(statement: EveryN) -> Iterator[int]:

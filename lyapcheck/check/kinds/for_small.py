@@ -1,8 +1,12 @@
-"""Relations that hold for every small enough positive value of one variable ε.
+"""Relations that hold for every small enough positive value of one variable ε, or fail for all of them.
 
 The gap of the conclusion is a polynomial p(ε, t, …), t in (0, 1]. Divided by the powers of ε and t that
 divide it, it is continuous on the compact range of t, so p > 0 for small ε as soon as its value at ε = 0 is
 positive and free of t. That value is the leading term, and its sign is an implication of its own.
+
+At a point of all other variables each gap is a function of ε alone. As a quotient of polynomials it has, for
+small ε, the signs of the lowest coefficients above and below. Hypotheses that hold so, and a conclusion that
+fails so, refute the statement.
 """
 
 from __future__ import annotations
@@ -10,15 +14,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import fmpq_mpoly
+from flint import arb, fmpq_mpoly
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import Tree, substitute
+from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
 from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations, terms_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Relation, Statement, Variable
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.replay import coordinates, require_inside
+from lyapcheck.check.statement import Point, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import Accepted, rule
+
+UNIT = Interval(Fraction(0), Fraction(1), open_low=True)
 
 
 @dataclass(frozen=True)
@@ -41,8 +50,7 @@ class ForSmall(Statement):
 
     def terms(self) -> list[tuple[Tree, Domain]]:
         """All sides, for every positive value of the small variable and bounded ones in (0, 1]."""
-        unit = Interval(Fraction(0), Fraction(1), open_low=True)
-        domain = domain_of(self.variables) | {self.small: POSITIVE} | dict.fromkeys(self.bounded, unit)
+        domain = domain_of(self.variables) | {self.small: POSITIVE} | dict.fromkeys(self.bounded, UNIT)
         return terms_of((*self.hypotheses, self.conclusion), domain)
 
     def text(self) -> str:
@@ -63,11 +71,80 @@ class LeadingTerm(Proof):
 def by_leading_term(statement: ForSmall, proof: LeadingTerm) -> Accepted:
     """Soundness: a positive limit persists below some threshold that serves the whole range of t."""
     signs = signs_of(statement)
+    require(
+        signs.is_polynomial, "conclusion", "", "has functions in it, which may depend on the small variable"
+    )
     limit = leading_term(signs, statement)
     if limit is None:
-        raise Refused("leading term", "", "contains a bounded variable, or there is no small variable")
+        raise Refused(
+            "leading term", "", "contains a bounded variable or functions, or there is no small one"
+        )
     require_identity(signs, limit, True, proof.identity)
     return Accepted("proved", "exact")
+
+
+@dataclass(frozen=True)
+class SmallWitness(Proof):
+    """A rational point of all variables but the small one; ``below`` it, all terms have values there."""
+
+    rule = "failure for small values"
+    point: Point
+    below: Fraction
+
+
+@rule(ForSmall, SmallWitness)
+def by_small_witness(statement: ForSmall, proof: SmallWitness) -> Accepted:
+    """Soundness: for all small ε every hypothesis holds at the point and the conclusion fails there."""
+    names = [*(v.name for v in statement.variables), *statement.bounded]
+    point = coordinates(proof.point, names)
+    require_inside(statement.variables, point)
+    for name in statement.bounded:
+        require(0 < point[name] <= 1, name, point[name], "must be above 0 and at most 1")
+    require(proof.below > 0, "below", proof.below, "must be positive")
+    domain = {statement.small: Interval(Fraction(0), proof.below, open_low=True)}
+    for tree, _ in statement.terms():
+        require_defined(at(point, tree), domain)
+    for hypothesis in statement.hypotheses:
+        sign = sign_for_small(at(point, hypothesis.gap))
+        require(sign > 0 or (sign == 0 and not hypothesis.strict), "point", "", "breaks a hypothesis")
+    sign = sign_for_small(at(point, statement.conclusion.gap))
+    failing = sign < 0 or (sign == 0 and statement.conclusion.strict)
+    require(failing, "point", "", "does not break the conclusion for small values")
+    return Accepted("refuted", "enclosure")
+
+
+def at(point: dict[str, Fraction], tree: Tree) -> Tree:
+    """An expression with numbers for the variables of a point."""
+    return substitute(tree, {name: ("num", str(value)) for name, value in point.items()})
+
+
+def sign_for_small(tree: Tree) -> int:
+    """The sign that an expression in one variable has for all small enough positive values of it.
+
+    Raises:
+        Refused: it is no quotient of polynomials, or balls do not tell the sign of a coefficient.
+    """
+    ratio, algebra = normal_form(tree)
+    require(len(algebra.names) <= 1, "variables", ", ".join(algebra.names), "must be one")
+    return _lowest_sign(ratio.top, algebra) * _lowest_sign(ratio.bottom, algebra)
+
+
+def _lowest_sign(polynomial: fmpq_mpoly, algebra: RationalAlgebra) -> int:
+    """The sign of the lowest coefficient of a polynomial in one variable, with constants among them."""
+    constants = algebra.constants()
+    require(len(constants) == len(algebra.uses), "expression", "", "has functions in it")
+    coefficients: dict[int, arb] = {}
+    for exponents, c in polynomial.to_dict().items():
+        power = int(exponents[0]) if algebra.names else 0
+        size = arb(c)
+        for index, constant in constants.items():
+            size *= constant ** int(exponents[index])
+        coefficients[power] = coefficients.get(power, arb(0)) + size
+    if not coefficients:
+        return 0
+    lowest = coefficients[min(coefficients)]
+    require(bool(lowest > 0 or lowest < 0), "coefficient", lowest, "has no certain sign")
+    return 1 if lowest > 0 else -1
 
 
 def signs_of(statement: ForSmall) -> Signs:
@@ -77,9 +154,12 @@ def signs_of(statement: ForSmall) -> Signs:
 
 
 def leading_term(signs: Signs, statement: ForSmall) -> fmpq_mpoly | None:
-    """What is left of the gap at ε = 0 after division by common powers; ``None`` if it contains some t."""
+    """What is left of the gap at ε = 0 after division by common powers.
+
+    ``None`` if it contains some t, or functions, which may depend on ε.
+    """
     names = signs.algebra.names
-    if statement.small not in names:
+    if statement.small not in names or not signs.is_polynomial:
         return None
     terms = signs.conclusion.to_dict()
     free = [names.index(name) for name in (statement.small, *statement.bounded) if name in names]

@@ -89,6 +89,13 @@ class Signs:
             generators[i] += self.ring.constant(_below(Enclosure.from_arb(ball).lower))
         return polynomial.compose(*generators, ctx=self.ring)
 
+    @property
+    def is_polynomial(self) -> bool:
+        """Whether the conclusion is a polynomial in its variables and in numbers, without functions."""
+        plain = {*range(len(self.algebra.names)), *self.algebra.constants()}
+        used = {i for exponents in self.conclusion.monoms() for i, e in enumerate(exponents) if e}
+        return used <= plain
+
     def kind(self, index: int) -> str:
         """``positive``, ``nonnegative`` or ``real``, of a generator after the shift."""
         if index < len(self.algebra.names):

@@ -64,15 +64,14 @@ class Theorem(Statement):
         known, loop = THEOREMS.get(self.name), self.loop
         if known is None:
             return f"by a theorem that the checker does not know, {self.name}"
-        given = ", ".join(f"{label} by {claim}" for label, claim in self.hypotheses)
+        given = ", ".join(f"{label} by the claim “{claim}”" for label, claim in self.hypotheses)
         torque = TRACKING_TORQUE if loop.desired else TORQUE
         condition = " and ".join(map(relation_text, loop.condition))
         under = f", for ε₀ and constants with {condition}" if condition else ""
         form = "; ".join(map(expression_text, loop.form))
-        function = f"{torque} with h(x) = {expression_text(loop.h)}"
         return (
-            f"{_about(loop)}, {function} makes {known.conclusion}{under}: "
-            f"by {self.name} ({known.reference}) with V of (13) and Θ = [{form}]; {given}"
+            f"{torque} with h(x) = {expression_text(loop.h)} makes {known.conclusion}{under}, "
+            f"{_about(loop)}: by {self.name} ({known.reference}) with V of (13) and Θ = [{form}]; {given}"
         )
 
 
@@ -97,8 +96,8 @@ def _about(loop: ClosedLoop) -> str:
     numbers = ", ".join(f"{name} = {number_text(value)}" for name, value in loop.numbers)
     arm = loop.arm
     return (
-        f"for the arm with B = {diagonal_text(arm.viscous)}, {mass_text(arm.mass, ())} under "
-        f"K_p = {diagonal_text(arm.kp)}, K_v = {diagonal_text(arm.kv)}, with {numbers}"
+        f"for K_p = {diagonal_text(arm.kp)}, K_v = {diagonal_text(arm.kv)}, {numbers} on the arm with "
+        f"B = {diagonal_text(arm.viscous)}, {mass_text(arm.mass, ())}"
     )
 
 

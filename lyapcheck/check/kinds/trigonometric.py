@@ -12,7 +12,7 @@ from functools import lru_cache
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
-from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.expressions.text import expression_text, number_text
 from lyapcheck.check.numbers.fourier import fourier_sum, is_bounded, size
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_failure
@@ -39,9 +39,13 @@ class TrigonometricBound(Statement):
 
     def text(self) -> str:
         """The statement in one line."""
-        limits = [limit for _, limit in self.entries if limit is not None]
-        bounds = f" by {', '.join(map(number_text, limits))}" if limits else ""
-        return f"{_entries(len(self.entries))} bounded{bounds} in size, for all q"
+        parts = [
+            f"{expression_text(tree)} is bounded"
+            if bound is None
+            else f"|{expression_text(tree)}| ≤ {number_text(bound)}"
+            for tree, bound in self.entries
+        ]
+        return f"{'; '.join(parts)}, for all angles"
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ class TrigonometricPositive(Statement):
 
     def text(self) -> str:
         """The statement in one line."""
-        return f"{_entries(len(self.entries))} positive, for all q"
+        return f"{'; '.join(f'{expression_text(tree)} > 0' for tree in self.entries)}, for all angles"
 
 
 @dataclass(frozen=True)
@@ -151,11 +155,3 @@ def lowest(tree: Tree) -> Fraction:
 def _broken(relation: Relation, tree: Tree, proof: EntryWitness) -> Accepted:
     require_failure(relation.comparison, coordinates(proof.point, variables(tree)), proof.bits)
     return Accepted("refuted", "enclosure")
-
-
-def _entries(count: int) -> str:
-    return (
-        "a polynomial in sines and cosines is"
-        if count == 1
-        else f"{count} polynomials in sines and cosines are"
-    )

@@ -115,7 +115,7 @@ def fourier_sum(tree: Tree) -> Fourier:
     """
     try:
         result = evaluate(tree, {name: _Angle(name) for name in variables(tree)}, _FourierAlgebra())
-    except TypeError as error:
+    except (TypeError, AttributeError) as error:
         raise Unsupported("a variable outside sin and cos has no bound") from error
     if not isinstance(result, Fourier):
         raise Unsupported("a variable outside sin and cos has no bound")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
-from lyapcheck.check.expressions.defined import Undefined
+from lyapcheck.check.expressions.defined import Undefined, require_defined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.compared import Compared
 from lyapcheck.check.kinds.every_n import EveryN
@@ -42,8 +43,15 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
 
     Not a verdict: that is for a fresh process of the checker to give, see ``fresh_check``.
     """
-    finding = find(statement)
-    if finding.proof is None or isinstance(statement, kinds.Missing):
+    if isinstance(statement, kinds.Missing):
+        return still_open(statement.reason, "not applicable")
+    try:
+        finding = find(statement)
+    except (ValueError, ArithmeticError) as problem:
+        return still_open(
+            _without_value(statement) or f"the search ends with {problem}; simplify it", "search"
+        )
+    if finding.proof is None:
         return finding
     try:
         accepted = verify(statement, finding.proof)
@@ -57,10 +65,21 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     return replace(finding, grade=Grade[accepted.grade.upper()])
 
 
-def find(statement: kinds.Statement | kinds.Missing) -> Finding:
-    """What the search for the kind of a statement finds; not yet judged."""
-    if isinstance(statement, kinds.Missing):
-        return still_open(statement.reason, "not applicable")
+def _without_value(statement: kinds.Statement) -> str:
+    """Which term is not shown to have a value, and what to do; empty if all are."""
+    if isinstance(statement, kinds.AllOf):
+        return next(filter(None, (_without_value(part) for _, part in statement.parts)), "")
+    try:
+        for tree, domain in statement.terms():
+            require_defined(tree, domain)
+    except Refused as undefined:
+        return str(undefined)
+    return ""
+
+
+@lru_cache(maxsize=1024)
+def find(statement: kinds.Statement) -> Finding:
+    """What the search for the kind of a statement finds; not yet judged. Claims share facts: each once."""
     for kind, procedure in PROCEDURES.items():
         if isinstance(statement, kind):
             return procedure(statement)

@@ -37,7 +37,7 @@ def find_loop_property(statement: LoopProperty) -> Finding:
 def _numbers(statement: LoopProperty) -> tuple[Fraction, ...] | None:
     """c, its x and γ, or ρ and L: a little beyond what is met on a grid."""
     if statement.property == UNBOUNDED:
-        x = np.linspace(0.0, FARTHEST, 8001)
+        x = np.concatenate([np.linspace(0.0, FARTHEST, 8001), np.geomspace(FARTHEST, 1e9, 40)])
         h = _values(statement.h, x)
         least = [(float(np.min(h[x >= start])), start) for start in STARTS]
         low, start = max(least)

@@ -1,23 +1,52 @@
-"""Relations that hold for every small enough positive value of one variable ε.
+"""Relations for every small enough ε: a leading term of known sign, or a point at which they fail.
 
-The gap of the conclusion is a polynomial p(ε, t, …), t in (0, 1]. Divided by the powers of ε and t that
-divide it, it is continuous on the compact range of t, so p > 0 for small ε as soon as its value at ε = 0 is
-positive and free of t. That value is the leading term, and its sign is an implication of its own.
+See ``check.kinds.for_small`` for why these decide.
 """
 
 from __future__ import annotations
 
-from lyapcheck.check.expressions.expression import Unsupported
-from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm, leading_term, signs_of
-from lyapcheck.claims.finding import Finding, shown, still_open
+from collections.abc import Iterator
+from fractions import Fraction
+from random import Random
+
+from flint import ctx
+
+from lyapcheck.check.expressions.expression import Unsupported, ball
+from lyapcheck.check.kinds.for_small import (
+    ForSmall,
+    LeadingTerm,
+    SmallWitness,
+    at,
+    leading_term,
+    sign_for_small,
+    signs_of,
+)
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Relation, Variable
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
+from lyapcheck.claims.procedures.search import BITS, Point, point_of
 
 METHOD = "small parameter"
+TRIES = 300
+SEED = 1
+VALUES = tuple(map(Fraction, ("1", "3/2", "2", "3", "1/2", "10", "1/10", "100", "1/100")))
+BELOW = (Fraction(1), Fraction(1, 2**10))
 
 
 def find_for_small(statement: ForSmall) -> Finding:
-    """Search an identity of signs for the leading term; never refutes."""
+    """Search an identity of signs for the leading term, then a point at which the relation fails."""
+    proved = _leading(statement)
+    if proved.is_proof:
+        return proved
+    return _against(statement) or proved
+
+
+def _leading(statement: ForSmall) -> Finding:
+    """An identity of signs for the leading term."""
     try:
         signs = signs_of(statement)
         limit = leading_term(signs, statement)
@@ -37,3 +66,71 @@ def find_for_small(statement: ForSmall) -> Finding:
     return still_open(
         "the leading term is not shown to be positive; add the hypothesis that makes it so", METHOD
     )
+
+
+def _against(statement: ForSmall) -> Finding | None:
+    """A point of small rationals at which the relation fails for all small ε."""
+    method = f"{METHOD}: a point at which it fails for all small {statement.small}"
+    for point in _points(statement):
+        if _breaks(statement, point):
+            for below in BELOW:
+                proof = SmallWitness(point_of(point), below)
+                if _accepted(statement, proof):
+                    return broken(proof, method, _data(statement, point, below))
+    return None
+
+
+def _points(statement: ForSmall) -> Iterator[Point]:
+    """All variables 1, then one at a time at its end, then random ones."""
+    unit = [Variable(name, Fraction(0)) for name in statement.bounded]
+    variables, random = [*statement.variables, *unit], Random(SEED)
+    ones = {v.name: (v.low or Fraction(0)) + 1 for v in variables}
+    yield ones
+    yield from (ones | {v.name: v.low} for v in variables if v.low is not None and not v.strict)
+    for _ in range(TRIES):
+        point = {v.name: _drawn(v, random) for v in variables}
+        yield point | {name: min(point[name], Fraction(1)) for name in statement.bounded}
+
+
+def _drawn(variable: Variable, random: Random) -> Fraction:
+    """A value in the range of a variable; its end, or 0, now and then."""
+    value = random.choice(VALUES)
+    if variable.low is None:
+        return random.choice((value, -value, Fraction(0)))
+    return variable.low + (value if variable.strict else random.choice((value, value, Fraction(0))))
+
+
+def _breaks(statement: ForSmall, point: Point) -> bool:
+    """Whether the conclusion fails for all small ε and every hypothesis holds."""
+    try:
+        fails = not _holds(statement.conclusion, point)
+        return fails and all(_holds(hypothesis, point) for hypothesis in statement.hypotheses)
+    except (Refused, Unsupported, ZeroDivisionError):
+        return False
+
+
+def _holds(relation: Relation, point: Point) -> bool:
+    sign = sign_for_small(at(point, relation.gap))
+    return sign > 0 or (sign == 0 and not relation.strict)
+
+
+def _accepted(statement: ForSmall, proof: SmallWitness) -> bool:
+    try:
+        return verify(statement, proof).verdict == "refuted"
+    except Refused:
+        return False
+
+
+def _data(statement: ForSmall, point: Point, below: Fraction) -> dict[str, object]:
+    """The point, and both sides at one small value."""
+    whole = point | {statement.small: below / 2**20}
+    balls = {name: ball_of(value) for name, value in whole.items()}
+    claim = statement.conclusion
+    with ctx.workprec(BITS):
+        left, right = (Enclosure.from_arb(ball(side, balls)) for side in (claim.left, claim.right))
+    return {
+        "point": {name: str(value) for name, value in sorted(whole.items())},
+        "left": list(left.decimals(12)),
+        "operator": claim.operator,
+        "right": list(right.decimals(12)),
+    }

@@ -1,0 +1,71 @@
+"""The figures of a run as a page."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from tests.statement_fuzz.judge import VERDICTS
+from tests.statement_fuzz.run import Tally
+
+INTRODUCTION = """\
+A program writes statements of the kinds that users write, many of them false or undefined somewhere,
+and decides them. An oracle that shares no code with lyapcheck looks for a point at which a proved
+statement fails or a term of it is undefined, and replays every counterexample. A fault is: proved with
+such a point, or though false by construction; refuted by a point that is none, or though true by
+construction; an exception. Written by `python -m tests.statement_fuzz`.
+"""
+
+
+def markdown(tally: Tally, seed: int) -> str:
+    """The whole page."""
+    lines = [
+        "# Statements at random",
+        "",
+        f"{summary(tally)} Seed {seed}.",
+        "",
+        *INTRODUCTION.splitlines(),
+        "",
+    ]
+    lines += ["## By kind of statement", "", *_table(tally), "", "## By family", "", *_families(tally), ""]
+    if tally.faults:
+        lines += [
+            "## Faults",
+            "",
+            *(f"- {index}: {judged.text()}" for index, judged in tally.faults[:200]),
+            "",
+        ]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def summary(tally: Tally) -> str:
+    """One line with the figures."""
+    counts: Counter[str] = Counter()
+    for (_, verdict), count in tally.verdicts.items():
+        counts[verdict] += count
+    verdicts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if counts[verdict])
+    return f"{tally.statements} statements: {verdicts}; {len(tally.faults)} faults."
+
+
+def _table(tally: Tally) -> list[str]:
+    faults = Counter(judged.kind for _, judged in tally.faults)
+    kinds = sorted({kind for kind, _ in tally.verdicts})
+    lines = [
+        _row(["statement", "decided", *VERDICTS, "faults"]),
+        _row(["---", *["---:"] * (len(VERDICTS) + 2)]),
+    ]
+    for kind in kinds:
+        cells = [tally.verdicts[kind, verdict] for verdict in VERDICTS]
+        lines.append(_row([kind, sum(cells), *cells, faults[kind]]))
+    return lines
+
+
+def _families(tally: Tally) -> list[str]:
+    rows = sorted({(kind, family) for kind, family, _ in tally.families})
+    lines = [_row(["statement", "family", *VERDICTS]), _row(["---", "---", *["---:"] * len(VERDICTS)])]
+    for kind, family in rows:
+        lines.append(_row([kind, family, *(tally.families[kind, family, verdict] for verdict in VERDICTS)]))
+    return lines
+
+
+def _row(cells: list[object]) -> str:
+    return "| " + " | ".join(map(str, cells)) + " |"

@@ -1,0 +1,66 @@
+"""What is fuzzed: all that this package takes from lyapcheck, but for its words for writing statements."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.codec import to_json
+from lyapcheck.check.expressions.expression import FAMILY, FUNCTIONS
+from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding, PrintedInputs
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.every_n import EveryN, Given
+from lyapcheck.check.kinds.for_all import Boxes, ForAll, Pieces, Sturm
+from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
+from lyapcheck.check.kinds.identity import Identity, NormalForm
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
+from lyapcheck.check.kinds.signs import SignIdentity
+from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
+from lyapcheck.claims.procedures import propose
+
+__all__ = [
+    "FAMILY",
+    "FUNCTIONS",
+    "About",
+    "Agrees",
+    "AllOf",
+    "BoundEveryN",
+    "Boxes",
+    "Certificate",
+    "Constant",
+    "EveryN",
+    "ExactNumbers",
+    "ForAll",
+    "ForSmall",
+    "Given",
+    "Identity",
+    "Implies",
+    "LeadingTerm",
+    "NormBound",
+    "NormalForm",
+    "OutsideRounding",
+    "Pieces",
+    "PrintedInputs",
+    "Proof",
+    "Relation",
+    "SeparateBalls",
+    "SignIdentity",
+    "Statement",
+    "Sturm",
+    "Supremum",
+    "TrigonometricBound",
+    "TrigonometricPositive",
+    "Variable",
+    "Witness",
+    "decide",
+    "to_json",
+]
+
+
+def decide(statement: Any) -> Any:
+    """The verdict that the search proposes and the rules of the checker accept."""
+    return propose(statement)

@@ -1,0 +1,195 @@
+"""Random statements are never proved though false or undefined, and never refuted without a reason."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from lyapcheck.claims import Constant, Implies, Relation, expr, for_all, identity, positive, sqrt, var
+from lyapcheck.verdicts import Verdict
+from tests.statement_fuzz.__main__ import main
+from tests.statement_fuzz.generators import GENERATORS, Made, draw
+from tests.statement_fuzz.judge import Judged, judge
+from tests.statement_fuzz.oracle.kinds import OBJECTIONS, confirms, objection
+from tests.statement_fuzz.report import markdown
+from tests.statement_fuzz.run import Tally, run
+from tests.statement_fuzz.shrink import shrunk
+from tests.statement_fuzz.subject import decide
+
+SEEDS = range(10)
+EACH = 1_000
+MANY = 5_000
+
+x = var("x")
+
+
+def faults(tally: Tally) -> str:
+    """What to read where there are faults."""
+    return "\n".join(f"{index}: {judged.text()}" for index, judged in tally.faults[:10])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_statements_have_no_faults(seed: int) -> None:
+    tally = run(seed, range(EACH))
+    assert not tally.faults, faults(tally)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [100 + seed for seed in range(8)])
+def test_many_random_statements_have_no_faults(seed: int) -> None:
+    tally = run(seed, range(MANY))
+    assert not tally.faults, faults(tally)
+
+
+def test_statements_are_neither_all_plain_nor_all_hopeless() -> None:
+    tally = run(0, range(400))
+    verdicts = {verdict for _, verdict in tally.verdicts}
+    assert {"proved", "refuted", "undecided"} <= verdicts
+    assert {kind for kind, _ in tally.verdicts} >= {"ForAll", "Constant", "Implies", "Identity", "EveryN"}
+
+
+def test_every_kind_that_is_written_has_an_oracle() -> None:
+    written = {type(draw(0, 0, kind).statement).__name__ for kind in GENERATORS}
+    assert written <= set(OBJECTIONS)
+
+
+def test_a_decision_without_end_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(statement: Any) -> Any:
+        while True:
+            pass
+
+    monkeypatch.setattr("tests.statement_fuzz.judge.SECONDS", 0.05)
+    assert "no decision" in judge(draw(0, 0), 0, by=endless).fault
+
+
+def test_a_seed_and_an_index_give_the_same_statement() -> None:
+    assert [draw(3, k) for k in range(50)] == [draw(3, k) for k in range(50)]
+    assert draw(3, 0) != draw(4, 0)
+
+
+# That the instrument sees what it is for -------------------------------------------------------------------
+
+
+def credulous(statement: Any) -> Any:
+    """Proves everything."""
+    return SimpleNamespace(verdict=Verdict.PROVED, method="faith", reason="", witness=None)
+
+
+def contrary(statement: Any) -> Any:
+    """Refutes everything, at 1."""
+    names = ("x", "y", "v", "a", "b", "c", "d", "x1", "q1", "q2")
+    point = dict.fromkeys(names, "1")
+    return SimpleNamespace(verdict=Verdict.REFUTED, method="doubt", reason="", witness={"point": point})
+
+
+def stubborn(statement: Any) -> Any:
+    """Raises."""
+    raise RuntimeError("no")
+
+
+@pytest.mark.parametrize("wrong", [credulous, contrary, stubborn])
+def test_an_unsound_procedure_is_caught(wrong: Any) -> None:
+    found = [judge(draw(5, k), k, by=wrong) for k in range(60)]
+    assert sum(bool(one.fault) for one in found) > 10
+
+
+@pytest.mark.parametrize(
+    "kind", ["ForAll", "Constant", "Implies", "Identity", "EveryN", "ForSmall", "Agrees"]
+)
+def test_each_kind_has_objections(kind: str) -> None:
+    made = (draw(6, k, kind) for k in range(60))
+    assert any(judge(one, 0, by=credulous).fault for one in made)
+
+
+def blind_to_strictness(statement: Any) -> Any:
+    """Takes < for ≤."""
+    if isinstance(statement, Constant):
+        r = statement.relation
+        return decide(replace(statement, relation=Relation(r.left, "<=", r.right)))
+    return decide(statement)
+
+
+def test_a_procedure_that_takes_strict_for_weak_is_caught() -> None:
+    found = [judge(draw(7, k, "Constant"), k, by=blind_to_strictness) for k in range(300)]
+    assert any("equal numbers" in one.made.family and one.fault for one in found)
+
+
+NO_FAULTS = {
+    "an identity": identity((x + 1) ** 2, x**2 + 2 * x + 1),
+    "equality at an end": for_all(x**2 - 1 >= 0, 1),
+    "a pole outside": for_all(1 / x > 0, 0, open_low=True),
+    "a pole of even order outside": for_all(1 / (x - 1) ** 2 > 0, 1, open_low=True),
+    "roots": Constant(sqrt(2) * sqrt(3) <= sqrt(6)),
+    "a false hypothesis": Implies(positive("a"), ((var("a") < 0),), var("a") < -1),
+    "a divisor that is positive": Implies(positive("a", "b"), (), expr(0) < 1 / (var("a") + var("b"))),
+}
+OBJECTIONABLE = {
+    "an identity": (identity((x + 1) ** 2, x**2 + 3 * x + 1), "false"),
+    "equality at an end": (for_all(x**2 - 1 > 0, 1), "false"),
+    "a pole inside": (for_all(1 / x**2 > 0, -1, 1), "undefined"),
+    "a pole at an irrational number": (for_all(1 / (x**3 - 2) ** 2 > -1, 0, 2), None),
+    "a simple pole there": (for_all((x**3 - 2) / (x**3 - 2) > 0, 0, 2), "undefined"),
+    "a double pole at a root": (for_all(1 / (x**2 - 2) ** 2 > -1, 0, 2), "undefined"),
+    "roots": (Constant(sqrt(2) * sqrt(3) < sqrt(6)), "false"),
+    "a millionth": (for_all(x / (1 + x**2) <= "0.499999"), "false"),
+    "a hypothesis on which nothing rests": (
+        Implies(positive("a"), (1 / (var("a") - 1) < 0,), expr(0) < 1),
+        "undefined",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NO_FAULTS)
+def test_the_oracle_has_no_objection_to_what_is_true(name: str) -> None:
+    assert all(objection(NO_FAULTS[name], seed) is None for seed in range(5))
+
+
+@pytest.mark.parametrize("name", OBJECTIONABLE)
+def test_the_oracle_objects_to_what_is_not(name: str) -> None:
+    statement, what = OBJECTIONABLE[name]
+    found = objection(statement, 0)
+    assert (found.what if found else None) == what
+
+
+def test_a_witness_is_a_point_of_the_domain_where_all_is_defined() -> None:
+    claim = for_all((x - 5) / (x - 5) > x, 0, 10)
+    assert confirms(claim, {"point": {"x": "7"}})
+    assert not confirms(claim, {"point": {"x": "5"}})
+    assert not confirms(claim, {"point": {"x": "11"}})
+    assert not confirms(claim, {"point": {"x": "1/2"}})
+
+
+def test_an_unknown_kind_is_no_problem() -> None:
+    assert objection(SimpleNamespace(), 0) is None
+    assert confirms(SimpleNamespace(), {"point": {}}) is None
+
+
+# How faults are told ---------------------------------------------------------------------------------------
+
+
+def test_a_fault_is_made_short_and_stays_the_same_fault() -> None:
+    statement = Constant(expr(Fraction(1, 3)) + 2 * sqrt(3) + sqrt(5) ** 2 < 1)
+    judged = judge(Made(statement, "by hand"), 0, by=credulous)
+    assert judged.fault
+    assert shrunk(judged).signature == judged.signature
+
+
+def test_the_page_has_the_counts_and_the_faults() -> None:
+    tally = Tally()
+    made = Made(Constant(expr(2) < 1), "by hand")
+    tally.enter(17, Judged(made, "proved", "false at every point", "faith"))
+    text = markdown(tally, 3)
+    assert "1 statements: 1 proved; 1 faults. Seed 3." in text
+    assert "- 17: Constant, by hand: proved (faith), but false at every point" in text
+
+
+def test_the_command_counts_and_writes_its_page(tmp_path: Any, capsys: Any) -> None:
+    page = tmp_path / "page.md"
+    code = main(["--statements", "20", "--seed", "2", "--only", "BoundEveryN", "--report", str(page)])
+    assert code == 0
+    assert "20 statements" in capsys.readouterr().out
+    assert "| BoundEveryN | 20 |" in page.read_text(encoding="utf-8")
