@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from itertools import chain, product
 
 from lyapcheck.check.kinds.compared import Compared, Gap, compared, mixed
@@ -28,6 +28,7 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials
 
 Matrices = tuple[tuple[tuple[Monomials, ...], ...], ...]
+Lost = list[tuple[tuple[int, ...], Uncertain]]
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,7 @@ class _OfMass(Compared):
 
     def rate(self, i: int, j: int, k: int) -> Uncertain:
         """∂M_ij/∂q_k."""
-        found = {power: derivative(part, k) for power, part in self.inertia.mass[i][j].items()}
-        return {power: part for power, part in found.items() if part}
+        return _slope(self.inertia.mass[i][j], k)
 
 
 @compared
@@ -103,18 +103,15 @@ class _OfCoriolis(_OfMass):
 
     def symbol(self, i: int, j: int, k: int) -> Uncertain:
         """What w_k multiplies in C_ij; what has no rate for k = n."""
-        if self.printed:
-            return self._printed[i][j][k]
-        return self.inertia.symbols.get((i, max(j, k), min(j, k)), {})
+        return self._printed[i][j][k] if self.printed else _christoffel(self.inertia, i, j, k)
 
-    def lost(self, i: int, j: int) -> Iterator[tuple[tuple[int, ...], Uncertain]]:
+    def lost(self, i: int, j: int) -> Lost:
         """∂M_ij/∂q_k − c_ijk − c_jik for each rate, and what has none."""
-        for k in range(self.joints):
-            yield (
-                (k,),
-                mixed([(1, self.rate(i, j, k)), (-1, self.symbol(i, j, k)), (-1, self.symbol(j, i, k))]),
-            )
-        yield (), mixed([(-1, self.symbol(i, j, self.joints)), (-1, self.symbol(j, i, self.joints))])
+        if not self.printed:
+            return _lost_by_symbols(self.inertia, i, j)
+        n, at = self.joints, self.symbol
+        found = [((k,), _less(self.rate(i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
+        return [*found, ((), _less({}, at(i, j, n), at(j, i, n)))]
 
     @property
     def over(self) -> str:
@@ -211,3 +208,23 @@ class CoriolisTorque(_OfCoriolis):
     def text(self) -> str:
         """``C(q, w)w is that of the Christoffel symbols of M …``."""
         return f"C(q, w)w is that of the Christoffel symbols of M, {self.over}"
+
+
+@lru_cache(maxsize=256)
+def _lost_by_symbols(inertia: Inertia, i: int, j: int) -> Lost:
+    """For the Christoffel symbols; several statements ask for the same, and it can take seconds."""
+    c, entry = partial(_christoffel, inertia), inertia.mass[i][j]
+    return [((k,), _less(_slope(entry, k), c(i, j, k), c(j, i, k))) for k in range(inertia.n)]
+
+
+def _christoffel(inertia: Inertia, i: int, j: int, k: int) -> Uncertain:
+    return inertia.symbols.get((i, max(j, k), min(j, k)), {})
+
+
+def _slope(entry: Uncertain, k: int) -> Uncertain:
+    found = {power: derivative(part, k) for power, part in entry.items()}
+    return {power: part for power, part in found.items() if part}
+
+
+def _less(entry: Uncertain, first: Uncertain, second: Uncertain) -> Uncertain:
+    return mixed([(1, entry), (-1, first), (-1, second)])
