@@ -13,17 +13,22 @@ from functools import cache
 import numpy as np
 import pytest
 
-from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin, shown
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, RadialBounds
+from lyapcheck.check.kinds.settling import require_margin
+from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.decay.least import Well
+from lyapcheck.check.loop.radial import Parts
+from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
 from lyapcheck.cli.main import main
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.search.decay import disturbance_bound, settling_bound
-from lyapcheck.search.margins import Shown, margin_at, proved, reduced_radial
+from lyapcheck.search.margins import Attempt, attempts, margin_at, reduced_radial
 from lyapcheck.search.radial import radial_data
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
@@ -52,15 +57,22 @@ LIMIT = {"buap3": (F("0.134"), F("0.166"), F("0.104")), "reyes-kelly2": (F("0.81
 """Just below an ε₀ that an explicit state refutes."""
 
 
+def shown(margin: Margin, positive: Proof, by: Proof) -> bool:
+    """Whether the checker takes the margin."""
+    try:
+        return require_margin(margin, PositiveAndDecreasing(positive, by)) == "enclosure"
+    except Refused:
+        return False
+
+
 @cache
-def accepted(robot: str, index: int) -> Shown:
+def accepted(robot: str, index: int) -> Attempt:
     """A margin with η = 1/4 at less than half of what is refuted."""
     at = setting(robot, index)
     data = radial_data(at)
     assert data is not None
-    found = proved(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), data))
-    assert found is not None
-    return found
+    tried = attempts(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), data))
+    return next(one for one in tried if shown(one.margin, at.inertia_proof, one.by))
 
 
 def goal(at: Setting) -> tuple[float, ...]:
@@ -192,12 +204,22 @@ def test_more_disturbance_leaves_more() -> None:
     assert levels[0] < levels[1]
 
 
+def test_a_torque_that_moves_the_arm_away_from_its_goal_is_bounded() -> None:
+    at = setting("reyes-kelly2", 0)
+    found = disturbance_bound(at, [0.0, 0.0], torque=[0.05, 0.05])
+    motion = disturbed(at.gains, at.model, goal(at), goal(at), T=20.0, torque=[0.05, 0.05], points=101)
+    assert len(found.largest_errors) == 2
+    assert np.abs(motion.e).max() > 0
+    assert np.all(np.abs(motion.e) <= np.array([float(x) for x in found.largest_errors]))
+
+
 def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
     at = setting("reyes-kelly2", 0)
     found = disturbance_bound(at, goal(at), dry=[61, 6])
     assert found.level is None
     assert found.errors == ()
     assert "too large" in found.reason
+    assert found.resting is None
     assert found.rest == (None, None)
 
 
@@ -240,6 +262,16 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
     assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), at.inertia_proof, by)
 
 
+@pytest.mark.parametrize("friction", [F(1, 10), F(3, 5)])
+def test_bounds_of_the_inertia_hold_beside_the_friction_that_is_left(friction: Fraction) -> None:
+    at = setting("buap3", 0)
+    data = radial_data(at)
+    assert data is not None
+    margin = margin_at(at, F(1, 100), friction, F(0), data)
+    with precision(64):
+        assert Parts(margin.reduced, reduced_radial(margin)).inertia_shown()
+
+
 def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:
     margin: Margin = accepted("reyes-kelly2", 0).margin
     estimate = Estimate(margin, Disturbance.none(2))
@@ -249,7 +281,7 @@ def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:
         estimate.fall(F(2), F(1), F(0))
     with pytest.raises(ValueError, match="share"):
         Estimate(margin, Disturbance((F(1), F(1)), (F(0), F(0))))
-    assert estimate.descent([F(2), F(1)], [F(0)]) is None
+    assert estimate.fall(F(1), F(2), F(0)) <= 0
 
 
 def test_unusable_requests_are_all_named() -> None:

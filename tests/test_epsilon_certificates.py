@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 from lyapcheck.admissible import epsilon
 from lyapcheck.admissible.certificates import certificates
+from lyapcheck.admissible.formats import renderer
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.refusal import Refused
 from lyapcheck.cli.main import build_app
@@ -90,10 +91,10 @@ AGAINST_PROOF = {
     "steeper member": put(9, "statement", "m"),
     "member 0": put(0, "statement", "m"),
     "fewer joints": lambda data: data["statement"]["kp"].pop(),
-    "a gap in the tree": lambda data: data["proof"].update(tree=data["proof"]["tree"][:-1]),
-    "one box for all": put(".", "proof", "tree"),
-    "unknown side": lambda data: data["proof"].update(tree="9" + data["proof"]["tree"][1:]),
-    "no tree": put("", "proof", "tree"),
+    "a gap in the tree": lambda data: data["proof"]["rate"].update(tree=data["proof"]["rate"]["tree"][:-1]),
+    "one box for all": put(".", "proof", "rate", "tree"),
+    "unknown side": lambda data: data["proof"]["rate"].update(tree="9" + data["proof"]["rate"]["tree"][1:]),
+    "no tree": put("", "proof", "rate", "tree"),
     "other verdict": put("refuted", "verdict"),
     "better grade": put("exact", "grade"),
     "negative exponent": put(-1, "statement", "mass", 0, 0, 0, 0, 0),
@@ -138,7 +139,42 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     first = CliRunner().invoke(app, ["epsilon", gains, *options, "--certificates", str(folder)])
     assert first.exit_code == 0, first.output
     names = sorted(path.name for path in folder.iterdir())
-    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json"]
+    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json", "tau_m1.scalar.json"]
     again = CliRunner().invoke(app, ["recheck", str(folder)])
     assert again.exit_code == 0, again.output
-    assert "2 accepted" in again.output
+    assert "3 accepted" in again.output
+
+
+def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
+    """With one box nothing but norms or bounds in ‖e‖ is left."""
+    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
+    found = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1)
+    made = certificates(found)
+    assert found.certified is not None
+    assert made["tau_m2.certified.json"].statement.eps0 == found.certified  # type: ignore[attr-defined]
+    assert judge(reread(made["tau_m2.certified.json"])).verdict == "proved"
+    assert (found.scalar_grade == "no certificate") == ("tau_m2.scalar.json" not in made)
+    row = json.loads(renderer("json")([found], None))["results"][0]
+    assert row["scalar_grade"] == found.scalar_grade == "no certificate"
+    text = renderer("text")([found], None)
+    assert f"{row['scalar']}*" in text
+    assert "without a certificate" in text
+
+
+def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> None:
+    arm = 'title = "t"\nsource = "a test"\n[model]\nM11 = [[1, ""], [1.05, "c2"]]\nM12 = [[0.1, ""]]\n'
+    arm += 'M22 = [[1, ""]]\npotential = [[-1, "c1"]]\n'
+    arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
+    (tmp_path / "arm.toml").write_text(arm)
+    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
+    found = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100)
+    assert (found.certified, found.proof, found.scalar_proof, found.weighted) == (None, None, None, None)
+    assert "M(q) is not positive definite at q = (" in found.reasons["certified"]
+    assert not [name for name in certificates(found) if "falsified" not in name]
+
+
+def test_an_unbounded_function_has_nothing_certified() -> None:
+    gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
+    found = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
+    assert (found.certified, certificates(found)) == (None, {})
+    assert "unbounded" in found.reasons["certified"]

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from decimal import Context, Decimal, Inexact
 from fractions import Fraction
-from math import isqrt
+from math import ceil, floor, isqrt
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.control import read_gain_file
 from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.conditions import Check
-from lyapcheck.control.peak import gamma_between
-from lyapcheck.control.plain import read_plain
 from lyapcheck.gating import GateResult, gate
 
 SETTINGS = settings(
@@ -33,6 +32,12 @@ def decimals(draw: st.DrawFn, most: int = 30) -> str:
     digits = draw(st.integers(1, 10 ** draw(st.integers(places + 1 if places else 1, most)) - 1))
     whole, rest = divmod(digits, 10**places)
     return f"{whole}.{rest:0{places}d}" if places else str(whole)
+
+
+def gamma_between(m: int, bits: int) -> tuple[int, int]:
+    """Integers a ≤ γ_m·2^bits ≤ b."""
+    gamma = hyperbolic_constants(m, bits * 3 // 10 + 20).gamma
+    return floor(gamma.lower * 2**bits), ceil(gamma.upper * 2**bits)
 
 
 def judged(path: Path, top: str, kp: list[str], kv: list[str], bounds: str) -> GateResult:
@@ -145,18 +150,3 @@ def test_a_gain_that_agrees_with_the_limit_to_hundreds_of_digits(tmp_path: Path,
         check = of(judged(tmp_path / "g.toml", f"m = {m}", ["1"], [kv], arm("1", ["9"], ["0"])), "19")
         assert check.verdict == verdict
         assert check.largest_admissible == Fraction(below, 10**digits)
-
-
-def test_gamma_is_computed_once_for_each_member(tmp_path: Path) -> None:
-    path = tmp_path / "many.toml"
-    sets = (
-        f'[[gains]]\nname = "s{i}"\nm = {i % 7 + 1}\nkp = [1.{i:04}, 1.5, 2]\nkv = [0.1{i:04}, 0.1, 0.2]\n'
-        for i in range(2000)
-    )
-    path.write_text('robot = "buap3"\n' + "".join(sets))
-    gain_file = read_plain(str(path))
-    assert gain_file is not None
-    gamma_between.cache_clear()
-    results = gate(gain_file)
-    assert len(results) == 2000
-    assert gamma_between.cache_info().misses == 6  # γ_1 = 1 is known

@@ -10,16 +10,20 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from lyapcheck import load_robot, named_family
 from lyapcheck.check.loop import proves
+from lyapcheck.cli import gate_run
 from lyapcheck.cli import main as cli
+from lyapcheck.cli.gate_options import quick_call
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.gating import GateResult, gate, gate_exit
 from lyapcheck.gating.formats import FORMATS, renderer
-from lyapcheck.gating.stability import Stability, remarks, stability
+from lyapcheck.gating.stability import remarks, stable_otherwise
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
 from lyapcheck.verdicts import Exit
 
@@ -49,14 +53,12 @@ def everywhere() -> dict[str, GateResult]:
 # --- the scalar certificate --------------------------------------------------------------------
 
 
-def test_the_scalar_form_is_definite_at_the_value_shown(scalar: dict[str, GateResult]) -> None:
-    """Θ' by its definition, with norms of M and C over a grid of the one angle they depend on."""
+def test_the_scalar_value_is_that_of_norms(scalar: dict[str, GateResult]) -> None:
+    """Θ' by its definition, with row sums of M and the Christoffel symbols over a grid of angles."""
     arm, angles = NumericModel(load_robot("reyes-kelly2")), np.linspace(-np.pi, np.pi, 2001)
     q = np.stack([np.zeros_like(angles), angles], axis=1)
-    beta = np.linalg.norm(arm.mass(q), 2, axis=(1, 2)).max()
-    turns = np.linspace(0, np.pi, 181)
-    units = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    k_c = max(np.linalg.norm(arm.coriolis(q, np.tile(x, (len(q), 1))), 2, axis=(1, 2)).max() for x in units)
+    beta = abs(arm.mass(q)).max(axis=0).sum(axis=1).max()
+    k_c = np.sqrt((abs(arm.christoffel(q)).max(axis=0) ** 2).sum())
     b = np.array([2.288, 0.175])
     for result in scalar.values():
         (check,) = [check for check in result.checks if check.id == "scalar"]
@@ -104,16 +106,16 @@ def test_the_global_value_is_proved_and_below_what_a_state_refutes(everywhere: d
         assert Fraction(1, 10) < value < Fraction(refuted)
 
 
-def test_what_the_checker_refuses_is_not_accepted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["scalar", "global"])
+def test_what_the_checker_refuses_is_not_accepted(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
+) -> None:
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
     import lyapcheck.gating.certificates as room
-    import lyapcheck.search.certified as search
 
-    monkeypatch.setattr(search, "proves", lambda *_: False)
-    monkeypatch.setattr(room, "proves", lambda *_: False)
-    monkeypatch.setattr(room, "radial_epsilon", lambda _: None)
+    monkeypatch.setattr(Proof, "accepted", lambda *_: False)
     monkeypatch.setattr(room, "CEILINGS", (64, 4))
-    (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), "global").values()
+    (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
     assert result.verdict == "undecided"
     assert "accepted no proof" in result.failures[0].reason
 
@@ -145,11 +147,43 @@ def test_another_friction_leaves_the_global_one_undecided(tmp_path: Path) -> Non
     assert "viscous_min" in result.failures[0].reason
 
 
-def test_an_unbounded_function_has_a_scalar_certificate_and_no_global_one() -> None:
+def test_an_unbounded_function_has_no_certificate() -> None:
     (result,) = judged(paper_gain_file("table2_pd"), "scalar", "global").values()
-    assert [check.verdict for check in result.checks[-2:]] == ["accepted", "undecided"]
+    assert [check.verdict for check in result.checks[-2:]] == ["undecided", "undecided"]
+    assert all("unbounded" in check.reason for check in result.checks[-2:])
+    assert stable_otherwise(result) is None
+
+
+UNPHYSICAL = """
+title = "M11 < 0 where the elbow is folded"
+source = "a test"
+[model]
+M11 = [[1, ""], [1.05, "c2"]]
+M12 = [[0.1, ""]]
+M22 = [[1, ""]]
+potential = [[-1, "c1"]]
+[[joints]]
+name = "a"
+viscous = 2
+torque_limit = 50
+[[joints]]
+name = "b"
+viscous = 2
+torque_limit = 50
+"""
+
+
+@pytest.mark.parametrize("name", ["scalar", "global"])
+@pytest.mark.parametrize("kv", ["[0.1, 0.1]", "[9, 9]"])
+def test_an_arm_that_cannot_exist_is_never_accepted(tmp_path: Path, name: str, kv: str) -> None:
+    (tmp_path / "arm.toml").write_text(UNPHYSICAL)
+    path = gain_file(tmp_path / "g.toml", "robot = 'arm.toml'", kv)
+    (result,) = judged(path, name).values()
     assert result.verdict == "undecided"
-    assert remarks(result)[-1].startswith("(10p) fails: a motor may saturate")
+    assert "M(q) is not positive definite at q = (" in result.failures[0].reason
+    assert stable_otherwise(result) is None
+    for said in (*remarks(result), *remarks(judged(path)["a"])):
+        assert "stable without" not in said
 
 
 def test_an_unknown_condition_is_refused() -> None:
@@ -160,15 +194,20 @@ def test_an_unknown_condition_is_refused() -> None:
 # --- what is said where conditions disagree ----------------------------------------------------
 
 
-def test_gains_that_fail_19_are_told_to_be_stable() -> None:
-    """By default from the theorem, which needs no search; with a certificate, with its ε₀."""
+def test_stability_is_not_said_where_it_was_not_verified() -> None:
     result = judged(paper_gain_file())["tau_m2"]
     assert result.verdict == "rejected"
-    assert stability(result) == Stability("theorem")
+    assert stable_otherwise(result) is None
+    assert remarks(result) == ["(19) fails, but it is only sufficient; --condition scalar looks for a proof"]
+
+
+def test_where_it_is_verified_the_flag_that_accepts_it_is_named() -> None:
+    result = judged(paper_gain_file(), "19", "scalar")["tau_m2"]
+    assert result.verdict == "rejected"
     (said,) = remarks(result)
-    assert said.startswith("(19) fails, yet it is not needed")
-    assert "arms.all" in said
-    assert said.endswith("--condition scalar proves an ε₀")
+    assert said.startswith("(19) fails, yet the gains are proved stable without it: scalar certificate")
+    assert said.endswith("--condition scalar without 19 accepts it")
+    assert judged(paper_gain_file(), "scalar")["tau_m2"].verdict == "accepted"
 
 
 def test_with_a_certificate_both_facts_are_told(everywhere: dict[str, GateResult]) -> None:
@@ -176,34 +215,30 @@ def test_with_a_certificate_both_facts_are_told(everywhere: dict[str, GateResult
         assert result.verdict_of(("19",)) == "rejected" == result.verdict
         (said,) = remarks(result)
         assert said.startswith("(19) fails, yet the gains are proved stable without it: global certificate")
-        known = stability(result)
-        assert known is not None
-        assert (known.by, known.eps0) == ("global", result.checks[-1].value)
+        known = stable_otherwise(result)
+        assert known is result.checks[-1]
+        assert (known.id, known.verdict) == ("global", "accepted")
 
 
 def test_where_all_agree_nothing_is_said() -> None:
     assert remarks(judged(paper_gain_file())["tau_m1"]) == []
 
 
-def test_without_an_arm_the_theorem_says_what_it_assumes(tmp_path: Path) -> None:
-    path = gain_file(tmp_path / "g.toml", "", "[9, 9]", BOUNDS)
-    (result,) = judged(path).values()
-    known = stability(result)
-    assert known is not None
-    assert known.assumes == ("the arm has Properties 2.1 to 2.7",)
-    assert "given that the arm has Properties 2.1 to 2.7" in remarks(result)[0]
-    assert remarks(result)[1].startswith("(10p) fails")
+def test_without_an_arm_stability_is_not_judged(tmp_path: Path) -> None:
+    (result,) = judged(gain_file(tmp_path / "g.toml", "", "[9, 9]", BOUNDS)).values()
+    assert stable_otherwise(result) is None
+    assert "stability is not judged without the arm" in remarks(result)[0]
 
 
-def test_the_theorem_is_not_stretched_to_other_functions(tmp_path: Path) -> None:
-    """It was proved for the hyperbolic family; of another function the gate says how to find out."""
+def test_other_functions_are_judged_like_the_hyperbolic_ones(tmp_path: Path) -> None:
     path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", "[9, 9]")
     path.write_text(path.read_text().replace("m = 2", "family = 'tanh'"))
     (result,) = judged(path).values()
-    assert stability(result) is None
+    assert stable_otherwise(result) is None
     assert "--condition scalar looks for a proof" in remarks(result)[0]
     (proved,) = judged(path, "scalar").values()
     assert "proved stable without it" in remarks(proved)[0]
+    assert remarks(proved)[1].startswith("(10p) fails: a motor may saturate")
 
 
 def test_without_friction_nothing_is_promised(tmp_path: Path) -> None:
@@ -214,7 +249,7 @@ def test_without_friction_nothing_is_promised(tmp_path: Path) -> None:
     for deciding in (("10p", "19"), ("19", "scalar", "global")):
         (result,) = gate(read_gain_file(path), ur5, deciding)
         assert result.verdict_of(("19",)) == "rejected"
-        assert (stability(result), remarks(result)) == (None, [])
+        assert (stable_otherwise(result), remarks(result)) == (None, [])
     assert [check.verdict for check in result.checks[-2:]] == ["undecided", "undecided"]
     assert all("no viscous friction" in check.reason for check in result.checks[-2:])
 
@@ -234,9 +269,11 @@ def test_json_tells_what_establishes_stability(everywhere: dict[str, GateResult]
     rows = json.loads(renderer("json")([*everywhere.values(), *judged(paper_gain_file()).values()]))[
         "results"
     ]
-    assert [row["stable"]["by"] for row in rows] == ["global"] * 3 + ["theorem"] * 3
+    for row in rows[3:]:
+        assert row["stable_otherwise"] is None
     for row in rows[:3]:
-        assert Fraction(row["stable"]["eps0"]) == Fraction(row["checks"][-1]["value"]) > 0
+        assert row["stable_otherwise"]["condition"] == "global"
+        assert Fraction(row["stable_otherwise"]["eps0"]) == Fraction(row["checks"][-1]["value"]) > 0
         assert row["checks"][-1]["limit"] is None
         assert row["checks"][-1]["line"] is not None
 
@@ -276,3 +313,43 @@ def test_the_command_takes_strict(
     with pytest.raises(SystemExit) as left:
         cli.main()
     assert left.value.code == code
+
+
+# --- written down ------------------------------------------------------------------------------
+
+
+def recheck(folder: Path) -> tuple[int, str]:
+    done = CliRunner().invoke(cli.build_app(("recheck",)), ["recheck", str(folder)])
+    return done.exit_code, done.output
+
+
+@pytest.mark.parametrize("words", [(), ("--gamma=printed",), ("--condition", "scalar", "--condition=global")])
+def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tuple[str, ...]) -> None:
+    call = quick_call([str(TABLE2), f"--certificates={tmp_path / 'made'}", *words])
+    assert call is not None
+    gate_run.run(call)
+    made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}
+    assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json"} <= made.keys()
+    assert len(made) == 3 * (7 if len(words) == 3 else 5)
+    for document in made.values():
+        assert document["claim"]["proof"] == "gate"
+    code, said = recheck(tmp_path / "made")
+    assert (code, f"{len(made)} accepted" in said) == (0, True), said
+
+
+@pytest.mark.parametrize("family", ["linear", "arctan", "algebraic", "tanh"])
+def test_other_functions_have_certificates_too(tmp_path: Path, family: str) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'")
+    path.write_text(path.read_text().replace("m = 2", f"family = '{family}'"))
+    call = quick_call([str(path), "--certificates", str(tmp_path / "made")])
+    assert call is not None
+    gate_run.run(call)
+    assert len(list((tmp_path / "made").iterdir())) == 5
+    assert recheck(tmp_path / "made")[0] == 0
+
+
+def test_sets_of_two_files_with_one_name_are_refused(tmp_path: Path) -> None:
+    call = quick_call([str(TABLE2), str(TABLE2), "--certificates", str(tmp_path / "made")])
+    assert call is not None
+    with pytest.raises(InputError, match="one file at a time"):
+        gate_run.run(call)

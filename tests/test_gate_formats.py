@@ -263,7 +263,7 @@ def test_github_annotates_the_gain(paper: list[GateResult]) -> None:
     errors, remarks = found[:6], found[6:]
     assert [kind for kind, _, _ in errors] == ["error"] * 6
     assert [(kind, place["line"]) for kind, place, _ in remarks] == [("notice", "13"), ("notice", "19")]
-    assert all("stable" in message for _, _, message in remarks)
+    assert all("only sufficient" in message for _, _, message in remarks)
     lines = paper_gain_file("table2").read_text().splitlines()
     for _, place, message in errors:
         assert place["file"] == str(paper_gain_file("table2"))
@@ -313,7 +313,7 @@ def test_markdown_is_a_table_of_seven_columns(paper: list[GateResult]) -> None:
     assert "(19) k_v < λmin(B)/(√n γ)" in page.parts["td"]
     assert [row.split(": ")[-1] for row in page.parts["h3"]] == ["accepted", "rejected", "rejected"]
     assert len(page.parts["li"]) == 6 + 2
-    assert sum("stable" in item for item in page.parts["li"]) == 2
+    assert sum("only sufficient" in item for item in page.parts["li"]) == 2
 
 
 # --- names -------------------------------------------------------------------------------------------

@@ -40,6 +40,7 @@ WORDS = st.lists(
         [
             "a.toml", "b c.toml", "--format", "--format=json", "json", "text", "--condition", "10", "scalar",
             "--condition=19", "--robot", "--robot=", "buap3", "--gamma=printed", "--gamma", "true",
+            "--certificates", "--certificates=made",
             "--strict", "--", "--help", "-h", "--nope", "--strict=1", "--form", "-", "", "--condition=20",
         ]
     ),
@@ -230,11 +231,21 @@ def test_an_arm_is_read_once_for_many_files(monkeypatch: pytest.MonkeyPatch, tmp
 # --- the process -------------------------------------------------------------------------------------
 
 RUN = "from lyapcheck.cli.main import main; main()"
-LIGHT = ("argparse", "dataclasses", "difflib", "flint", "inspect", "pathlib", "tomllib", "typer", "typing")
+LIGHT = (
+    "argparse",
+    "difflib",
+    "lyapcheck.check.loop",
+    "lyapcheck.robots",
+    "numpy",
+    "pathlib",
+    "tomllib",
+    "typer",
+)
+"""What a plain call does without; python-flint and ``Constant``, by which the checker judges, it needs."""
 
 
 @pytest.mark.parametrize("name", ["text", "markdown", "github"])
-def test_a_plain_call_imports_next_to_nothing(name: str) -> None:
+def test_a_plain_call_imports_the_checker_of_numbers_and_next_to_nothing_else(name: str) -> None:
     code = (
         "import sys\nfrom lyapcheck.cli.main import main\ntry:\n    main()\n"
         f"except SystemExit:\n    print([x for x in {LIGHT!r} if x in sys.modules], file=sys.stderr)\n"
@@ -254,12 +265,12 @@ def cpu_seconds(*words: str) -> float:
 SILENT = [(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)]
 
 
-def test_the_gate_starts_nearly_as_fast_as_python() -> None:
-    """The goal is 2.5 times the start of Python; the bound leaves room for a busy machine."""
-    bare = [sys.executable, "-c", "pass"]
+def test_the_gate_starts_nearly_as_fast_as_the_arithmetic_of_the_checker() -> None:
+    """The goal is 1.7 times the start of python-flint; the bound leaves room for a busy machine."""
+    bare = [sys.executable, "-c", "import flint"]
     gate = [sys.executable, "-c", RUN, "gate", str(paper_gain_file())]
     times = [(cpu_seconds(*bare), cpu_seconds(*gate)) for _ in range(12)]
-    assert min(gate for _, gate in times) < 3 * min(bare for bare, _ in times)
+    assert min(gate for _, gate in times) < 2.5 * min(bare for bare, _ in times)
 
 
 def test_a_reader_that_goes_away_gets_no_traceback() -> None:

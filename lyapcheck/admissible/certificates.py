@@ -19,11 +19,16 @@ PROOF = "epsilon"
 
 
 def certificates(result: EpsilonResult) -> dict[str, Certificate]:
-    """Certificates by file name; an ε₀ that the scalar form alone gives has none here."""
+    """Certificates by file name: of each ε₀ that is called certified, of the scalar one if it has one."""
     stem, found = quote(result.name, safe=""), {}
     if result.proof is not None:
         found[f"{stem}.certified.json"] = _certificate(
             result, result.proof.closure, "proved", result.proof.certificate
+        )
+    if result.scalar_proof is not None:
+        proof = result.scalar_proof
+        found[f"{stem}.scalar.json"] = _certificate(
+            result, proof.closure, "proved", proof.certificate, "scalar"
         )
     if result.weighted is not None:
         proof = result.weighted.proof
@@ -35,7 +40,9 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     return found
 
 
-def _certificate(result: EpsilonResult, closure: Closure, verdict: str, proof: Proof) -> Certificate:
+def _certificate(
+    result: EpsilonResult, closure: Closure, verdict: str, proof: Proof, kind: str = ""
+) -> Certificate:
     arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
     says = (
         f"dV/dt < 0 at every state but the origin: {result.name} on {result.robot}, "
@@ -43,7 +50,7 @@ def _certificate(result: EpsilonResult, closure: Closure, verdict: str, proof: P
     )
     weights = ", ".join(decimal_text(scale) for scale in closure.coupling)
     says += f", Λ = diag({weights})" if weights else ""
-    kind = "weighted" if weights else verdict
+    kind = kind or ("weighted" if weights else verdict)
     about = About(f"{result.name}.{kind}", says, result.m, closure.n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
     return Certificate(about, statement_of(closure), verdict, "enclosure", proof, {}, used)

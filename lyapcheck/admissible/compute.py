@@ -1,8 +1,8 @@
 """The four ε₀ of one gain set on one arm: published, scalar, certified and falsified.
 
     published   the end of (18), which claims dV/dt < 0 for every smaller ε₀
-    scalar      the largest ε₀ with Θ' ≻ 0, from norms alone
-    certified   the largest ε₀ for which the quadratic form Q was proved positive definite at every state
+    scalar      the largest ε₀ with Θ' ≻ 0, a number from norms in floating point that may lack a certificate
+    certified   the largest ε₀ for which the checker accepted a proof of M ≻ 0 and dV/dt < 0 at every state
     falsified   the smallest ε₀ for which a state with dV/dt > 0 was proved
 
 References: ``reyes2019family`` (12), (16), (18).
@@ -17,11 +17,15 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.admissible.consistency import findings, require_consistent
 from lyapcheck.admissible.result import EpsilonResult, Refutation
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
+from lyapcheck.search.norms import norm_epsilon
+from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
@@ -68,15 +72,15 @@ def epsilon(
         InputError: the gains are for another number of joints.
         Contradiction: the witness refutes a certificate.
 
-    Soundness: ``scalar`` and ``certified`` rest on their certificates and on the arm's numbers, ``falsified``
-        on the witness alone; ``published`` is what (18) claims, not what is true.
+    Soundness: ``certified`` rests on ``proof``, which ``lyapcheck.check.verify`` accepted, ``falsified`` on
+        the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
     tell = on_progress or (lambda fraction, note: None)
     setting, reasons = Setting(gain_set, model, ranges), {}
     at, witness = _falsified(setting, starts, seed, lambda f, note: tell(0.3 * f, note))
     if witness is None:
         reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
-    tell(0.3, "scalar certificate")
+    tell(0.3, "scalar form")
     bounds, constants = robot_bounds(model), setting.family.constants()
     published, reasons["published"] = _published(gain_set, constants, bounds)
     # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
@@ -84,16 +88,23 @@ def epsilon(
     scalar = _scalar(setting, bounds) or sharp
     reasons["scalar"] = scalar.reason
     hint = None if witness is None else witness.eps0
-    found = certified_epsilon(
-        setting,
-        hint or 10 * (scalar.eps0 or Fraction(1)),
-        max_boxes,
-        jobs,
-        seconds,
-        lambda f, note: tell(0.35 + (0.55 if weights else 0.65) * f, note),
-    )
-    proof, by, reasons["certified"] = _best(setting, found)
-    certified = proof.closure.eps0 if proof is not None else None if ranges else sharp.eps0
+    looked_at, by = 0, ""
+    proof: Proof | None = None
+    scalar_proof: Proof | None = None
+    reasons["certified"] = unphysical(setting)
+    if not reasons["certified"]:
+        found = certified_epsilon(
+            setting,
+            hint or 10 * (scalar.eps0 or Fraction(1)),
+            max_boxes,
+            jobs,
+            seconds,
+            lambda f, note: tell(0.35 + (0.55 if weights else 0.65) * f, note),
+        )
+        looked_at = found.looked_at
+        proof, by, reasons["certified"] = _best(setting, found)
+        scalar_proof = _proof_of(setting, scalar.eps0)
+    certified = None if proof is None else proof.closure.eps0
     weighted = None
     if weights and certified is not None and setting.family.bounded:
         weighted = weighted_epsilon(
@@ -110,8 +121,9 @@ def epsilon(
         certified=certified,
         falsified=hint,
         witness=witness,
-        boxes=found.looked_at,
+        boxes=looked_at,
         proof=proof,
+        scalar_proof=scalar_proof,
         weighted=weighted,
         against=_refutation(setting, at, witness),
         ranges=ranges,
@@ -133,11 +145,23 @@ def _falsified(setting: Setting, starts: int, seed: int, tell: Progress) -> tupl
 
 def _best(setting: Setting, found: Certified) -> tuple[Proof | None, str, str]:
     """The proof of the larger ε₀, what it is called, and what more could be tried."""
-    if found.proof is None:
-        radial = radial_epsilon(setting)
-        by = "scalar certificate" if radial is None else "bounds in ‖e‖ alone"
-        return radial, by, found.reason
-    return found.proof, "branch and bound", found.reason
+    if found.proof is not None:
+        return found.proof, "branch and bound", found.reason
+    norm, reason = norm_epsilon(setting)
+    if norm is None:
+        return None, "", reason
+    radial = radial_epsilon(setting)
+    if radial is not None and radial.closure.eps0 > norm.closure.eps0:
+        return radial, "bounds in ‖e‖ alone", found.reason
+    return norm, "norms alone", found.reason
+
+
+def _proof_of(setting: Setting, eps0: Fraction | None) -> Proof | None:
+    """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
+    if eps0 is None or not setting.family.bounded:
+        return None
+    proof = Proof(setting.closure(eps0), BoxTree("."), setting.inertia_proof)
+    return proof if certifies(proof.closure.tail, eps0) and proof.accepted() else None
 
 
 def _refutation(setting: Setting, at: Setting, witness: Witness | None) -> Refutation | None:
@@ -149,7 +173,7 @@ def _refutation(setting: Setting, at: Setting, witness: Witness | None) -> Refut
 
 
 def _scalar(setting: Setting, bounds: RobotBounds) -> ScalarResult | None:
-    """The scalar certificate of what the setting is about; ``None`` where h is unbounded."""
+    """The scalar form of what the setting is about; ``None`` where h is unbounded."""
     if not setting.family.bounded:
         return None
     if setting.ranges:

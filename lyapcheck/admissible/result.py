@@ -32,13 +32,14 @@ class EpsilonResult:
         m: member of the family, if it has members.
         robot: name of the arm.
         published: the end of (18), rounded down.
-        scalar: ε₀ of the scalar certificate.
-        certified: ε₀ of branch and bound, or of the scalar certificate where that is larger.
+        scalar: ε₀ of the scalar form, from norms.
+        certified: the largest ε₀ of which the checker accepted a proof.
         falsified: ε₀ of the witness.
         witness: the state that refutes ``falsified``.
         boxes: how many boxes branch and bound looked at.
-        certified_by: which certificate stands behind ``certified``.
-        proof: the boxes behind ``certified``, which the checker has accepted.
+        certified_by: which search proposed the proof behind ``certified``.
+        proof: behind ``certified``, accepted by the checker.
+        scalar_proof: behind ``scalar``, accepted by the checker; ``None`` where norms alone prove less.
         against: what ``witness`` refutes, and the arm it is a state of.
         weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
         ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
@@ -60,6 +61,7 @@ class EpsilonResult:
     boxes: int
     certified_by: str
     proof: Proof | None = None
+    scalar_proof: Proof | None = None
     against: Refutation | None = None
     weighted: Weighted | None = None
     ranges: bool = False
@@ -68,6 +70,13 @@ class EpsilonResult:
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
     seed: int = 0
+
+    @property
+    def scalar_grade(self) -> str | None:
+        """``enclosure`` where ``scalar`` has a certificate, else ``no certificate``; ``None`` without it."""
+        if self.scalar is None:
+            return None
+        return "no certificate" if self.scalar_proof is None else "enclosure"
 
     @property
     def ratio(self) -> Fraction | None:

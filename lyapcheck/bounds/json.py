@@ -14,6 +14,7 @@ from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.check.statement import Statement
     from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
 
 SCHEMA = "lyapcheck/bounds/1"
@@ -48,11 +49,12 @@ def _settling(bound: SettlingBound) -> dict[str, Any]:
         "delta": _degrees(float(bound.delta)),
         "time": above(bound.time),
         "start_level": above(bound.start_level),
-        "end_level": below(bound.end_level),
+        "end_level": below(bound.level),
         "envelope": [{"time": above(t), "level": above(v)} for t, v in bound.envelope],
-        "errors": [_degrees_above(x) for x in bound.errors],
+        "errors": [_degrees_above(x) for x in bound.largest_errors],
         "exponential": bound.exponential,
         "rests_on": _provenance(bound.rests_on),
+        "statement": _text(None if bound.shown is None else bound.shown.statement),
         "reason": bound.reason,
     }
 
@@ -66,8 +68,15 @@ def _disturbance(bound: DisturbanceBound) -> dict[str, Any]:
         "errors": [_degrees_above(x) for x in bound.errors],
         "rest": [None if x is None else _degrees_above(x) for x in bound.rest],
         "rests_on": _provenance(bound.rests_on),
+        "statement": _text(None if bound.shown is None else bound.shown.statement),
+        "rest_statement": _text(bound.resting),
         "reason": bound.reason,
     }
+
+
+def _text(statement: Statement | None) -> str | None:
+    """What the checker accepted, in words."""
+    return None if statement is None else statement.text()
 
 
 def _provenance(found: Provenance | None) -> dict[str, Any] | None:
@@ -96,6 +105,6 @@ def _degrees(x: float) -> float:
     return round(math.degrees(x), 9)
 
 
-def _degrees_above(x: float) -> float:
+def _degrees_above(x: Fraction) -> float:
     """Degrees, rounded up by more than the conversion can err."""
     return math.ceil(math.degrees(x) * 1e6 * (1 + 1e-14)) / 1e6

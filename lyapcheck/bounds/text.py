@@ -7,10 +7,15 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from lyapcheck.bounds.compare import Comparison
     from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
 
-LEGEND = "certified: for all postures and motions from this start, at nominal numbers; simulated: one run."
+LEGEND = (
+    "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
+    "farther than this one, joint by joint; simulated: one run."
+)
 
 
 def render(results: Sequence[Comparison]) -> str:
@@ -31,7 +36,7 @@ def _settling(bound: SettlingBound, found: Comparison) -> list[str]:
     if bound.time is None:
         return [*lines, f"    certified: none; {bound.reason}", f"    simulated: {seen}"]
     lines += [f"    certified: within {_up(float(bound.time))} s", f"    simulated: {seen}"]
-    lines.append(f"    on the way |e| ≤ {_angles(bound.errors)}")
+    lines.append(f"    on the way |e| ≤ {_angles(bound.largest_errors)}")
     if not bound.exponential:
         lines.append("    h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks")
     return [*lines, *_rests_on(bound.rests_on)]
@@ -51,7 +56,8 @@ def _disturbance(bound: DisturbanceBound, found: Comparison) -> list[str]:
     else:
         lines.append(f"    certified: |e| ≤ {_angles(bound.errors)} from {_up(float(bound.time))} s on")
     lines.append(f"    simulated: |e| ≤ {_angles(found.simulated_errors)} at the end")
-    lines.append(f"    at rest, certified: |e| ≤ {_angles(bound.rest)}")
+    if bound.resting is not None:
+        lines.append(f"    at rest, certified: |e| ≤ {_angles(bound.rest)}")
     return [*lines, *_rests_on(bound.rests_on)]
 
 
@@ -70,7 +76,7 @@ def _up(value: float) -> str:
     return f"{math.ceil(value * scale * (1 + 1e-12)) / scale:.4g}"
 
 
-def _angles(values: Sequence[float | None]) -> str:
+def _angles(values: Sequence[Fraction | float | None]) -> str:
     shown = ["∞" if x is None else f"{_up(math.degrees(x))}°" for x in values]
     return f"({', '.join(shown)})"
 

@@ -15,12 +15,14 @@ from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 from unicodedata import category, is_normalized
 
+from lyapcheck.check import kinds
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import MAX_DEPTH, is_rational_text
 from lyapcheck.check.kinds.for_all import Piece
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
 
+kinds.load()
 T = TypeVar("T")
 KINDS = __name__.rpartition(".")[0]
 """The package under which every class that may be read is defined."""

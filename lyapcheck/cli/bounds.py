@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.printable import document_text
@@ -56,6 +57,9 @@ def command(
     time: Annotated[float, typer.Option(help="Duration of the simulated runs in s.")] = 5.0,
     max_boxes: Annotated[int, typer.Option(help="Budget of boxes for each attempt.", min=1)] = 60_000,
     jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
+    certificates: Annotated[
+        Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
+    ] = None,
     format: Annotated[BoundsFormat, typer.Option(help="How to write it.")] = BoundsFormat.TEXT,  # noqa: A002
 ) -> None:
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
@@ -78,13 +82,24 @@ def command(
     dry = None if friction is None else _torques("--friction", friction, model, problems)
     if task is None or problems:
         raise InputError(problems)
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
         found = _run(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
+    if folder is not None:
+        _write_certificates(folder, found)
     from lyapcheck.bounds import renderer
 
     sys.stdout.write(document_text(renderer(format.value)(found)))
     whole = all(one.settling.time is not None and one.disturbance.level is not None for one in found)
     raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
+
+
+def _write_certificates(folder: Path, found: list[Comparison]) -> None:
+    from lyapcheck.bounds.certificates import certificates
+
+    for one in found:
+        for name, certificate in certificates(one).items():
+            write_whole(folder / name, certificate.text())
 
 
 def _task(
@@ -104,7 +119,7 @@ def _angle(delta: float, problems: list[Problem]) -> float:
     if not 0.0 < delta <= 180.0:
         rule = "must be more than 0 and at most 180 degrees"
         problems.append(Problem("argument", None, "--delta", f"{delta:g}", rule, "write --delta 1"))
-    return math.radians(delta)
+    return math.nextafter(math.radians(delta), 0.0)
 
 
 def _torques(option: str, text: str | None, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:

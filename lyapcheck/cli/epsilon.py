@@ -82,7 +82,7 @@ def command(
 ) -> None:
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
 
-    For each gain set: the end of (18), the scalar certificate, the largest ε₀ proved at every state, and the
+    For each gain set: the end of (18), the ε₀ of norms, the largest ε₀ proved at every state, and the
     smallest that a state refutes. Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has
     none.
     """

@@ -24,8 +24,11 @@ def command(
     strict: Annotated[
         bool, typer.Option("--strict", help="What is undecided counts as a failure, exit code 1.")
     ] = False,
+    certificates: Annotated[
+        str | None, typer.Option(help="Write the certificate of each check there; see recheck.")
+    ] = None,
 ) -> None:
-    """Accept or reject gains by the paper's conditions, decided exactly.
+    """Accept or reject gains by the paper's conditions, as the checker judges them.
 
     For each gain set and joint: value, limit, margin and the largest value that would pass. Exit code 0: all
     accepted, 1: something rejected, 2: a file cannot be used, 3: undecided.
@@ -33,5 +36,5 @@ def command(
     from lyapcheck.cli.gate_run import run
 
     conditions = tuple(item.value for item in condition or ())
-    call = GateCall(tuple(files), format.value, conditions, robot, gamma.value, strict)
+    call = GateCall(tuple(files), format.value, conditions, robot, gamma.value, strict, certificates)
     raise typer.Exit(int(run(call)))

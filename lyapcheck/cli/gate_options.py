@@ -44,6 +44,7 @@ class GateCall(Record):
     robot: str | None = None
     gamma: str = Gamma.TRUE.value
     strict: bool = False
+    certificates: str | None = None
 
 
 CHOICES: dict[str, type[StrEnum] | None] = {
@@ -51,6 +52,7 @@ CHOICES: dict[str, type[StrEnum] | None] = {
     "--condition": Condition,
     "--robot": None,
     "--gamma": Gamma,
+    "--certificates": None,
 }
 """The options that take a value, and the values that they take."""
 
@@ -90,4 +92,5 @@ def quick_call(words: list[str]) -> GateCall | None:
         robot=last.get("--robot"),
         gamma=last.get("--gamma", Gamma.TRUE.value),
         strict=strict,
+        certificates=last.get("--certificates"),
     )

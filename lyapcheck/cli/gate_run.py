@@ -43,6 +43,8 @@ def run(call: GateCall) -> Exit:
         except InputError as error:
             problems += error.problems
     if results:
+        if call.certificates is not None:
+            _write_certificates(call.certificates, results)
         sys.stdout.write(document_text(renderer(call.format)(results)))
         if call.format == "github" and os.environ.get(SUMMARY):
             _append_summary(os.environ[SUMMARY], results)
@@ -50,6 +52,18 @@ def run(call: GateCall) -> Exit:
         sys.stdout.flush()
         raise InputError(problems)
     return gate_exit(results)
+
+
+def _write_certificates(folder: str, results: list[GateResult]) -> None:
+    """One file for each check that was decided."""
+    from pathlib import Path
+
+    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.gating.documents import certificates
+
+    made, place = certificates(results), open_folder("--certificates", Path(folder))
+    for name, certificate in made.items():
+        write_whole(place / name, certificate.text())
 
 
 def _append_summary(path: str, results: list[GateResult]) -> None:

@@ -1,4 +1,4 @@
-"""The paper's conditions on gains, decided exactly: (10), its rule for each joint (10p), and (19).
+"""The paper's conditions on gains, judged by the checker: (10), its rule for each joint (10p), and (19).
 
 With N = √n γ the three read
 
@@ -6,30 +6,32 @@ With N = √n γ the three read
     (10p)  k_pi + k_vi < (τmax_i − k_gi) / N          for each joint i
     (19)   k_vi < λmin(B) / N                         for each joint i, which is λmax(K_v) < λmin(B)/N
 
-What they compare with is in ``thresholds``.
+Each check is a statement about numbers and has the verdict of ``lyapcheck.check.verify``; see ``threshold``.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.control.thresholds import Threshold, norms, scaled
+from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, Judgement
+from lyapcheck.control.threshold import Threshold, norms, scaled
 from lyapcheck.files.decimals import places_of
 from lyapcheck.records import Record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from lyapcheck.control.bound import GammaBound
+    from lyapcheck.check.expressions.expression import Tree
     from lyapcheck.control.bracket import Bracket
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.files.decimals import Written
 
 CONDITIONS = ("10", "10p", "19")
-ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
+__all__ = ["ACCEPTED", "CONDITIONS", "REJECTED", "UNDECIDED", "Check", "Conditions", "check_10p", "check_19"]
 
 _UNBOUNDED = "the function is unbounded (γ = ∞): no gain keeps the torque within a limit for every state"
 _NO_TORQUE = "the arm has no torque limit for this joint; give [bounds] torque"
+_UNTOLD = "the checker gives no verdict: {}"
 _NO_FRICTION = "the arm has no viscous friction; give [bounds] viscous_min"
 
 
@@ -39,7 +41,7 @@ class Check(Record):
     Args:
         id: ``10``, ``10p``, ``19``, ``scalar`` or ``global``.
         joint: counted from 0; ``None`` where the condition is on all joints.
-        verdict: ``accepted``, ``rejected`` or ``undecided``.
+        judgement: the statement, and what the checker says of it; ``None`` where there is none to make.
         value: what is compared, N·m (N·m·s/rad for 19), exact; the ε₀ that a certificate proves, ``None``
             where it proves none.
         limit: what it must stay below; ``None`` where there is none (an unbounded function, no torque limit).
@@ -50,11 +52,16 @@ class Check(Record):
 
     id: str
     joint: int | None
-    verdict: str
+    judgement: Judgement | None
     value: Fraction | None
     limit: Bracket | None
     largest_admissible: Written | None
     reason: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """``accepted``, ``rejected`` or ``undecided``, as the checker says."""
+        return UNDECIDED if self.judgement is None else self.judgement.verdict
 
     @property
     def margin(self) -> Fraction | None:
@@ -65,9 +72,8 @@ class Check(Record):
 class Conditions:
     """The three conditions for one arm and one γ: what they compare with is computed once for all gains."""
 
-    def __init__(self, limits: Limits, gamma: GammaBound) -> None:
+    def __init__(self, limits: Limits, gamma: Tree | None) -> None:
         n = limits.n
-        self.bounded = gamma.finite
         torques = [torque for torque in limits.torque if torque is not None]
         self._norm = norms(_square(torques), _square(limits.gravity), n, gamma) if len(torques) == n else None
         self._joints = [
@@ -118,23 +124,24 @@ class Conditions:
         missing: str,
     ) -> Check:
         if threshold is None:
-            return Check(name, joint, UNDECIDED, value, None, None, missing)
-        if not self.bounded:
-            return Check(name, joint, REJECTED, value, None, None, _UNBOUNDED)
+            return Check(name, joint, None, value, None, None, missing)
+        found = threshold.judged(value, places)
+        if not threshold.bounded:
+            return Check(name, joint, found, value, None, None, _UNBOUNDED)
         limit = threshold.apart(value, places)
-        verdict = ACCEPTED if threshold.passes(limit.side(value)) else REJECTED
-        return Check(name, joint, verdict, value, limit, threshold.largest(places), "")
+        reason = _UNTOLD.format(found.reason) if found.proof is None else ""
+        return Check(name, joint, found, value, limit, threshold.largest(places), reason)
 
 
 def _square(vector: list[Fraction] | tuple[Fraction, ...]) -> Fraction:
     return sum((x * x for x in vector), Fraction(0))
 
 
-def check_10p(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+def check_10p(gains: GainSet, limits: Limits, gamma: Tree | None) -> list[Check]:
     """(10p) for each joint of one gain set."""
     return Conditions(limits, gamma).check_10p(gains)
 
 
-def check_19(gains: GainSet, limits: Limits, gamma: GammaBound) -> list[Check]:
+def check_19(gains: GainSet, limits: Limits, gamma: Tree | None) -> list[Check]:
     """(19) for each joint of one gain set."""
     return Conditions(limits, gamma).check_19(gains)

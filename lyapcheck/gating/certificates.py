@@ -1,34 +1,34 @@
 """Certificates as conditions of the gate: gains are accepted where some ε₀ > 0 is proved for the arm.
 
-    scalar   Θ'(ε) ≻ 0 for all ε in (0, ε₀], from norms and certified constants of the arm
-    global   dV/dt < 0 at every state but the origin, shown by the small checker on a tree of boxes
+    scalar   dV/dt < 0 at every state but the origin, from norms of M and C alone
+    global   the same by boxes or by bounds in ‖e‖, which prove a larger ε₀
 
+Both are statements ``Decreasing``, M(q) ≻ 0 included, accepted where ``lyapcheck.check.verify`` proves them.
 A search that finds nothing refutes nothing: there is no ``rejected`` here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
-from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.constants import robot_bounds
-from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
+from lyapcheck.check.statement import Ends
+from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
-from lyapcheck.lyapunov.scalar import RobotBounds, scalar_form, sharp_form
+from lyapcheck.control.judgement import judged
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.norms import REFUSED, norm_epsilon
+from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
-from lyapcheck.search.scalar_program import scalar_epsilon
 from lyapcheck.search.setting import Setting
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
 CEILINGS = (64, 16, 8, 4, 2)
-"""Times the scalar ε₀: where branch and bound begins, from above."""
+"""Times the ε₀ of norms: where branch and bound begins, from above."""
 
 _NOMINAL = "certificates are about the arm at its nominal numbers"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
@@ -51,14 +51,21 @@ class Prover:
     def check(self, name: str, gains: GainSet) -> Check:
         """The check of one certificate: its value is the ε₀ proved.
 
-        Soundness: the scalar form is decided in rational arithmetic, with constants that are bounds from
-            outside; global ones have been accepted by ``lyapcheck.check.loop``.
+        Soundness: that of ``lyapcheck.check.verify``.
         """
         if not self.robot:
-            return Check(name, None, UNDECIDED, None, None, None, _NO_ARM)
-        eps0, reason = self._scalar(gains) if name == "scalar" else self._global(gains)
-        verdict = UNDECIDED if eps0 is None else ACCEPTED
-        return Check(name, None, verdict, eps0, None, None, reason)
+            return Check(name, None, None, None, None, None, _NO_ARM)
+        setting = Setting(gains, self.model)
+        reason = self._unphysical(setting)
+        proof = None
+        if not reason:
+            proof, reason = (
+                norm_epsilon(setting, self._friction) if name == "scalar" else self._global(setting)
+            )
+        if proof is None:
+            return Check(name, None, None, None, None, None, reason)
+        found = judged(proof.statement, [proof.certificate])
+        return Check(name, None, found, proof.closure.eps0, None, None, found.reason)
 
     @cached_property
     def model(self) -> RobotModel:
@@ -70,47 +77,38 @@ class Prover:
         """What is taken for granted about the arm, and that its numbers are nominal."""
         return (_NOMINAL, *self.model.assumptions) if self.robot else ()
 
-    @cached_property
-    def bounds(self) -> RobotBounds:
-        """Its constants from outside, with the λmin(B) that was given."""
-        found = robot_bounds(self.model)
-        if self.viscous_min is None:
-            return found
-        largest = max(found.viscous_max, self.viscous_min)
-        return replace(found, viscous_min=self.viscous_min, viscous_max=largest)
+    def _unphysical(self, setting: Setting) -> str:
+        """Why there is nothing to prove on this arm, looked at once."""
+        if self._fault is None:
+            self._fault = unphysical(setting)
+        return self._fault
 
-    def _scalar(self, gains: GainSet) -> tuple[Fraction | None, str]:
-        constants = Setting(gains, self.model).family.constants()
-        form = scalar_form(gains, constants, self.bounds) or sharp_form(gains, constants, self.bounds)
-        found = scalar_epsilon(form)
-        return found.eps0, found.reason
+    _fault: str | None = None
 
-    def _global(self, gains: GainSet) -> tuple[Fraction | None, str]:
-        setting = Setting(gains, self.model)
+    @property
+    def _friction(self) -> tuple[Ends, ...] | None:
+        """Every B between the λmin(B) that was given and the arm's own."""
+        least = self.viscous_min
+        if least is None:
+            return None
+        return tuple((least, max(least, number.value)) for number in self.model.viscous)
+
+    def _global(self, setting: Setting) -> tuple[Proof | None, str]:
         if self.viscous_min not in (None, min(number.value for number in self.model.viscous)):
             return None, _OTHER_FRICTION
-        if not setting.family.bounded:
-            return None, "h is unbounded, and the checker needs its bound γ"
-        coarse = scalar_epsilon(setting.closure(Fraction(1)).tail)
-        if coarse.eps0 is None:
-            return None, coarse.reason
-        proved = next(_proofs(setting, coarse.eps0), None)
-        return proved, "" if proved else "the checker accepted no proof"
+        coarse, reason = norm_epsilon(setting)
+        if coarse is None:
+            return None, reason
+        return next(_proofs(setting, coarse), None), REFUSED
 
 
-def _proofs(setting: Setting, coarse: Fraction) -> Iterator[Fraction]:
-    """ε₀ that the checker has accepted, the largest that can be hoped for first.
-
-    Args:
-        coarse: ε₀ of the checker's own scalar form.
-    """
+def _proofs(setting: Setting, coarse: Proof) -> Iterator[Proof]:
+    """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
     for ceiling in CEILINGS:
-        found = certified_epsilon(setting, ceiling * coarse, MAX_BOXES)
-        if found.eps0 is not None:
-            yield found.eps0
+        found = certified_epsilon(setting, ceiling * coarse.closure.eps0, MAX_BOXES)
+        if found.proof is not None:
+            yield found.proof
     radial = radial_epsilon(setting)
     if radial is not None:
-        yield radial.closure.eps0
-    closure = setting.closure(coarse)
-    if Proof(closure, BoxTree("."), setting.inertia_proof).accepted():
-        yield closure.eps0
+        yield radial
+    yield coarse

@@ -119,8 +119,8 @@ def gate(
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
 
-    Soundness: (10), (10p) and (19) exact, see ``lyapcheck.control.conditions``; a certificate is accepted
-        only with an ε₀ that has been proved, see ``lyapcheck.gating.certificates``, and never rejected.
+    Soundness: every verdict is that of ``lyapcheck.check.verify`` on a statement with a proof, which
+        ``lyapcheck.gating.documents`` writes as a certificate; where there is no proof it is ``undecided``.
 
     References: (10), (19) and Section 4 of reyes2019family.
 

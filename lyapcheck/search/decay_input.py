@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.search.decay_digits import as_written, short_above
 from lyapcheck.search.setting import Setting
 
 Start = tuple[tuple[Fraction, ...], tuple[Fraction, ...]]
-"""Errors in rad and rates in rad/s."""
+"""Bounds of |e_i| in rad and of |w_i| in rad/s."""
 
 LARGEST = 1e3
 """rad, as for simulations."""
@@ -19,7 +20,7 @@ FASTEST = 1e3
 
 
 def start_of(setting: Setting, e0: Sequence[float], w0: Sequence[float] | None, delta: float) -> Start:
-    """The start as exact numbers, or every problem with it at once."""
+    """What the start is within, in few digits, or every problem with it at once."""
     if not setting.family.bounded:
         rule = f"{setting.gains.name} has an unbounded h, of which no margin is known"
         raise argument_error("gains", setting.gains.name, rule, "choose gains of a bounded family")
@@ -32,7 +33,12 @@ def start_of(setting: Setting, e0: Sequence[float], w0: Sequence[float] | None, 
         problems.append(Problem("argument", None, "delta", str(delta), rule, "give a small angle"))
     if problems:
         raise InputError(problems)
-    return tuple(map(Fraction, e0)), tuple(map(Fraction, rates))
+    return _sizes(e0), _sizes(rates)
+
+
+def _sizes(values: Sequence[float]) -> tuple[Fraction, ...]:
+    """Bounds of sizes, in few digits."""
+    return tuple(short_above(abs(as_written(x))) for x in values)
 
 
 def _vector(name: str, values: Sequence[float], n: int, most: float) -> list[Problem]:
@@ -51,4 +57,4 @@ def torques_of(setting: Setting, name: str, values: Sequence[Fraction | float]) 
         text = ", ".join(f"{float(x):g}" for x in values)
         rule = f"must be {setting.n} finite torques in N·m, none below 0"
         raise argument_error(name, text, rule, "give one bound a joint")
-    return tuple(Fraction(x) for x in values)
+    return tuple(as_written(x) for x in values)

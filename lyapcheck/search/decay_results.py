@@ -1,9 +1,17 @@
-"""Certified bounds of a motion, and what they rest on."""
+"""Certified bounds of a motion: what the checker accepted, and the numbers that are read from it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.kinds.resting import AtBounds, Resting
+from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
+from lyapcheck.check.loop import shared_between
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import verify
 
 
 @dataclass(frozen=True)
@@ -18,62 +26,117 @@ class Provenance:
 
 
 @dataclass(frozen=True)
-class SettlingBound:
-    """A certified time after which every |e_i| ≤ δ for good, for all q and all motions from one start.
+class Shown:
+    """A statement and the proof by which the checker has accepted it."""
 
-    Args:
-        name: of the gain set.
-        robot: name of the arm, at nominal numbers.
-        delta: δ, rad.
-        time: s, from above; none where nothing was proved.
-        start_level: J, at least V at the start.
-        end_level: J, V ≤ that is enough for δ.
-        envelope: pairs (s, J): from that time on V is at most that.
-        errors: rad, |e_i| at all times.
-        exponential: whether V falls exponentially near the goal: h'(0) > 0.
-        rests_on: the proof.
-        reason: why there is no time.
-    """
+    statement: Settling
+    proof: FallingLevels
 
-    name: str
-    robot: str
-    delta: Fraction
-    time: Fraction | None
-    start_level: Fraction | None
-    end_level: Fraction | None
-    envelope: tuple[tuple[Fraction, Fraction], ...]
-    errors: tuple[float, ...]
-    exponential: bool
-    rests_on: Provenance | None
-    reason: str = ""
+    @property
+    def rests_on(self) -> Provenance:
+        """What it rests on."""
+        rate = self.proof.decreasing.rate
+        tree = getattr(rate, "tree", "")
+        by = "branch and bound" if isinstance(rate, BoxTree) else "bounds in ‖e‖ alone"
+        shares = self.proof.friction, self.proof.stiffness
+        return Provenance(by, tree.count("."), self.statement.eps0, *shares)
 
 
 @dataclass(frozen=True)
-class DisturbanceBound:
-    """What a bounded disturbance leaves of the error, certified for all motions from one start.
+class MotionBound:
+    """What is certified of all motions from some starts, for all q; all numbers are of ``shown``.
 
     Args:
         name: of the gain set.
+        m: its member, if its family has members.
         robot: name of the arm, at nominal numbers.
-        torque: d̄_i, N·m, of any sign.
-        dry: f_i, N·m, against the motion.
-        level: J: V comes down to it and stays; none where no level is shown to be reached.
-        errors: rad, |e_i| from ``time`` on.
-        time: s, from above.
-        start_level: J, at least V at the start.
-        rest: rad, |e_i| at every state of rest; none for a joint whose k_pi does not exceed the torque.
-        rests_on: the proof.
-        reason: why there is no level.
+        shown: what the checker accepted; none where it accepted nothing.
+        reason: why there is nothing.
     """
 
     name: str
+    m: int | None
     robot: str
+    shown: Shown | None
+    reason: str
+
+    @property
+    def envelope(self) -> Envelope:
+        """Pairs (s, J): from that time on V is at most that."""
+        return () if self.shown is None else self.shown.statement.envelope
+
+    @property
+    def time(self) -> Fraction | None:
+        """s, from above: when the last level is reached."""
+        return self.envelope[-1][0] if self.envelope else None
+
+    @property
+    def level(self) -> Fraction | None:
+        """J: V comes down to it and stays."""
+        return self.envelope[-1][1] if self.envelope else None
+
+    @property
+    def start_level(self) -> Fraction | None:
+        """J, at least V at the start."""
+        return self.envelope[0][1] if self.envelope else None
+
+    @property
+    def errors(self) -> tuple[Fraction, ...]:
+        """rad, |e_i| from ``time`` on."""
+        return () if self.shown is None else self.shown.statement.errors
+
+    @property
+    def largest_errors(self) -> tuple[Fraction, ...]:
+        """rad, |e_i| at all times."""
+        return () if self.shown is None else self.shown.statement.largest_errors
+
+    @property
+    def rests_on(self) -> Provenance | None:
+        """The proof."""
+        return None if self.shown is None else self.shown.rests_on
+
+
+@dataclass(frozen=True)
+class SettlingBound(MotionBound):
+    """A certified time after which every |e_i| ≤ δ for good.
+
+    Args:
+        delta: δ, rad.
+        exponential: whether V falls exponentially near the goal: h'(0) > 0.
+    """
+
+    delta: Fraction
+    exponential: bool
+
+
+@dataclass(frozen=True)
+class DisturbanceBound(MotionBound):
+    """What a bounded disturbance leaves of the error.
+
+    Args:
+        torque: d̄_i, N·m, of any sign.
+        dry: f_i, N·m, against the motion.
+        resting: what the checker accepted of states of rest; none where it accepted nothing.
+    """
+
     torque: tuple[Fraction, ...]
     dry: tuple[Fraction, ...]
-    level: Fraction | None
-    errors: tuple[float, ...]
-    time: Fraction | None
-    start_level: Fraction | None
-    rest: tuple[float | None, ...]
-    rests_on: Provenance | None
-    reason: str = ""
+    resting: Resting | None
+
+    @property
+    def rest(self) -> tuple[Fraction | None, ...]:
+        """rad, |e_i| at every state of rest; none for a joint whose k_pi does not exceed the torque."""
+        return (None,) * len(self.torque) if self.resting is None else self.resting.errors
+
+
+AT_REST = AtBounds()
+"""The proof of every accepted statement about states of rest."""
+
+
+def accepted(statement: Statement, proof: Proof, jobs: int = 1) -> bool:
+    """Whether the checker takes a proof of a statement, in so many processes."""
+    try:
+        with shared_between(jobs):
+            return verify(statement, proof).verdict == "proved"
+    except Refused:
+        return False

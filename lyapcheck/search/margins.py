@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
 from lyapcheck.check.loop import Closure
-from lyapcheck.check.loop.decay import Margin, shown
+from lyapcheck.check.loop.decay import Margin
 from lyapcheck.check.loop.radial import Radial
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
@@ -37,8 +37,8 @@ MAX_BOXES = 60_000
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A margin that the checker has accepted, and the data by which it was."""
+class Attempt:
+    """A margin, and untrusted data for dV/dt < 0 of its reduced closure."""
 
     margin: Margin
     by: BoxTree | RadialBounds
@@ -78,18 +78,14 @@ def margin_at(
     return Margin(closure, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
 
 
-def proved(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES, jobs: int = 1) -> Shown | None:
-    """The margin at the largest share of its ε₀ for which the checker accepts a proof.
-
-    Soundness: ``lyapcheck.check.loop.decay.shown`` has accepted what is handed back.
-    """
+def attempts(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
+    """The margin at falling shares of its ε₀, wherever the search finds data; for the checker to judge."""
     for share in SHARES:
         eps0 = _short(margin.closure.eps0 * share)
         tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
         by = _data(setting, tried, max_boxes)
-        if by is not None and shown(tried, setting.inertia_proof, by, jobs):
-            return Shown(tried, by)
-    return None
+        if by is not None:
+            yield Attempt(tried, by)
 
 
 def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:
@@ -105,11 +101,19 @@ def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialB
 
 
 def reduced_radial(margin: Margin) -> Radial:
-    """The data in r for (1 − η)B: weights shrink by a root of it, and μ grows by its inverse."""
-    data = margin.inertia
-    root = Fraction(math.isqrt(math.floor((1 - margin.friction) * 10**12)), 10**6)
-    weights = tuple(d * root for d in data.weights)
-    return replace(data, weights=weights, inertia=data.inertia / (root * root))
+    """The data in r for (1 − η)B."""
+    return _shrunk(margin.inertia, _root_below(1 - margin.friction))
+
+
+def _shrunk(data: Radial, root: Fraction) -> Radial:
+    """The data with smaller weights, in which M̃, and with it μ and ν, grow by the inverse of the square."""
+    weights, square = tuple(d * root for d in data.weights), root * root
+    return replace(data, weights=weights, inertia=data.inertia / square, lowest=data.lowest / square)
+
+
+def _root_below(value: Fraction) -> Fraction:
+    """A rational not above the square root."""
+    return Fraction(math.isqrt(math.floor(value * 10**12)), 10**6)
 
 
 def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
@@ -132,14 +136,8 @@ def _by_bounds(inertia: Radial) -> Callable[[Closure], bool]:
     """Whether the inequality in ‖e‖ holds."""
 
     def allows(closure: Closure) -> bool:
-        root = min(
-            Fraction(math.isqrt(math.floor(b / (d * d) * 10**12)), 10**6)
-            for b, d in zip(closure.arm.viscous, inertia.weights, strict=True)
-        )
-        weights = tuple(d * root for d in inertia.weights)
-        return holds_radially(
-            closure, replace(inertia, weights=weights, inertia=inertia.inertia / (root * root))
-        )
+        rows = zip(closure.arm.viscous, inertia.weights, strict=True)
+        return holds_radially(closure, _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows)))
 
     return allows
 

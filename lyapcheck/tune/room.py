@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.bound import GammaBound
 from lyapcheck.control.limits import Limits
-from lyapcheck.control.thresholds import Threshold, scaled
+from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.tune.damping import Damping
 from lyapcheck.tune.targets import Targets
 
@@ -54,14 +54,14 @@ class Room:
 
 
 def room_of(
-    joint: int, limits: Limits, gamma: GammaBound, targets: Targets, damping: Damping | None = None
+    joint: int, limits: Limits, gamma: Tree | None, targets: Targets, damping: Damping | None = None
 ) -> Room:
     """The room of a joint, counted from 0, on an arm whose torque limits and friction are known.
 
-    Soundness: (10p) and (19) are decided as the gate decides them, for the largest and the next decimal.
+    Soundness: every largest decimal is proved to pass (10p) or (19) as the gate's checks are.
     """
     torque, friction = limits.torque[joint], limits.viscous_min
-    if torque is None or friction is None or not gamma.finite:
+    if torque is None or friction is None or gamma is None:
         raise ValueError("a room needs a torque limit, a friction and a bounded function")
     torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
     dampings = scaled(friction, limits.n, gamma)

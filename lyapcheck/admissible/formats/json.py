@@ -37,6 +37,7 @@ def result_json(result: EpsilonResult) -> dict[str, Any]:
         "m": result.m,
         "robot": result.robot,
         **{kind: exact(getattr(result, kind)) for kind in KINDS},
+        "scalar_grade": result.scalar_grade,
         "ratio": ratio_text(result.ratio),
         "certified_by": result.certified_by or None,
         "witness": None if result.witness is None else _witness(result.witness),

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 KINDS = ("published", "scalar", "certified", "falsified")
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified/falsified", "boxes")
 LEGEND = (
-    "published: end of (18), a claim; scalar: certificate from norms; certified: dV/dt < 0 proved at every "
+    "published: end of (18), a claim; scalar: from norms; certified: dV/dt < 0 proved at every "
     "state but the origin; falsified: a state with dV/dt > 0 proved."
 )
+NUMBER = "* a number from norms in floating point, without a certificate: the checker proves less from norms."
 
 
 def ratio_text(value: Fraction | None) -> str | None:
@@ -37,10 +38,16 @@ def exact(value: Fraction | None) -> str | None:
 
 def row(result: EpsilonResult, seconds: float | None) -> tuple[str, ...]:
     """The cells under `HEADS`, a dash where there is no number, and the seconds if they are wanted."""
-    cells = [exact(getattr(result, kind)) or "—" for kind in KINDS]
+    cells = [_cell(result, kind) for kind in KINDS]
     name = result.name, "—" if result.m is None else str(result.m)
     shown = () if seconds is None else (f"{seconds:.2f}",)
     return (*name, *cells, ratio_text(result.ratio) or "—", str(result.boxes), *shown)
+
+
+def _cell(result: EpsilonResult, kind: str) -> str:
+    """A number, with a star where it has no certificate."""
+    star = "*" if kind == "scalar" and result.scalar_grade == "no certificate" else ""
+    return f"{exact(getattr(result, kind)) or '—'}{star}"
 
 
 def heads(seconds: Sequence[float] | None) -> tuple[str, ...]:
@@ -112,6 +119,7 @@ def notes(results: Sequence[EpsilonResult]) -> list[str]:
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
     return [
         LEGEND,
+        *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
         f"Arm: {robots}, {_extent(results)}. Seed: {seeds}.",
         *(f"Assumed: {text}." for text in assumed),
     ]

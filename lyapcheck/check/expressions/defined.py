@@ -20,11 +20,13 @@ from typing import Any
 
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, nodes, substitute
+from lyapcheck.check.expressions.grammar import Remembered
 from lyapcheck.check.expressions.signs import MINUS, ZERO, never
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.refusal import Refused
 
 ONE: Tree = ("num", "1")
+_DEFINED = Remembered()
 Condition = Callable[[list[Any], Domain], bool]
 
 
@@ -67,7 +69,11 @@ def require_defined(tree: Tree, domain: Domain) -> None:
     Raises:
         Undefined: naming that part, and what to do.
     """
+    if not domain and tree in _DEFINED:
+        return
     term = undefined_term(tree, domain)
+    if term is None and not domain and len(tree) > 2:
+        _DEFINED.add(tree)
     if term is not None:
         raise Undefined(
             "term",

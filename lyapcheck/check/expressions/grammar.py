@@ -24,6 +24,30 @@ for part of a statement."""
 Parts = list[Any]
 
 
+class Remembered:
+    """Expressions without variables that passed a check, which need not be looked at again as same objects.
+
+    They are immutable, and kept here, so that their ids stay their own.
+    """
+
+    MOST = 64
+
+    def __init__(self) -> None:
+        self._kept: dict[int, Any] = {}
+
+    def __contains__(self, tree: Any) -> bool:
+        return id(tree) in self._kept
+
+    def add(self, tree: Any) -> None:
+        """Keep one that passed."""
+        if len(self._kept) >= self.MOST:
+            self._kept.clear()
+        self._kept[id(tree)] = tree
+
+
+_WELL_FORMED = Remembered()
+
+
 def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None) -> None:
     """Refuse expressions that are malformed or have variables beyond ``names`` (``None``: any are allowed).
 
@@ -34,6 +58,8 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
     for name in names or ():
         require_name(name)
     for tree in trees:
+        if tree in _WELL_FORMED:
+            continue
         require_tree(tree, MAX_DEPTH)
         size = written_out(tree, {})
         require(
@@ -42,9 +68,12 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
             tree[0],
             f"has more than {MAX_SIZE} parts with its powers written out",
         )
+        used = variables(tree)
         if names is not None:
-            for name in sorted(variables(tree) - names):
+            for name in sorted(used - names):
                 raise Refused("variable", name, "is not declared by the statement")
+        if not used and len(tree) > 2:
+            _WELL_FORMED.add(tree)
 
 
 def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import Any
@@ -72,6 +73,19 @@ def number_text(value: Fraction) -> str:
 def diagonal_text(entries: Iterable[Fraction]) -> str:
     """``diag(a, b, …)``."""
     return f"diag({', '.join(map(number_text, entries))})"
+
+
+def list_text(values: Iterable[Fraction]) -> str:
+    """``(a, b, …)``."""
+    return f"({', '.join(map(number_text, values))})"
+
+
+def angles_text(values: Iterable[Fraction | None]) -> str:
+    """Angles exactly in rad, and about what that is in degrees; ``∞`` where there is no bound."""
+    known = tuple(values)
+    radians = ", ".join("∞" if x is None else number_text(x) for x in known)
+    degrees = ", ".join("∞" if x is None else f"{math.degrees(x):.5g}°" for x in known)
+    return f"({radians}) rad (about {degrees})"
 
 
 def _root(rest: list[Any]) -> Text:

@@ -14,8 +14,11 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import LoopProperty
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.theorem import THEOREMS, Application
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
@@ -32,6 +35,7 @@ from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from lyapcheck.claims.procedures.norms import find_norm_bound
 from lyapcheck.claims.procedures.one_variable import find_for_all
 from lyapcheck.claims.procedures.printed import find_agrees
+from lyapcheck.claims.procedures.settling import find_resting, find_settling
 from lyapcheck.claims.procedures.small import find_for_small
 from lyapcheck.claims.procedures.states import find_damping_below, find_decreasing
 from lyapcheck.claims.procedures.trigonometric import find_bounds, find_positive
@@ -46,20 +50,26 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     if isinstance(statement, kinds.Missing):
         return still_open(statement.reason, "not applicable")
     try:
+        statement.require_well_formed()
         finding = find(statement)
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the statement", "form of the statement")
     except (ValueError, ArithmeticError) as problem:
         return still_open(
             _without_value(statement) or f"the search ends with {problem}; simplify it", "search"
         )
-    if finding.proof is None:
-        return finding
+    return finding if finding.proof is None else _verified(statement, finding, finding.proof)
+
+
+def _verified(statement: kinds.Statement, finding: Finding, proof: Proof) -> Finding:
+    """The finding with the grade that the rules give it, or why they refuse it."""
     try:
-        accepted = verify(statement, finding.proof)
+        accepted = verify(statement, proof)
     except Undefined as undefined:
         return still_open(str(undefined), finding.method, **finding.evidence)
     except Refused as refusal:
-        reason = f"what the search found is refused by the checker ({refusal}); report this as a fault"
-        return still_open(reason, finding.method, **finding.evidence)
+        fault = f"what the search found is refused by the checker ({refusal}); report this as a fault"
+        return still_open(_without_value(statement) or fault, finding.method, **finding.evidence)
     if accepted.verdict != finding.verdict.value:
         raise AssertionError(f"the search says {finding.verdict.value}, the checker {accepted.verdict}")
     return replace(finding, grade=Grade[accepted.grade.upper()])
@@ -119,6 +129,8 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     GravityBelow: find_gravity_below,
     state_kinds.Decreasing: find_decreasing,
     state_kinds.DampingBelow: find_damping_below,
+    Settling: find_settling,
+    Resting: find_resting,
     kinds.Theorem: _apply_theorem,
     kinds.AllOf: _find_all,
 }

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 
-from lyapcheck.check.expressions.expression import Unsupported, variables
+from lyapcheck.check.expressions.expression import Unsupported
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.kinds.identity import Identity, NormalForm, gap_of
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
@@ -44,10 +44,14 @@ def _refuted(statement: Identity, places: Iterator[Point]) -> Finding | None:
 
 
 def points(statement: Identity) -> Iterator[Point]:
-    """Rational points without symmetry: different variables get different values, of both signs."""
-    names = sorted(variables(statement.left) | variables(statement.right))
+    """Rational points without symmetry: variables get different values, of both signs where they may."""
+    lows = {variable.name: variable.low for variable in statement.variables}
     for k in range(TRIES):
-        yield {name: _spread(k, i) for i, name in enumerate(names)}
+        spread = {name: _spread(k, i) for i, name in enumerate(sorted(statement.names))}
+        yield {
+            name: value if (low := lows.get(name)) is None else low + abs(value)
+            for name, value in spread.items()
+        }
 
 
 def _spread(k: int, i: int) -> Fraction:

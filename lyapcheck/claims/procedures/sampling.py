@@ -100,7 +100,8 @@ def _draw(variable: Variable, count: int, generator: np.random.Generator) -> Flo
 def _score(points: dict[str, Floats], hypotheses: tuple[Relation, ...], conclusion: Relation) -> Floats:
     """The relative gap of the conclusion: negative where it fails, infinite where a hypothesis does."""
     left, right = values_of(conclusion.left, points), values_of(conclusion.right, points)
-    score: Any = (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
+    with np.errstate(all="ignore"):
+        score: Any = (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
     for hypothesis in hypotheses:
         gap = values_of(hypothesis.gap, points)
         score = np.where((gap > 0) | ((gap == 0) & (not hypothesis.strict)), score, np.inf)

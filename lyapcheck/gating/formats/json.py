@@ -11,7 +11,7 @@ from json import JSONEncoder, loads
 
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.gating.formats.words import KEYS, advice, joint_name, largest_text, margin_text
-from lyapcheck.gating.stability import remarks, stability
+from lyapcheck.gating.stability import remarks, stable_otherwise
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def _result(result: GateResult) -> str:
         "verdict": result.verdict,
         "deciding": result.deciding,
         "strict": result.strict,
-        "stable": _stable(result),
+        "stable_otherwise": _stable(result),
         "remarks": remarks(result),
         "assumptions": result.limits.assumptions,
     }
@@ -57,12 +57,11 @@ def _result(result: GateResult) -> str:
 
 
 def _stable(result: GateResult) -> dict[str, Any] | None:
-    """What establishes stability apart from (19)."""
-    known = stability(result)
+    """The certificate that proves stability whatever (19) says."""
+    known = stable_otherwise(result)
     if known is None:
         return None
-    eps0 = None if known.eps0 is None else decimal_text(known.eps0)
-    return {"by": known.by, "eps0": eps0, "assumes": list(known.assumes)}
+    return {"condition": known.id, "eps0": None if known.value is None else decimal_text(known.value)}
 
 
 def _check(result: GateResult, check: Check) -> str:

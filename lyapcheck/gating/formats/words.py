@@ -17,7 +17,7 @@ RULES = {
     "10": "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ)",
     "10p": "k_p + k_v < (τmax − k_g)/(√n γ)",
     "19": "k_v < λmin(B)/(√n γ)",
-    "scalar": "Θ' ≻ 0 with some ε₀ > 0, so that dV/dt < 0; the value is the ε₀ proved",
+    "scalar": "dV/dt < 0 with some ε₀ > 0 at every state, from norms alone; the value is the ε₀ proved",
     "global": "dV/dt < 0 with some ε₀ > 0 at every state, box by box; the value is the ε₀ proved",
 }
 KEYS = {"10": "kp", "10p": "kp", "19": "kv", "scalar": "", "global": ""}

@@ -31,7 +31,6 @@ References: ``reyes2019family`` (11), (12), (15).
 """
 
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
-from lyapcheck.check.loop.decay.margin import Margin, shown
-from lyapcheck.check.loop.decay.rest import rest_errors
+from lyapcheck.check.loop.decay.margin import Margin
 
-__all__ = ["Disturbance", "Estimate", "Margin", "rest_errors", "shown"]
+__all__ = ["Disturbance", "Estimate", "Margin"]

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from itertools import pairwise
 
 from flint import arb
 
@@ -46,7 +45,7 @@ class Disturbance:
 
 
 class Estimate:
-    """The bounds that follow from a margin under a disturbance; see ``lyapcheck.check.decay``.
+    """The bounds that follow from a margin under a disturbance; see ``lyapcheck.check.loop.decay``.
 
     Args:
         margin: what dV/dt is below 0 by.
@@ -55,7 +54,7 @@ class Estimate:
     Raises:
         ValueError: sizes or signs do not fit, or a disturbance d̄ is given and no share of damping for it.
 
-    Soundness: all answers hold if ``shown`` accepts the margin; this class does not ask.
+    Soundness: all answers hold if the margin is there; whether it is, ``kinds.settling`` asks.
     """
 
     def __init__(self, margin: Margin, disturbance: Disturbance) -> None:
@@ -87,20 +86,25 @@ class Estimate:
             Fraction(0),
         )
 
-    def start_level(self, e: Sequence[Fraction], w: Sequence[Fraction]) -> Fraction:
-        """A bound from above of V at errors e in rad and rates w in rad/s, for all q: J.
+    def start_level(self, errors: Sequence[Fraction], rates: Sequence[Fraction]) -> Fraction:
+        """A bound from above of V where |e_i| ≤ errors, rad, and |w_i| ≤ rates, rad/s, for all q: J.
 
-        ½ μ Σ d_i² y_i² + Σ k_pi U(e_i).
+        ½ μ Σ d_i² (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x.
         """
         closure, inertia = self.margin.closure, self.margin.inertia
         with precision(BITS):
-            errors = [to_arb(x) for x in e]
-            eps = to_arb(closure.eps0) / (1 + sum((x * x for x in errors), arb(0)).sqrt())
+            steepest = to_arb(closure.eps0 * self.member.L)
             moving = stored = arb(0)
-            for x, rate, d, k in zip(errors, w, inertia.weights, closure.kp, strict=True):
-                moving += (to_arb(d) * (to_arb(rate) - eps * self.member.h(x))) ** 2
-                stored += to_arb(k) * self.member.potential(x)
+            for x, rate, d, k in zip(errors, rates, inertia.weights, closure.kp, strict=True):
+                moving += (to_arb(d) * (to_arb(rate) + steepest * to_arb(x / (1 + x)))) ** 2
+                stored += to_arb(k) * self.member.potential(to_arb(x))
             return Enclosure.from_arb(to_arb(inertia.inertia) * moving / 2 + stored).upper
+
+    def keeps(self, level: Fraction, errors: Sequence[Fraction]) -> bool:
+        """Whether V ≤ level is shown to keep every |e_i| ≤ errors, rad: k_pi U at them is not below it."""
+        with precision(BITS):
+            rows = zip(self.margin.closure.kp, errors, strict=True)
+            return all(to_arb(k) * self.member.potential(to_arb(x)) >= to_arb(level) for k, x in rows)
 
     def level_within(self, e: Fraction) -> Fraction:
         """A level, J: V ≤ that is enough for every |e_i| ≤ e. It is min k_pi U(e), from below."""
@@ -138,27 +142,6 @@ class Estimate:
                 eps = to_arb(self.margin.closure.eps0)
             return Enclosure.from_arb(eps * inside - to_arb(self.loss)).lower
 
-    def descent(self, levels: Sequence[Fraction], slopes: Sequence[Fraction]) -> tuple[Fraction, ...] | None:
-        """Times in s by which V, that starts at most at the first level, is at each level or below, for good.
-
-        Args:
-            levels: falling, J.
-            slopes: λ of each band between two levels.
-
-        Returns:
-            the times, from above; ``None`` if V is not shown to fall in all bands.
-
-        Soundness: in a band −dV/dt is at least its ``fall`` φ > 0, so that V passes it in at most the height
-            of the band over φ and does not come back.
-        """
-        times = [Fraction(0)]
-        for (high, low), slope in zip(pairwise(levels), slopes, strict=True):
-            rate = self.fall(low, high, slope)
-            if rate <= 0:
-                return None
-            times.append(_short_above(times[-1] + (high - low) / rate))
-        return tuple(times)
-
 
 @lru_cache(maxsize=4096)
 def reach_of(member: Member, level: Fraction) -> float:
@@ -179,8 +162,3 @@ def reach_of(member: Member, level: Fraction) -> float:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if member.potential(arb(middle)) >= goal else (middle, high)
     return high
-
-
-def _short_above(value: Fraction) -> Fraction:
-    """A time rounded up to a multiple of 2⁻⁴⁰ s, so that sums stay short."""
-    return Fraction(-((-value.numerator << 40) // value.denominator), 1 << 40)

@@ -6,14 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, RadialBounds, statement_of
-from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.radial import BITS, Parts, Radial
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import verify
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +52,11 @@ class Margin:
         parts = self.split > 0 and self.slack >= 0 and self.split + self.slack < 1
         return shares and parts and closure.admissible and self._weights_fit()
 
+    def inertia_shown(self) -> bool:
+        """Whether λmax(D⁻¹MD⁻¹) ≤ μ is shown."""
+        with precision(BITS):
+            return Parts(self.closure, self.inertia).inertia_shown()
+
     def _weights_fit(self) -> bool:
         weights, angles = self.inertia.weights, self.inertia.angles
         joints = len(set(angles)) == len(angles) and set(angles) <= set(range(self.closure.n))
@@ -63,34 +64,6 @@ class Margin:
             d > 0 and d * d <= b for d, b in zip(weights, self.closure.arm.viscous, strict=True)
         )
         return below and joints and self.inertia.inertia > 0
-
-
-def shown(margin: Margin, positive: Proof, by: BoxTree | RadialBounds, jobs: int = 1) -> bool:
-    """Whether the margin is there: M ≻ 0, dV/dt < 0 for the reduced closure, and λmax(D⁻¹MD⁻¹) ≤ μ.
-
-    Args:
-        margin: what is claimed.
-        positive: untrusted data for M ≻ 0.
-        by: untrusted data for the reduced closure.
-        jobs: processes to share the leaves of a large tree between.
-
-    Returns:
-        ``True`` only if proved; ``False`` says nothing.
-
-    Soundness: dV/dt of the reduced closure is taken at the same states as that of the arm itself; how it was
-        proved to be below 0 does not matter.
-    """
-    if not margin.admissible or not margin.reduced.admissible:
-        return False
-    with precision(BITS):
-        if not Parts(margin.closure, margin.inertia).inertia_shown():
-            return False
-    try:
-        with shared_between(jobs):
-            found = verify(statement_of(margin.reduced), PositiveAndDecreasing(positive, by))
-    except Refused:
-        return False
-    return found.verdict == "proved"
 
 
 def _scaled(diagonal: Sequence[Fraction], factor: Fraction) -> tuple[Fraction, ...]:

@@ -1,0 +1,41 @@
+"""The certificates of bounds: the settling time, what a disturbance leaves, and states of rest."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.search.decay_results import AT_REST
+
+if TYPE_CHECKING:
+    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.check.statement import Proof, Statement
+
+PROOF = "bounds"
+
+
+def certificates(found: Comparison) -> dict[str, Certificate]:
+    """Certificates by file name; what nothing was accepted of has none."""
+    settling, left = found.settling, found.disturbance
+    made: dict[str, tuple[str, Statement, Proof]] = {}
+    if settling.shown is not None:
+        says = f"every |e_i| comes below {float(settling.delta):.6g} rad for good"
+        made["settling"] = says, settling.shown.statement, settling.shown.proof
+    if left.shown is not None:
+        says = "what torques and dry friction within bounds leave of the errors"
+        made["disturbed"] = says, left.shown.statement, left.shown.proof
+    if left.resting is not None:
+        made["resting"] = "how far from the goal it can rest", left.resting, AT_REST
+    return {
+        f"{quote(settling.name, safe='')}.{kind}.json": _certificate(found, kind, *parts)
+        for kind, parts in made.items()
+    }
+
+
+def _certificate(found: Comparison, kind: str, says: str, statement: Statement, proof: Proof) -> Certificate:
+    bound, n = found.settling, len(found.task.q_d)
+    about = About(f"{bound.name}.{kind}", f"{says}: {bound.name} on {bound.robot}", bound.m, n, PROOF)
+    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
+    return Certificate(about, statement, "proved", "enclosure", proof, {}, used)

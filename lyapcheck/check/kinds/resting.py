@@ -1,0 +1,111 @@
+"""Where an arm may come to rest beside its goal: proved by h at the bounds, refuted by one state of rest.
+
+References: ``reyes2019family`` (7), (11).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
+from lyapcheck.check.kinds.inertia import MAX_ARM
+from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import Accepted, rule
+
+LARGEST = 10**9
+"""rad, rad/s and N·m: beyond all that is of use."""
+
+
+@dataclass(frozen=True)
+class Resting(Statement):
+    """At every e with K_p h(e) + d = 0 and |d_i| ≤ ``torque``, |e_i| ≤ ``errors``; ``None`` bounds nothing.
+
+    ``family`` and ``m`` name h; ``kp`` and ``torque`` are in N·m, ``errors`` in rad.
+    """
+
+    family: str
+    m: int | None
+    kp: tuple[Fraction, ...]
+    torque: tuple[Fraction, ...]
+    errors: tuple[Fraction | None, ...]
+
+    def require_well_formed(self) -> None:
+        """One number a joint; stiffness above 0, sizes not below."""
+        n = len(self.kp)
+        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+        for subject in ("torque", "errors"):
+            size = len(getattr(self, subject))
+            require(size == n, subject, size, f"must be {n}, one a joint")
+        require(min(self.kp) > 0, "kp", min(self.kp), "must be positive")
+        for value in (*self.torque, *self.errors):
+            require(value is None or 0 <= value <= LARGEST, "size", value, f"must be from 0 to {LARGEST}")
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None: h has values everywhere."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What ties the numbers to a robot."""
+        return (
+            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            "at rest no torque acts beside (6), g(q) and d; dry friction that holds the robot is part of d",
+        )
+
+    def text(self) -> str:
+        """The statement in one line."""
+        member_m = "" if self.m is None else f"_{self.m}"
+        return (
+            "at every state of rest of (11) with a torque d on its right, K_p h(e) + d = 0, "
+            f"|d_i| ≤ {list_text(self.torque)} N·m: |e_i| ≤ {angles_text(self.errors)}; "
+            f"for h = {self.family}{member_m} and K_p = {diagonal_text(self.kp)}"
+        )
+
+
+@dataclass(frozen=True)
+class AtBounds(Proof):
+    """The checker takes h at each bound."""
+
+    rule = "h at the bounds"
+
+
+@dataclass(frozen=True)
+class RestWitness(Proof):
+    """A joint, from 0, and an error in rad beyond its bound at which a torque within its own holds it."""
+
+    rule = "state of rest"
+    joint: int
+    error: Fraction
+
+
+@rule(Resting, AtBounds)
+def by_rising(statement: Resting, proof: AtBounds) -> Accepted:
+    """Soundness: see ``lyapcheck.check.loop.decay.rest``."""
+    known = member(statement.family, statement.m)
+    for k, torque, error in zip(statement.kp, statement.torque, statement.errors, strict=True):
+        if error is not None:
+            within = rests_within(known, torque / k, error)
+            require(
+                within, "error", error, f"is not shown to be as large as {torque} N·m beside {k} N·m allow"
+            )
+    return Accepted("proved", "enclosure")
+
+
+@rule(Resting, RestWitness)
+def by_rest(statement: Resting, proof: RestWitness) -> Accepted:
+    """Soundness: the other joints rest at their goal, and d_i = −k_pi h(e_i) is within its bound."""
+    known = 0 <= proof.joint < len(statement.kp)
+    require(known, "joint", proof.joint, f"must be from 0 to {len(statement.kp) - 1}")
+    bound = statement.errors[proof.joint]
+    beyond = bound is not None and proof.error > bound
+    require(beyond, "error", proof.error, "must be beyond the bound")
+    ratio = statement.torque[proof.joint] / statement.kp[proof.joint]
+    held = balanced_at(member(statement.family, statement.m), ratio, proof.error)
+    require(held, "error", proof.error, "is not shown to be held by a torque within its bound")
+    return Accepted("refuted", "enclosure")

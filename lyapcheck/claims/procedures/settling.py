@@ -1,0 +1,44 @@
+"""Bounds of a motion, and of states of rest: the latter decided here, the former searched by ``bounds``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
+from lyapcheck.check.kinds.settling import Settling
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+
+METHOD = "states of rest"
+BEYOND = Fraction(1, 10**6)
+"""rad: how far beyond a bound a state against it is looked for."""
+
+
+def find_settling(statement: Settling) -> Finding:
+    """Always open: the levels of V are chosen together with the bounds."""
+    advice = "lyapcheck bounds FILE --certificates DIR finds bounds with the levels of V that prove them"
+    return still_open(f"times and errors are not searched for here; {advice}", "levels of V")
+
+
+def find_resting(statement: Resting) -> Finding:
+    """By h at the bounds, else by a state of rest just beyond one of them."""
+    if _verdict(statement, AtBounds()) == "proved":
+        return shown(AtBounds(), METHOD)
+    for joint, bound in enumerate(statement.errors):
+        against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
+        if bound is not None and _verdict(statement, against) == "refuted":
+            left, right = (list(Enclosure.exact(x).decimals(12)) for x in (against.error, bound))
+            point = {f"e{joint + 1}": str(against.error)}
+            witness = {"point": point, "left": left, "operator": "<=", "right": right}
+            return broken(against, f"{METHOD}: one beyond a bound", witness)
+    return still_open("h at the bounds does not decide it; take larger bounds", METHOD)
+
+
+def _verdict(statement: Resting, proof: Proof) -> str:
+    try:
+        return verify(statement, proof).verdict
+    except Refused:
+        return ""

@@ -1,0 +1,55 @@
+"""What the checker says of a statement about gains, by the first of some proofs that it accepts."""
+
+from __future__ import annotations
+
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.records import Record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from lyapcheck.check.statement import Proof, Statement
+
+ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
+VERDICTS = {"proved": ACCEPTED, "refuted": REJECTED}
+
+
+class Judgement(Record):
+    """A statement with the verdict of ``lyapcheck.check.verify``; no proof where none was accepted.
+
+    Args:
+        statement: what is claimed.
+        proof: that was accepted, of the statement or against it.
+        shown: ``proved``, ``refuted`` or ``undecided``.
+        grade: of the proof.
+        reason: why the last proof was refused.
+    """
+
+    statement: Statement
+    proof: Proof | None
+    shown: str
+    grade: str = ""
+    reason: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """``accepted``, ``rejected`` or ``undecided``."""
+        return VERDICTS.get(self.shown, UNDECIDED)
+
+
+def judged(statement: Statement, proofs: Iterable[Proof]) -> Judgement:
+    """The verdict on a statement.
+
+    Soundness: that of ``lyapcheck.check.verify``.
+    """
+    reason = "no proof was tried"
+    for proof in proofs:
+        try:
+            found = verify(statement, proof)
+        except Refused as refused:
+            reason = str(refused)
+        else:
+            return Judgement(statement, proof, found.verdict, found.grade, "")
+    return Judgement(statement, None, UNDECIDED, "", reason)

@@ -1,0 +1,199 @@
+"""What the conditions compare gains with: terms of which the checker judges and whose digits are shown.
+
+scaled   budget/(√n γ)        of (10p) and (19), which gains must stay below
+norms    (√T − √G)/(√n γ)     of (10), which gains must not exceed; T = ‖τmax‖² and G = k_g²
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import isqrt
+
+from lyapcheck.check.expressions.expression import Tree, ball
+from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.replay import MAX_BITS
+from lyapcheck.check.statement import Relation
+from lyapcheck.control.bracket import Bracket
+from lyapcheck.control.judgement import Judgement, judged
+from lyapcheck.files.decimals import Written, exact_decimal, scaled_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from lyapcheck.check.kinds.for_all import ForAll
+    from lyapcheck.check.statement import Proof
+
+BITS = 128
+FIRST_BITS = 160
+ONE: Tree = ("num", "1")
+LARGEST_DIVISOR = 2000
+"""Squares of numbers up to it are taken out of roots."""
+
+
+class Threshold:
+    """A real number that positive values must stay below, or must not exceed.
+
+    Args:
+        budget: the number without √n γ.
+        n: number of joints.
+        gamma: γ; ``None`` where h is unbounded, so that no value passes.
+        operator: ``<`` or ``<=``.
+    """
+
+    def __init__(self, budget: Tree, n: int, gamma: Tree | None, operator: str = "<") -> None:
+        self.bounded, self.operator = gamma is not None, operator
+        self.limit = _quotient(budget, (root(Fraction(n)), gamma or ONE))
+        self._known: dict[Fraction, Judgement] = {}
+        self._near: dict[int, Bracket] = {}
+        self._largest: dict[int, Written | None] = {}
+
+    def judged(self, value: Fraction, places: int = 0) -> Judgement:
+        """What the checker says of a positive value with so many decimal places."""
+        if value not in self._known:
+            if self.bounded:
+                statement = Constant(Relation(_number(value), self.operator, self.limit))
+                self._known[value] = judged(statement, _proofs(places))
+            else:
+                self._known[value] = judged(*self._against(value))
+        return self._known[value]
+
+    def admits(self, value: Fraction, places: int = 0) -> bool:
+        """Whether the checker proves that a positive value passes."""
+        return self.judged(value, places).shown == "proved"
+
+    def near(self, places: int = 0) -> Bracket:
+        """The number between two others that tell decimals of so many places apart."""
+        bits = FIRST_BITS + 4 * (places - places % 16)
+        if bits not in self._near:
+            found = self._within(bits)
+            wide = ((found.high - found.low) * 10**places // found.den).bit_length()
+            self._near[bits] = self._within(bits + wide + 4) if wide else found
+        return self._near[bits]
+
+    def apart(self, value: Fraction, places: int = 0) -> Bracket:
+        """As `near`, and without the value, unless the number is known to be it or cannot be told from it."""
+        found, bits = self.near(places), FIRST_BITS + 4 * places
+        while found.side(value) == 0 and found.low < found.high and bits < MAX_BITS:
+            bits *= 2
+            found = self._within(bits)
+        return found
+
+    def largest(self, places: int) -> Written | None:
+        """The largest decimal of so many places that the checker proves to pass, of more where it takes more.
+
+        ``None`` where no positive value passes.
+        """
+        if places not in self._largest:
+            units, most, near = self.most_units(places), places, self.near(places)
+            if units == 0 and near.low > 0:
+                while near.low * 10**most < 10 * near.den:
+                    most += 1
+                units = self.most_units(most)
+            self._largest[places] = exact_decimal(scaled_text(units, most)) if units else None
+        return self._largest[places]
+
+    def most_units(self, places: int) -> int:
+        """The largest number of units in so many places that passes; 0 where none does."""
+        near, scale = self.near(places), 10**places
+        most = near.high * scale // near.den if self.bounded else 0
+        # beside the last decimal before the limit, one more where the limit itself is a decimal
+        tried = (units for units in range(most, max(0, most - 3), -1))
+        return next((units for units in tried if self.admits(Fraction(units, scale), places)), 0)
+
+    def _within(self, bits: int) -> Bracket:
+        """The number to about so many bits; exactly, where it is rational."""
+        ratio, _ = normal_form(self.limit)
+        ratio = ratio.lowest()
+        if ratio.top.is_constant() and ratio.bottom.is_constant():
+            top = ratio.top.leading_coefficient() if ratio.top != 0 else 0
+            value = top / ratio.bottom.leading_coefficient()
+            return Bracket.exact(Fraction(int(value.p), int(value.q)))
+        with precision(bits):
+            found = Enclosure.from_arb(ball(self.limit))
+        den = max(found.lower.denominator, found.upper.denominator)
+        return Bracket(int(found.lower * den), int(found.upper * den), den)
+
+    def _against(self, value: Fraction) -> tuple[ForAll, list[Proof]]:
+        """That value·h(x) = value·x keeps to the limit for all x, and an x where it does not."""
+        from lyapcheck.check.kinds.for_all import ForAll
+        from lyapcheck.check.statement import Witness
+
+        product = ("mul", _number(value), ("var", "x"))
+        statement = ForAll(Relation(product, self.operator, self.limit), Fraction(0))
+        x = Fraction(max(0, self.near().upper // value) + 1)
+        return statement, [Witness((("x", x),))]
+
+
+def scaled(budget: Fraction, n: int, gamma: Tree | None) -> Threshold:
+    """budget/(√n γ), which values must stay below."""
+    return Threshold(_number(budget), n, gamma)
+
+
+def norms(torque_squared: Fraction, gravity_squared: Fraction, n: int, gamma: Tree | None) -> Threshold:
+    """(√T − √G)/(√n γ), which values must not exceed, N·m.
+
+    References: (10) of reyes2019family.
+    """
+    T, G = (x.numerator * x.denominator for x in (torque_squared, gravity_squared))
+    # roots of numbers whose quotient is no square are never multiples of each other
+    short = root if not G or isqrt(T * G) ** 2 == T * G else _plain_root
+    budget = short(torque_squared)
+    if G:
+        budget = ("add", budget, ("neg", short(gravity_squared)))
+    return Threshold(budget, n, gamma, "<=")
+
+
+def root(square: Fraction) -> Tree:
+    """√square with the squares taken out: √8 = 2√2, so that equal numbers are equal terms."""
+    whole = square.numerator * square.denominator
+    outside, inside = _square_out(whole)
+    factor = Fraction(outside, square.denominator)
+    if inside == 1 or whole == 0:
+        return _number(factor if whole else Fraction(0))
+    surd: Tree = ("sqrt", _number(Fraction(inside)))
+    return surd if factor == 1 else ("mul", _number(factor), surd)
+
+
+def _plain_root(square: Fraction) -> Tree:
+    return "sqrt", _number(square)
+
+
+def _square_out(whole: int) -> tuple[int, int]:
+    """a, b with a²b = whole; b without a square that is easily found."""
+    if isqrt(whole) ** 2 == whole:
+        return isqrt(whole), 1
+    outside, inside, rest, divisor = 1, 1, whole, 2
+    while divisor <= LARGEST_DIVISOR and divisor * divisor <= rest:
+        while rest % (divisor * divisor) == 0:
+            outside, rest = outside * divisor, rest // (divisor * divisor)
+        if rest % divisor == 0:
+            inside, rest = inside * divisor, rest // divisor
+        divisor += 1
+    if isqrt(rest) ** 2 == rest:
+        return outside * isqrt(rest), inside
+    return outside, inside * rest
+
+
+def _number(value: Fraction) -> Tree:
+    return "num", f"{value.numerator}/{value.denominator}" if value.denominator > 1 else str(value.numerator)
+
+
+def _quotient(budget: Tree, factors: tuple[Tree, ...]) -> Tree:
+    below = [factor for factor in factors if factor != ONE]
+    if not below:
+        return budget
+    return "div", budget, below[0] if len(below) == 1 else ("mul", *below)
+
+
+def _proofs(places: int) -> Iterator[Proof]:
+    """Balls, exact numbers, which decide where both sides are equal, then ever smaller balls."""
+    yield SeparateBalls(BITS)
+    yield ExactNumbers()
+    bits = FIRST_BITS + 4 * places
+    while bits < MAX_BITS:
+        bits *= 2
+        yield SeparateBalls(min(bits, MAX_BITS))

@@ -1,0 +1,45 @@
+"""Bounds of the errors at states of rest, tight to six digits, as the checker accepts them.
+
+References: ``reyes2019family`` (7), (11).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.loop.decay.rest import rests_within
+from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.search.decay_digits import short_above
+from lyapcheck.search.decay_results import AT_REST, accepted
+from lyapcheck.search.setting import Setting
+
+HALVINGS = 50
+FARTHEST = 2**10
+"""rad: larger bounds are as good as none."""
+
+
+def resting(setting: Setting, torque: Sequence[Fraction]) -> Resting | None:
+    """Bounds of |e_i| at states of rest under torques |d_i| ≤ ``torque``; none where no joint has one."""
+    gains = setting.gains
+    h, kp = member(gains.family, gains.m), tuple(gains.kp)
+    errors = tuple(_error(h, d / k) for d, k in zip(torque, kp, strict=True))
+    statement = Resting(gains.family, gains.m, kp, tuple(torque), errors)
+    return statement if any(x is not None for x in errors) and accepted(statement, AT_REST) else None
+
+
+def _error(h: Member, ratio: Fraction) -> Fraction | None:
+    """The least error that |h| ≤ ratio is shown to imply, nearly."""
+    low, high = Fraction(0), Fraction(1)
+    if rests_within(h, ratio, low):
+        return low
+    while not rests_within(h, ratio, high):
+        low, high = high, 2 * high
+        if high > FARTHEST:
+            return None
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if rests_within(h, ratio, middle) else (middle, high)
+    rounded = short_above(high)
+    return rounded if rests_within(h, ratio, rounded) else None

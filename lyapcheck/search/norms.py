@@ -1,0 +1,37 @@
+"""An ε₀ from norms of M and C alone: the checker's own bounds propose it, a tree of one leaf proves it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.search.proof import Proof
+from lyapcheck.search.scalar_program import scalar_epsilon
+
+if TYPE_CHECKING:
+    from lyapcheck.check.statement import Ends
+    from lyapcheck.search.setting import Setting
+
+REFUSED = "the checker accepted no proof"
+UNBOUNDED = "h is unbounded, and the checker needs its bound γ"
+
+
+def norm_epsilon(setting: Setting, viscous: tuple[Ends, ...] | None = None) -> tuple[Proof | None, str]:
+    """A proof that the checker has accepted, or why there is none.
+
+    Args:
+        setting: gains and arm.
+        viscous: the range of each diagonal entry of B that replaces the arm's, N·m·s/rad.
+    """
+    if not setting.family.bounded:
+        return None, UNBOUNDED
+    closure = setting.closure(Fraction(1))
+    if viscous is not None:
+        closure = replace(closure, viscous=viscous)
+    found = scalar_epsilon(closure.tail)
+    if found.eps0 is None:
+        return None, found.reason
+    proof = Proof(replace(closure, eps0=found.eps0), BoxTree("."), setting.inertia_proof)
+    return (proof, "") if proof.accepted() else (None, REFUSED)

@@ -1,0 +1,55 @@
+"""Whether an arm is physical: M(q) ≻ 0 as the checker shows it, or a posture at which it is not."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.files import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.search.setting import Setting
+
+POSTURES = 20_000
+DIGITS = 4
+SEED = 20190301
+
+
+def unphysical(setting: Setting) -> str:
+    """Why no V of this arm is a Lyapunov function, in one sentence; empty where M(q) ≻ 0 is proved."""
+    closure = setting.closure(Fraction(1))
+    statement = MassAbove(closure.arm.mass, closure.parameters, Fraction(0))
+    try:
+        if verify(statement, setting.inertia_proof).verdict == "proved":
+            return ""
+    except Refused:
+        pass
+    against = _against(setting, closure.parameters)
+    try:
+        refuted = against is not None and verify(statement, against).verdict == "refuted"
+    except Refused:
+        refuted = False
+    if against is None or not refuted:
+        return "M(q) is not shown to be positive definite; lyapcheck robot says what is known of the arm"
+    q = ", ".join(map(decimal_text, against.q))
+    return f"M(q) is not positive definite at q = ({q}) rad; correct the masses and inertias"
+
+
+def _against(setting: Setting, parameters: tuple[tuple[Fraction, Fraction], ...]) -> PostureWitness | None:
+    """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive."""
+    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, setting.n))
+    q = np.round(q, DIGITS)
+    sizes, vectors = np.linalg.eigh(setting.numeric.mass(q))
+    worst = int(np.argmin(sizes[:, 0]))
+    if not sizes[worst, 0] < 0:
+        return None
+    nominal = [number.value for number in setting.ranged.parameters.values()]
+    if len(nominal) != len(parameters):
+        return None
+    angles, x = (tuple(Fraction(repr(float(v))) for v in row) for row in (q[worst], vectors[worst][:, 0]))
+    return PostureWitness(angles, tuple(nominal), x)

@@ -1,0 +1,281 @@
+"""Bounds of motions as statements: accepted from their files, refused when what matters is changed."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.bounds.certificates import certificates
+from lyapcheck.bounds.compare import compare
+from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
+from lyapcheck.check.kinds.settling import FallingLevels, Settling
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.trusted import closure
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures import propose
+from lyapcheck.cli.main import build_app
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.robots import load
+from lyapcheck.simulate.task import Task
+from lyapcheck.verdicts import Verdict
+
+F = Fraction
+Document = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def made() -> dict[str, Certificate]:
+    """All three certificates of one gain set on the two-joint arm."""
+    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
+    task = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
+    found = compare(gains, load("reyes-kelly2"), task, math.radians(10), (0.1, 0.05), max_boxes=4_000)
+    return {name.split(".")[1]: certificate for name, certificate in certificates(found).items()}
+
+
+def reread(certificate: Certificate, change: Callable[[Document], None] = lambda data: None) -> Certificate:
+    """The certificate from its text, changed by somebody who knows how to make a digest."""
+    data = json.loads(certificate.text())
+    change(data)
+    data["digest"] = digest_of({key: value for key, value in data.items() if key != "digest"})
+    return read(parse(json.dumps(data)))
+
+
+def put(value: Any, *path: Any) -> Callable[[Document], None]:
+    """Put a value at a place."""
+
+    def change(data: Document) -> None:
+        for step in path[:-1]:
+            data = data[step]
+        data[path[-1]] = value
+
+    return change
+
+
+def test_all_are_accepted_from_their_text(made: dict[str, Certificate]) -> None:
+    assert set(made) == {"settling", "disturbed", "resting"}
+    for certificate in made.values():
+        accepted = judge(reread(certificate))
+        assert (accepted.verdict, accepted.grade) == ("proved", "enclosure")
+
+
+def drop_a_level(data: Document) -> None:
+    """One level fewer, and the λ of the band above it."""
+    del data["statement"]["envelope"][3]
+    del data["proof"]["slopes"][2]
+
+
+def hasten(data: Document) -> None:
+    """A last time that is a per mille smaller."""
+    last = data["statement"]["envelope"][-1]
+    last[0] = str(F(last[0]) * 999 / 1000)
+
+
+def start_lower(data: Document) -> None:
+    """A first level that is half of what it was."""
+    first = data["statement"]["envelope"][0]
+    first[1] = str(F(first[1]) - F(1, 1000))
+
+
+def end_nearer(data: Document) -> None:
+    """Errors that are a per mille smaller."""
+    data["statement"]["errors"] = [str(F(x) * 999 / 1000) for x in data["statement"]["errors"]]
+
+
+FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
+    ("a smaller time", hasten, "too short"),
+    ("fewer levels", drop_a_level, "too short|is not shown to fall"),
+    ("a lower first level", start_lower, "where V may start"),
+    ("smaller errors", end_nearer, "allows at most"),
+    ("smaller errors on the way", put(["1/2", "1"], "statement", "largest_errors"), "allows at most"),
+    ("a farther start", put(["1", "8/5"], "statement", "errors_at_start"), "where V may start"),
+    ("a faster start", put(["1", "0"], "statement", "rates_at_start"), "where V may start"),
+    ("far more friction", put(["300", "7/40"], "statement", "viscous"), "."),
+    ("less friction", put(["2", "7/40"], "statement", "viscous"), "."),
+    ("another stiffness", put(["59", "6"], "statement", "kp"), "."),
+    ("another member", put(2, "statement", "m"), "."),
+    ("a larger ε₀", put("7/10", "statement", "eps0"), "."),
+    ("a steeper λ", put("1000", "proof", "slopes", 0), "must be from 0 to"),
+    ("λ = 0", put("0", "proof", "slopes", -1), "too short|is not shown to fall"),
+    ("one λ fewer", put([], "proof", "slopes"), "one a band"),
+    ("a larger share of friction", put("9/10", "proof", "friction"), "."),
+    ("a smaller μ", put("1/10", "proof", "inertia", "inertia"), "."),
+    ("one box", put(".", "proof", "decreasing", "rate", "tree"), "dV/dt|tree"),
+    ("no level", put([], "statement", "envelope"), "must have a level"),
+    ("a torque below 0", put(["-1", "0"], "statement", "torque"), "from 0 to"),
+]
+
+
+@pytest.mark.parametrize("kind", ["settling", "disturbed"])
+@pytest.mark.parametrize(("name", "change", "says"), FAULTS, ids=[name for name, *_ in FAULTS])
+def test_altered_bounds_are_refused(
+    made: dict[str, Certificate], kind: str, name: str, change: Callable[[Document], None], says: str
+) -> None:
+    with pytest.raises(Refused, match=says):
+        judge(reread(made[kind], change))
+
+
+def test_another_arm_is_refused(made: dict[str, Certificate]) -> None:
+    certificate = made["settling"]
+    assert isinstance(certificate.statement, Settling)
+    M = certificate.statement.mass
+    heavier = tuple(tuple(tuple((powers, 2 * c) for powers, c in entry) for entry in row) for row in M)
+    with pytest.raises(Refused):
+        verify(replace(certificate.statement, mass=heavier), certificate.proof)
+
+
+def test_more_torque_than_was_reckoned_with_is_refused(made: dict[str, Certificate]) -> None:
+    calm, pushed = made["settling"], made["disturbed"]
+    assert isinstance(calm.statement, Settling)
+    assert isinstance(pushed.statement, Settling)
+    with pytest.raises(Refused, match="share of the damping"):
+        verify(replace(calm.statement, torque=(F(1), F(0))), calm.proof)
+    with pytest.raises(Refused):
+        verify(replace(calm.statement, dry=(F(1), F(0))), calm.proof)
+    with pytest.raises(Refused):
+        verify(replace(pushed.statement, torque=(F(1), F(1))), pushed.proof)
+
+
+def test_one_level_is_kept_only_where_nothing_acts(made: dict[str, Certificate]) -> None:
+    """At the goal V = 0 is below any level, but a torque moves the arm away from there."""
+    for kind, holds in (("settling", True), ("disturbed", False)):
+        statement, proof = made[kind].statement, made[kind].proof
+        assert isinstance(statement, Settling)
+        assert isinstance(proof, FallingLevels)
+        errors = (F(1, 1000),) * 2
+        zero = (F(0),) * 2
+        at_goal = replace(
+            statement,
+            errors_at_start=zero,
+            rates_at_start=zero,
+            envelope=((F(0), F(1, 10**8)),),
+            largest_errors=errors,
+            errors=errors,
+        )
+        if holds:
+            assert verify(at_goal, replace(proof, slopes=())).verdict == "proved"
+        else:
+            with pytest.raises(Refused, match="need not be kept"):
+                verify(at_goal, replace(proof, slopes=()))
+
+
+def test_the_text_says_all_of_it(made: dict[str, Certificate]) -> None:
+    text = made["disturbed"].statement.text()
+    for part in (
+        "|d_i| ≤ (0.1, 0.05) N·m",
+        "dry friction",
+        "0.785399",
+        "about 45°",
+        "M11 = ",
+        "K_p = diag(60, ",
+    ):
+        assert part in text
+    granted = " ".join(made["disturbed"].statement.granted)
+    assert "dry friction" in granted
+    assert "dry friction" not in " ".join(made["settling"].statement.granted)
+
+
+RESTING = Resting("hyperbolic", 2, (F(10), F(5)), (F(2), F(5)), (F(3, 5), None))
+
+
+def test_states_of_rest_are_decided() -> None:
+    assert verify(RESTING, AtBounds()).verdict == "proved"
+    assert propose(RESTING).verdict is Verdict.PROVED
+    tight = replace(RESTING, errors=(F(1, 2), None))
+    with pytest.raises(Refused, match="as large as"):
+        verify(tight, AtBounds())
+    assert propose(tight).verdict is Verdict.REFUTED
+    with pytest.raises(Refused, match="beyond the bound"):
+        verify(tight, RestWitness(0, F(1, 2)))
+    with pytest.raises(Refused, match="held"):
+        verify(tight, RestWitness(0, F(2, 3)))
+    with pytest.raises(Refused):
+        verify(replace(RESTING, errors=(F(3, 5), F(100))), AtBounds())
+    still = replace(RESTING, torque=(F(0), F(0)), errors=(F(0), F(0)))
+    assert verify(still, AtBounds()).verdict == "proved"
+
+
+def test_a_settling_time_by_itself_is_open_with_advice(made: dict[str, Certificate]) -> None:
+    found = propose(made["settling"].statement)
+    assert found.verdict is Verdict.UNDECIDED
+    assert "lyapcheck bounds" in found.reason
+
+
+def test_what_the_verdict_rests_on_is_listed() -> None:
+    used = closure("lyapcheck.check.kinds.settling")
+    for part in ("estimate", "margin", "least"):
+        assert f"lyapcheck.check.loop.decay.{part}" in used
+    assert "lyapcheck.check.loop.decay.rest" in closure("lyapcheck.check.kinds.resting")
+
+
+GAINS = 'robot = "{robot}"\n[[gains]]\nname = "one"\nm = 1\nkp = [60, 5]\nkv = [0.2, 0.2]\n'
+HOLLOW = """
+title = "An arm whose M is not positive definite"
+[model]
+M11 = [[1, ""], [1.05, "c2"]]
+M12 = []
+M22 = [[0.1, ""]]
+potential = []
+[[joints]]
+name = "shoulder"
+viscous = 2
+[[joints]]
+name = "elbow"
+viscous = 0.5
+"""
+
+
+def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
+    gains, made = tmp_path / "gains.toml", tmp_path / "made"
+    gains.write_text(GAINS.format(robot="reyes-kelly2"))
+    app, runner = build_app(), CliRunner()
+    asked = ["bounds", str(gains), "--target", "45,90", "--delta", "10", "--time", "0.5"]
+    found = runner.invoke(app, [*asked, "--certificates", str(made), "--format", "json"])
+    assert found.exit_code == 0
+    assert {path.name for path in made.iterdir()} == {
+        f"one.{kind}.json" for kind in ("settling", "disturbed", "resting")
+    }
+    rechecked = runner.invoke(app, ["recheck", str(made), "--trusted"])
+    assert rechecked.exit_code == 0
+    assert "3 accepted (3 proved" in rechecked.stdout
+    assert "loop.decay.estimate" in rechecked.stdout
+    (result,) = json.loads(found.stdout)["results"]
+    statement = read(parse((made / "one.settling.json").read_text(encoding="utf-8"))).statement
+    assert result["settling"]["statement"] == statement.text()
+
+
+def test_an_arm_that_is_none_has_no_bounds(tmp_path: Path) -> None:
+    """With M11 = 1 + 1.05 cos q2 a run leaves any bound that V would give."""
+    gains, made = tmp_path / "gains.toml", tmp_path / "made"
+    (tmp_path / "hollow.toml").write_text(HOLLOW)
+    gains.write_text(GAINS.format(robot="hollow.toml"))
+    asked = ["bounds", str(gains), "--target", "5,0", "--delta", "10", "--time", "0.1"]
+    found = CliRunner().invoke(build_app(), [*asked, "--disturbance", "0.1,0.1", "--certificates", str(made)])
+    assert found.exit_code == 3
+    assert "M(q) is not positive definite at q = (" in found.stdout
+    assert "certified: within" not in found.stdout
+    assert "certified: |e|" not in found.stdout
+    assert list(made.iterdir()) == []
+
+
+def test_a_proof_cannot_do_without_its_mass(made: dict[str, Certificate]) -> None:
+    """A statement about an arm that is none is refused, whatever the rest of its proof says."""
+    statement, proof = made["settling"].statement, made["settling"].proof
+    assert isinstance(statement, Settling)
+    assert isinstance(proof, FallingLevels)
+    one, cosine = (0, 0, 0, 0), (0, 0, 0, 1)
+    mass = (((one, F(1)), (cosine, F(21, 20))), ()), ((), ((one, F(1, 10)),))
+    with pytest.raises(Refused):
+        verify(replace(statement, mass=mass), proof)
+    free = replace(proof, decreasing=replace(proof.decreasing, rate=BoxTree(".")))
+    with pytest.raises(Refused):
+        verify(replace(statement, mass=mass), free)
