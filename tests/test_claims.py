@@ -361,4 +361,7 @@ def test_the_hypotheses_of_a_bound_are_printed_with_it():
     statement = at_most_every_n(
         x * dot(V, W), x * a * b, [(V, a), ((x, W), b), (diagonal(W), c)], [(dot(V, W), 0)]
     )
-    assert statement.text() == "x·Vᵀ·W ≤ x·a·b for every n, ‖V‖ ≤ a, ‖x‖‖W‖ ≤ b, ‖diag(W)‖ ≤ c, Vᵀ·W ≥ 0"
+    assert statement.text() == (
+        "x·Vᵀ·W ≤ x·a·b for every n and all letters, no number negative, "
+        "if ‖V‖ ≤ a; ‖x‖‖W‖ ≤ b; ‖diag(W)‖ ≤ c; Vᵀ·W ≥ 0"
+    )

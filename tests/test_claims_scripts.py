@@ -1,8 +1,10 @@
 """Proof scripts of users: what they may write, what is refused, and how claims lean on each other."""
 
 import json
+from pathlib import Path
 
 import pytest
+from json_schema import faults
 
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.explain import explain
@@ -154,24 +156,26 @@ def test_output_is_the_same_every_time_and_has_no_clock(write, name):
     assert str(path) not in first
 
 
-def test_json_has_the_fields_of_its_schema(write):
-    data = json.loads(renderer("json")(run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2), True))
-    assert data["schema"] == "lyapcheck/check/1"
-    wanted = {
-        "id",
-        "m",
-        "n",
-        "statement",
-        "verdict",
-        "grade",
-        "uses",
-        "broken",
-        "witness",
-        "reason",
-        "method",
-    }
-    assert all(wanted | {"seconds"} <= set(row) for row in data["claims"])
+@pytest.mark.parametrize("timings", [False, True])
+def test_json_has_the_fields_of_its_schema(write, timings):
+    result = run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2)
+    data = json.loads(renderer("json")(result, timings))
+    schema = json.loads((Path(__file__).parent / "schemas" / "check-2.json").read_text(encoding="utf-8"))
+    assert list(faults(data, schema, schema)) == []
+    assert all(("seconds" in row) == timings for row in data["claims"])
     assert data["counts"]["refuted"] == 1
+    assert list(faults(data | {"claims": [data["claims"][0] | {"says": ""}]}, schema, schema))
+
+
+def test_the_statement_is_what_was_decided_and_the_comment_the_authors_words(write):
+    """Whatever an author says about 3 ≤ 1, it is 3 ≤ 1 that stands in every format."""
+    result = run_proof(write('proof.add("d", "All is stable.", Constant(expr(3) <= 1))'), ms=(1,), n=2)
+    (row,) = json.loads(renderer("json")(result, False))["claims"]
+    assert (row["statement"], row["comment"], row["verdict"]) == ("3 ≤ 1", "All is stable.", "refuted")
+    assert "3 ≤ 1\n             the author's words: “All is stable.”" in renderer("text")(result, False)
+    table = renderer("markdown")(result, False)
+    assert "| exact | 3 ≤ 1 |" in table
+    assert "the author's words: “All is stable.”" in table
 
 
 def test_explain_names_place_use_and_procedure():

@@ -49,10 +49,11 @@ def test_the_command_says_so_too():
     assert "refuted    wrong" in run.output
 
 
+ARCTAN_BOUNDS = 'gamma="1.58", rho=1, L=1'
 CHANGES = [
     (ARCTAN, "bound", "atan(x) <= pi / 2", "atan(x) <= '1.57'"),
-    (ARCTAN, "slope", "gamma=pi / 2, rho=1, L=1", "gamma=pi / 2, rho=1, L='0.99'"),
-    (ARCTAN, "steep", "gamma=pi / 2, rho=1, L=1", "gamma=pi / 2, rho='0.99', L=1"),
+    (ARCTAN, "slope", ARCTAN_BOUNDS, "gamma='1.58', rho=1, L='0.99'"),
+    (ARCTAN, "steep", ARCTAN_BOUNDS, "gamma='1.58', rho='0.99', L=1"),
     (ARCTAN, "potential", "log(1 + x**2) / 2", "log(1 + x**2)"),
     (
         ARCTAN,
@@ -61,11 +62,19 @@ CHANGES = [
         "term_9=term(9, eps**3 * known.reach",
     ),
     (ARCTAN, "arm", '"0.02"', '"20"'),
+    (ARCTAN, "sizes", ARCTAN_BOUNDS, "gamma='1.57', rho=1, L=1"),
+    (ARCTAN, "sizes", ARCTAN_BOUNDS, "gamma='1.58', rho='0.99', L=1"),
+    (ARCTAN, "sizes", ARCTAN_BOUNDS, "gamma='1.58', rho=1, L='0.99'"),
+    (ARCTAN, "positive", "log(1 + x**2) / 2", "log(1 + x**2)"),
+    (ARCTAN, "positive", "log(1 + x**2) / 2", "log(2 + x**2) / 2"),
+    (ARCTAN, "smooth", "SLOPE = 1 / (1 + x**2)", "SLOPE = 1 / (2 + x**2)"),
     (MUST_FAIL, "right", "x - x**3 / 3 <= atan(x), 0)", "x - x**3 / 4 <= atan(x), 0)"),
 ]
 
 
-@pytest.mark.parametrize(("path", "claim", "right", "wrong"), CHANGES, ids=[row[1] for row in CHANGES])
+@pytest.mark.parametrize(
+    ("path", "claim", "right", "wrong"), CHANGES, ids=[f"{row[1]}: {row[3]}" for row in CHANGES]
+)
 def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, wrong):
     source = path.read_text(encoding="utf-8")
     assert right in source

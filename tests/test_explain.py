@@ -80,7 +80,7 @@ def test_an_unknown_id_is_refused_with_the_likely_ones(written, words):
 def test_what_is_printed_answers_the_five_questions():
     out = run("16.9").stdout
     for line in (
-        "16.9      ½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖",
+        "16.9      “½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖” (the author's words)",
         "where     (16), term 9 of reyes2019family; claimed in published.py",
         "uses      2.6: a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖",
         "used by   16",
@@ -108,7 +108,7 @@ def test_the_statement_that_is_decided_is_written_out(known, says):
 def test_a_theorem_names_its_hypotheses_and_the_claims_that_give_them():
     (part,) = explain("P").parts
     assert "Lyapunov's direct method" in part.says
-    assert "rate bounded by a form (16)" in part.says
+    assert "rate bounded by a form by the claim “16”" in part.says
     assert "globally asymptotically stable" in part.says
 
 

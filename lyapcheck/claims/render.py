@@ -21,7 +21,7 @@ def renderer(name: str) -> Renderer:
 
 
 def as_json(result: ProofResult, timings: bool = False) -> str:
-    """JSON of the schema ``lyapcheck/check/1``."""
+    """JSON of the schema ``lyapcheck/check/2``."""
     return document_text(json.dumps(result.to_json(timings), indent=2, ensure_ascii=False) + "\n")
 
 

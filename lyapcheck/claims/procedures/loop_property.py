@@ -35,21 +35,25 @@ def find_loop_property(statement: LoopProperty) -> Finding:
 
 
 def _numbers(statement: LoopProperty) -> tuple[Fraction, ...] | None:
-    """c, its x and γ, or ρ and L: a little beyond what is met on a grid."""
+    """c, its x and γ, or ρ and L: a little beyond what is met on a grid, where doubles do not overflow."""
     if statement.property == UNBOUNDED:
         x = np.concatenate([np.linspace(0.0, FARTHEST, 8001), np.geomspace(FARTHEST, 1e9, 40)])
         h = _values(statement.h, x)
-        least = [(float(np.min(h[x >= start])), start) for start in STARTS]
-        low, start = max(least)
+        x, h = x[np.isfinite(h)], h[np.isfinite(h)]
+        if not np.any(x >= max(STARTS)):
+            return None
+        low, start = max((float(np.min(h[x >= start])), start) for start in STARTS)
         largest = float(np.max(np.abs(h)))
-        if not (low > 0 and np.isfinite(largest)):
+        if not low > 0:
             return None
         return Fraction(low / 2).limit_denominator(100) or Fraction(1, 1000), Fraction(start), _above(largest)
     if statement.property == SMOOTH:
         x = np.concatenate([np.geomspace(1e-6, 1e-2, 40), np.linspace(1e-2, FARTHEST, 16001)])
         slope, secant = _values(statement.slope, x), _values(statement.h, x) / x
-        sizes = [float(np.max(np.abs(values))) for values in (slope, secant)]
-        return (_above(sizes[0]), _above(sizes[1])) if np.all(np.isfinite(sizes)) else None
+        finite = np.isfinite(slope) & np.isfinite(secant)
+        if not np.any(finite):
+            return None
+        return _above(float(np.max(np.abs(slope[finite])))), _above(float(np.max(np.abs(secant[finite]))))
     return ()
 
 
