@@ -211,7 +211,7 @@ def test_an_arm_without_friction_lacks_a_property() -> None:
     rows = {row["id"]: row for row in json.loads(out)["properties"]}
     assert code == 1
     assert rows["2.7"]["verdict"] == "refuted"
-    assert rows["2.7"]["witness"]["point"] == {f"w{i}": str(int(i == 1)) for i in range(1, 7)}
+    assert rows["2.7"]["reason"].startswith("positive")
     assert all(rows[name]["verdict"] == "proved" for name in rows if name != "2.7")
 
 

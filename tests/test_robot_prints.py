@@ -48,8 +48,9 @@ def test_reyes_and_kelly_print_the_same_torque_in_another_matrix() -> None:
     witness = next(row for row in print_claims(model) if row.id == "C rates").finding.witness
     assert witness is not None
     q2 = eval_fraction(witness["point"]["q2"])
-    assert float(witness["left"][0]) == pytest.approx(-4 * 0.084 * np.sin(q2), rel=1e-9)
-    assert float(witness["right"][0]) == pytest.approx(-2 * 0.084 * np.sin(q2), rel=1e-9)
+    assert (witness["point"]["w1"], witness["point"]["w2"], witness["right"]) == ("0", "1", ["0", "0"])
+    # Ṁ11 − 2 C11 along w2 = 1
+    assert float(witness["left"][0]) == pytest.approx((4 - 2) * 0.084 * np.sin(q2), rel=1e-9)
 
 
 def eval_fraction(text: str) -> float:

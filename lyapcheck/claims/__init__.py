@@ -63,6 +63,12 @@ from lyapcheck.claims.letters import (
     rate,
     zero_vector,
 )
+from lyapcheck.claims.moving_arm import (
+    coriolis_at_rest,
+    mass_symmetric,
+    rate_less_twice_coriolis,
+    rate_of_mass,
+)
 from lyapcheck.claims.products import (
     apply,
     combined,
@@ -152,6 +158,7 @@ __all__ = [
     "bodies",
     "bounded",
     "combined",
+    "coriolis_at_rest",
     "coriolis_matrix",
     "cos",
     "cosh",
@@ -181,6 +188,7 @@ __all__ = [
     "loop_closed",
     "loop_property",
     "mass_matrix",
+    "mass_symmetric",
     "matrix",
     "nonnegative",
     "norm_bound",
@@ -191,7 +199,9 @@ __all__ = [
     "potential",
     "rate",
     "rate_bound",
+    "rate_less_twice_coriolis",
     "rate_of",
+    "rate_of_mass",
     "reals",
     "rho",
     "run_proof",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -31,23 +32,32 @@ def command(
         int | None,
         typer.Option(help="Budget of boxes for each constant. Default: 200000/n² for n joints.", min=1),
     ] = None,
+    certificates: Annotated[
+        str | None, typer.Option(help="Write the certificates of what is decided there; see recheck.")
+    ] = None,
     format: Annotated[RobotFormat, typer.Option(help="How to write it.")] = RobotFormat.TEXT,  # noqa: A002
 ) -> None:
-    """Decide properties 2.1–2.8 of an arm and certify its constants from both sides.
+    """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
 
-    λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it; friction, torque
-    limits, and every number with its source. A constant whose budget of boxes ends is enclosed more widely.
+    λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it: ends that a certificate
+    shows, and the sharper ones of floating point (numeric; wider where the budget of boxes ends). Friction,
+    torque limits, and every number with its source.
     Where the source prints C or g too, the print is compared with what M and the potential give.
 
     Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
     """
+    from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.robots import load
 
     model = load(robot, tip)
     from lyapcheck.robot_report import build
     from lyapcheck.robot_report.formats import renderer
 
+    folder = None if certificates is None else open_folder("--certificates", Path(certificates))
     with progress("robot") as advance:
         report = build(model, max_boxes, advance)
+    if folder is not None:
+        for name, certificate in report.certificates.items():
+            write_whole(folder / name, certificate.text())
     sys.stdout.write(document_text(renderer(format.value)(report)))
     raise typer.Exit(int(report.exit_code))

@@ -1,4 +1,4 @@
-"""Certified constants of an arm, from both sides: λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi."""
+"""λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi of an arm, enclosed in floating point."""
 
 from lyapcheck.constants.arm import arm_constants
 from lyapcheck.constants.bounds import RobotConstants, robot_bounds, robot_constants

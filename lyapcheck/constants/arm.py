@@ -1,4 +1,4 @@
-"""Certified constants of any arm from both sides, wider where the budget of boxes ends.
+"""Constants of any arm enclosed from both sides in floating point, wider where the budget of boxes ends.
 
     λmin(M), λmax(M) = β_M,     k_g = sup ‖g(q)‖,     k_gi = sup |g_i(q)|,     k_c = sup ‖C(q,x)y‖ / (‖x‖‖y‖).
 

@@ -38,7 +38,7 @@ def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds
 
 @lru_cache(maxsize=64)
 def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotConstants:
-    """Certified λmin(M), λmax(M) = β_M and k_c of an arm whose parameters stand at their nominal values.
+    """λmin(M), λmax(M) = β_M and k_c, enclosed, of an arm whose parameters stand at their nominal values.
 
     Args:
         model: the arm, of any number of joints.

@@ -5,6 +5,7 @@ References: ``reyes2019family``, Properties 2.1, 2.2 and 2.6.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
@@ -15,7 +16,7 @@ from flint import arb
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.loop.inertia import Inertia
+from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.links import Motion, RigidLink
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
@@ -36,10 +37,20 @@ def require_mass(mass: Mass, parameters: tuple[Ends, ...]) -> None:
     Raises:
         Refused: at the first fault.
     """
-    n, length = len(mass), 2 * len(mass) + len(parameters)
-    require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    n = len(mass)
     require(all(len(row) == n for row in mass), "mass", "a row", f"must have {n} entries")
-    for powers, _ in chain.from_iterable(chain.from_iterable(mass)):
+    require_polynomials(chain.from_iterable(mass), n, parameters)
+
+
+def require_polynomials(entries: Iterable[Monomials], n: int, parameters: tuple[Ends, ...]) -> None:
+    """Refuse what are not polynomials in the sines and cosines of n angles and in parameters with ranges.
+
+    Raises:
+        Refused: at the first fault.
+    """
+    length = 2 * n + len(parameters)
+    require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    for powers, _ in chain.from_iterable(entries):
         fits = len(powers) == length and all(0 <= p <= MAX_POWER for p in powers)
         require(fits, "exponents", powers, f"must be {length} numbers from 0 to {MAX_POWER}")
     require(len(parameters) <= MAX_PARAMETERS, "parameters", len(parameters), "are too many")
@@ -50,21 +61,32 @@ def require_mass(mass: Mass, parameters: tuple[Ends, ...]) -> None:
 def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
     """M(q) written out, or where that is long its size and a digest of its entries."""
     n = len(mass)
-    ranged = [f"p{k + 1} in [{number_text(a)}, {number_text(b)}]" for k, (a, b) in enumerate(parameters)]
-    names = [*(f"sin q{i + 1}" for i in range(n)), *(f"cos q{i + 1}" for i in range(n))]
-    names += [f"p{k + 1}" for k in range(len(parameters))]
+    names = variable_names(n, len(parameters))
     entries = [
-        f"M{i + 1}{j + 1} = {_polynomial_text(mass[i][j], names)}" for i in range(n) for j in range(i, n)
+        f"M{i + 1}{j + 1} = {polynomial_text(mass[i][j], names)}" for i in range(n) for j in range(i, n)
     ]
+    return written_out(entries, f"M(q) of {n} joints", mass, parameters)
+
+
+def written_out(entries: list[str], what: str, data: object, parameters: tuple[Ends, ...]) -> str:
+    """Entries and the ranges of parameters, or where that is long what they are and a digest of them."""
+    ranged = [f"p{k + 1} in [{number_text(a)}, {number_text(b)}]" for k, (a, b) in enumerate(parameters)]
     written = ", ".join([*entries, *ranged])
     if len(written) <= LONGEST:
         return written
-    digest = sha256(repr((mass, parameters)).encode()).hexdigest()[:16]
+    digest = sha256(repr((data, parameters)).encode()).hexdigest()[:16]
     more = f" and {len(parameters)} uncertain numbers" if parameters else ""
-    return f"the M(q) of {n} joints{more} with digest {digest}"
+    return f"the {what}{more} with digest {digest}"
 
 
-def _polynomial_text(entry: Monomials, names: list[str]) -> str:
+def variable_names(n: int, parameters: int) -> list[str]:
+    """What the exponents of a term belong to."""
+    waves = [*(f"sin q{i + 1}" for i in range(n)), *(f"cos q{i + 1}" for i in range(n))]
+    return waves + [f"p{k + 1}" for k in range(parameters)]
+
+
+def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
+    """A polynomial with these names of its variables."""
     terms = []
     for powers, c in entry:
         factors = [f"{name}^{p}" if p > 1 else name for name, p in zip(names, powers, strict=True) if p]
@@ -73,7 +95,7 @@ def _polynomial_text(entry: Monomials, names: list[str]) -> str:
 
 
 @dataclass(frozen=True)
-class _OfArm(Statement):
+class OfArm(Statement):
     """What the kinds below share: ``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
 
     mass: Mass
@@ -90,7 +112,7 @@ class _OfArm(Statement):
     @property
     def inertia(self) -> Inertia:
         """M(q)."""
-        return Inertia(self.mass, self.parameters)
+        return inertia_of(self.mass, self.parameters)
 
     @property
     def over(self) -> str:
@@ -99,7 +121,7 @@ class _OfArm(Statement):
 
 
 @dataclass(frozen=True)
-class MassAbove(_OfArm):
+class MassAbove(OfArm):
     """M(q) is symmetric and M(q) − low·I positive definite, for all q and parameters; kg·m²."""
 
     low: Fraction
@@ -115,7 +137,7 @@ class MassAbove(_OfArm):
 
 
 @dataclass(frozen=True)
-class MassBelow(_OfArm):
+class MassBelow(OfArm):
     """‖M(q)‖ <= high, for all q and parameters; kg·m²."""
 
     high: Fraction
@@ -126,7 +148,7 @@ class MassBelow(_OfArm):
 
 
 @dataclass(frozen=True)
-class CoriolisBelow(_OfArm):
+class CoriolisBelow(OfArm):
     """‖C(q, x)y‖ <= high ‖x‖ ‖y‖ for the C of Christoffel symbols, all q, x, y and parameters; kg·m²."""
 
     high: Fraction
@@ -172,7 +194,7 @@ class PostureWitness(Proof):
 
 @rule(MassAbove, Bisection)
 def by_bisection(statement: MassAbove, proof: Bisection) -> Accepted:
-    """Soundness: see :meth:`Inertia.above`."""
+    """Soundness: see :meth:`Inertia.above`; the boxes show it for all matrices that they enclose."""
     require(statement.inertia.symmetric, "M", "", "is not symmetric")
     require(statement.inertia.above(statement.low), "M", "", "is not shown to exceed the bound by boxes")
     return Accepted("proved", "enclosure")
@@ -198,6 +220,23 @@ def by_rows(statement: MassBelow, proof: HarmonicSizes) -> Accepted:
     reached = statement.inertia.largest_row()
     require(reached <= statement.high, "largest row", reached, f"is above {statement.high}")
     return Accepted("proved", "exact")
+
+
+@rule(MassBelow, Bisection)
+def by_boxes_of_both_signs(statement: MassBelow, proof: Bisection) -> Accepted:
+    """Soundness: see :meth:`Inertia.below`; a symmetric matrix is as large as its eigenvalues."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
+    require(statement.inertia.below(statement.high), "M", "", "is not shown to keep the bound by boxes")
+    return Accepted("proved", "enclosure")
+
+
+@rule(CoriolisBelow, Bisection)
+def by_boxes_of_symbols(statement: CoriolisBelow, proof: Bisection) -> Accepted:
+    """Soundness: see :meth:`Inertia.turning_below`."""
+    require(statement.high > 0, "high", statement.high, "must be positive")
+    shown = statement.inertia.turning_below(statement.high)
+    require(shown, "C", "", "is not shown to keep the bound by boxes")
+    return Accepted("proved", "enclosure")
 
 
 @rule(CoriolisBelow, HarmonicSizes)
@@ -247,22 +286,32 @@ class _Posture:
     inertia_times_x: list[arb]
 
 
-def _at(statement: _OfArm, proof: PostureWitness) -> _Posture:
+def _at(statement: OfArm, proof: PostureWitness) -> _Posture:
     """The posture of a witness, if it is one of this arm.
 
     Raises:
         Refused: sizes do not fit, a parameter is out of its range, or x = 0.
     """
     n = len(statement.mass)
-    require(len(proof.q) == n and len(proof.x) == n, "posture", len(proof.q), f"must have {n} joints")
+    require_posture(proof, n, statement.parameters)
+    require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
     require(any(proof.x), "x", "0", "must not be the zero vector")
-    known = len(proof.parameters) == len(statement.parameters)
-    require(known, "parameters", len(proof.parameters), f"must be {len(statement.parameters)}")
-    for value, (low, high) in zip(proof.parameters, statement.parameters, strict=True):
-        require(low <= value <= high, "parameter", value, f"must be between {low} and {high}")
     x = [to_arb(value) for value in proof.x]
     rows = statement.inertia.at(proof.q, proof.parameters)
     return _Posture(x, [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows])
+
+
+def require_posture(proof: PostureWitness, n: int, parameters: tuple[Ends, ...]) -> None:
+    """Refuse angles of another number of joints, and parameters out of their ranges.
+
+    Raises:
+        Refused: at the first fault.
+    """
+    require(len(proof.q) == n, "posture", len(proof.q), f"must have {n} joints")
+    known = len(proof.parameters) == len(parameters)
+    require(known, "parameters", len(proof.parameters), f"must be {len(parameters)}")
+    for value, (low, high) in zip(proof.parameters, parameters, strict=True):
+        require(low <= value <= high, "parameter", value, f"must be between {low} and {high}")
 
 
 def _square(x: list[arb]) -> arb:

@@ -7,28 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import prod
+from functools import cached_property, lru_cache
+from itertools import pairwise
 
 from flint import arb
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
-from lyapcheck.check.loop.boxes import Box, Side, halves
-from lyapcheck.check.loop.waves import Polynomial, waves
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.numbers.harmonics import (
-    Uncertain,
-    angles_in,
-    by_parameters,
-    largest,
-    uncertain_christoffel,
-)
+from lyapcheck.check.loop.arithmetic import Arithmetic
+from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_at
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, uncertain_christoffel
 from lyapcheck.check.statement import Ends, Monomials
 
-PI_ABOVE = 3.1415926535897936
-"""A double above π."""
-BITS = 64
-MOST_BOXES = 20_000
+Rows = tuple[tuple[Monomials, ...], ...]
 
 
 class Inertia:
@@ -48,101 +38,108 @@ class Inertia:
         """Whether M = Mᵀ for all angles and parameters."""
         return all(self.mass[i][j] == self.mass[j][i] for i in range(self.n) for j in range(i))
 
-    def above(self, low: Fraction) -> bool:
-        """Whether M(q) − low·I is positive definite throughout, by boxes that are cut until they show it.
+    @cached_property
+    def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
+        """The Christoffel symbols c_ijk = c_ikj with k ≤ j that do not vanish."""
+        return uncertain_christoffel(self.mass)
 
-        Soundness: the boxes cover all angles that occur and all parameters; on each of them every symmetric
-            matrix of the enclosure is positive definite.
+    def above(self, low: Fraction, most: int = MOST_BOXES) -> bool:
+        """Whether M(q) − low·I is positive definite throughout, by boxes that are cut until they show it."""
+        return self._lower_half().throughout(lambda m, of: _exceeds(self._rows(m), -1, low, of), most)
+
+    def below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
+        """Whether high·I − M(q) and high·I + M(q) are positive definite throughout: then ‖M(q)‖ < high."""
+        return self._lower_half().throughout(
+            lambda m, of: all(_exceeds(self._rows(signed), 1, high, of) for signed in (m, _negative(m, of))),
+            most,
+        )
+
+    def turning_below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
+        """Whether ‖C(q, x)y‖ < high ‖x‖ ‖y‖ throughout, by boxes.
+
+        Soundness: with S_i = (c_ijk)_jk the entries of C(q, x)y are xᵀS_i y, so that its square is at most
+            yᵀ(Σ S_i²)y for ‖x‖ = 1, and at most λmax((tr S_i S_l)_il), the square of the norm of the map
+            from matrices x yᵀ; on each box one of the two is shown to be below high².
         """
-        angles = angles_in(self.mass)
-        start: Box = (*[(-PI_ABOVE, PI_ABOVE)] * len(angles), *map(_side, self.parameters))
-        whole = [high - low_end for low_end, high in start]
-        waiting, count = [start], 0
-        with precision(BITS):
-            arithmetics = [_Over(self, angles, low, of) for of in (BALLS, SPANS)]
-            while waiting:
-                box, count = waiting.pop(), count + 1
-                if any(over.positive_definite(box) for over in arithmetics):
-                    continue
-                if count > MOST_BOXES or not box:
-                    return False
-                widest = max(range(len(box)), key=lambda i: (box[i][1] - box[i][0]) / (whole[i] or 1))
-                waiting += halves(box, widest)
-        return True
+        places = list(self.symbols)
+        field = Field([self.symbols[place] for place in places], self.n, self.parameters)
+
+        def shows(values: list[Value], of: Arithmetic) -> bool:
+            c = dict(zip(places, values, strict=True))
+            return any(_exceeds(rows, 1, high * high, of) for rows in self._unfolded(c, of))
+
+        return field.throughout(shows, most)
 
     def at(self, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> list[list[arb]]:
         """M in balls at one posture and one choice of the parameters."""
-        return [[_value(entry, q, parameters) for entry in row] for row in self.mass]
+        return [[value_at(entry, q, parameters) for entry in row] for row in self.mass]
 
     def coriolis(
         self, q: Sequence[Fraction], parameters: Sequence[Fraction], x: Sequence[arb], y: Sequence[arb]
     ) -> list[arb]:
         """C(q, x)y in balls, (Σ_jk c_ijk x_k y_j)_i."""
         found = [arb(0)] * self.n
-        for (i, j, k), symbol in uncertain_christoffel(self.mass).items():
-            value = _value(symbol, q, parameters)
+        for (i, j, k), symbol in self.symbols.items():
+            value = value_at(symbol, q, parameters)
             found[i] += value * (x[k] * y[j] if j == k else x[k] * y[j] + x[j] * y[k])
         return found
 
     def largest_row(self) -> Fraction:
         """A bound of ‖M(q)‖: the largest sum of a row of sizes of entries."""
-        return max(sum(map(self._size, row), Fraction(0)) for row in self.mass)
+        return max(sum((size_of(x, self.parameters) for x in row), Fraction(0)) for row in self.mass)
 
     def squares_of_symbols(self) -> Fraction:
         """A bound of Σ c_ijk², which ‖C(q, x)y‖² ≤ Σ c_ijk² ‖x‖²‖y‖² asks for, by Cauchy–Schwarz twice."""
-        symbols = uncertain_christoffel(self.mass)
-        return sum(
-            ((1 if j == k else 2) * self._size(c) ** 2 for (_, j, k), c in symbols.items()), Fraction(0)
-        )
-
-    def _size(self, entry: Uncertain) -> Fraction:
-        sizes = [max(abs(low), abs(high)) for low, high in self.parameters]
         return sum(
             (
-                largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
-                for powers, part in entry.items()
+                (1 if j == k else 2) * size_of(c, self.parameters) ** 2
+                for (_, j, k), c in self.symbols.items()
             ),
             Fraction(0),
         )
 
+    def _lower_half(self) -> Field:
+        entries = [self.mass[i][j] for i in range(self.n) for j in range(i + 1)]
+        return Field(entries, self.n, self.parameters)
 
-class _Over:
-    """M − low·I over boxes, in one arithmetic."""
+    def _rows(self, entries: Sequence[Value]) -> list[list[Value]]:
+        """The entries on and below the diagonal, row by row."""
+        starts = [i * (i + 1) // 2 for i in range(self.n + 1)]
+        return [list(entries[a:b]) for a, b in pairwise(starts)]
 
-    def __init__(self, inertia: Inertia, angles: tuple[int, ...], low: Fraction, of: Arithmetic) -> None:
-        self.n, self.angles, self.of = inertia.n, angles, of
-        self.low = of.value(to_arb(low))
-        self.entries = [[Polynomial(entry) for entry in row] for row in inertia.mass]
-        self.used = sorted({k for row in self.entries for entry in row for k in entry.used})
-
-    def positive_definite(self, box: Box) -> bool:
-        """Whether the matrix is, all over a box of angles and parameters."""
-        q, middle = [arb(0)] * self.n, [arb(0)] * self.n
-        for joint, side in zip(self.angles, box, strict=False):
-            q[joint], middle[joint] = _ball(side), arb(0.5 * (side[0] + side[1]))
-        offset = [self.of.value(a - b) for a, b in zip(q, middle, strict=True)]
-        parameters = [self.of.value(_ball(side)) for side in box[len(self.angles) :]]
-        over = waves(self.used, q, self.of), waves(self.used, middle, self.of), offset, parameters, self.of
-        rows = [[entry.over(*over) for entry in row[: i + 1]] for i, row in enumerate(self.entries)]
-        for i, row in enumerate(rows):
-            row[i] = row[i] - self.low
-        return self.of.positive_definite(rows)
+    def _unfolded(self, c: dict[tuple[int, int, int], Value], of: Arithmetic) -> list[list[list[Value]]]:
+        """−Σ_i S_i² and −(tr S_i S_l)_il, the entries on and below the diagonal."""
+        n, zero = range(self.n), of.value(arb(0))
+        full = [[[c.get((i, max(j, k), min(j, k)), zero) for k in n] for j in n] for i in n]
+        stacked = [[x for s in full for x in s[j]] for j in n]
+        flat = [[x for row in s for x in row] for s in full]
+        return [
+            [_negative([_product(rows[j], rows[k], j == k, of) for k in range(j + 1)], of) for j in n]
+            for rows in (stacked, flat)
+        ]
 
 
-def _value(entry: Uncertain, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> arb:
-    """An entry in balls at one posture."""
-    total = arb(0)
-    for powers, terms in entry.items():
-        scale = to_arb(prod((x**p for x, p in zip(parameters, powers, strict=True)), start=Fraction(1)))
-        for k, (a, b) in terms.items():
-            angle = to_arb(sum((factor * x for factor, x in zip(k, q, strict=True)), Fraction(0)))
-            total += scale * (to_arb(a) * angle.cos() + to_arb(b) * angle.sin())
-    return total
+@lru_cache(maxsize=4)
+def inertia_of(mass: Rows, parameters: tuple[Ends, ...]) -> Inertia:
+    """M(q) of a statement; several ask for the same, and its harmonics can take seconds."""
+    return Inertia(mass, parameters)
 
 
-def _ball(side: Side) -> arb:
-    return arb(side[0]).union(arb(side[1]))
+def _negative(values: Sequence[Value], of: Arithmetic) -> list[Value]:
+    return [of.value(arb(0)) - value for value in values]
 
 
-def _side(ends: Ends) -> Side:
-    return Enclosure(*ends).float_lower, Enclosure(*ends).float_upper
+def _product(x: list[Value], y: list[Value], same: bool, of: Arithmetic) -> Value:
+    """x·y, and x·x never below 0."""
+    zero = of.value(arb(0))
+    if same:
+        return sum((of.square(a) for a in x), zero)
+    return sum((a * b for a, b in zip(x, y, strict=True)), zero)
+
+
+def _exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:
+    """Whether A ± shift·I is positive definite, A by its entries on and below the diagonal."""
+    amount = of.value(to_arb(sign * shift))
+    for i, row in enumerate(rows):
+        row[i] = row[i] + amount
+    return of.positive_definite(rows)

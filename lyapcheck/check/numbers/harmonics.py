@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 Harmonic = tuple[int, ...]
 """Integer multiples k of the joint angles; the first that is not zero is positive."""
@@ -53,7 +54,8 @@ def combination(parts: Iterable[tuple[Fraction, Mapping[Harmonic, Gaussian]]]) -
     total: Harmonics = {}
     for factor, terms in parts:
         for k, (a, b) in terms.items():
-            _add(total, k, (factor * a, factor * b))
+            # a number of an arm may have thousands of harmonics, and most factors are 1
+            _add(total, k, (a, b) if factor == 1 else (factor * a, factor * b))
     return {k: ab for k, ab in total.items() if any(ab)}
 
 
@@ -105,7 +107,8 @@ def angles_in(mass: Sequence[Sequence[Uncertain]]) -> tuple[int, ...]:
     return tuple(sorted({i for part in parts for k in part for i, factor in enumerate(k) if factor}))
 
 
-def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> dict[Harmonic, Gaussian]:
+@lru_cache(maxsize=4096)
+def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> Mapping[Harmonic, Gaussian]:
     """Π s_i^a c_i^b as coefficients of exp(i k·q)."""
     n, half = len(sines), Fraction(1, 2)
     result: dict[Harmonic, Gaussian] = {(0,) * n: (Fraction(1), Fraction(0))}
@@ -132,8 +135,8 @@ def _complex_product(x: Gaussian, y: Gaussian) -> Gaussian:
 
 
 def _add(terms: dict[Harmonic, Gaussian], k: Harmonic, value: Gaussian) -> None:
-    old = terms.get(k, (Fraction(0), Fraction(0)))
-    terms[k] = (old[0] + value[0], old[1] + value[1])
+    old = terms.get(k)
+    terms[k] = value if old is None else (old[0] + value[0], old[1] + value[1])
 
 
 def _lead(k: Harmonic) -> int:

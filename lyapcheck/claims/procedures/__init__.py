@@ -9,7 +9,9 @@ from typing import Any
 
 from lyapcheck.check.expressions.defined import Undefined, require_defined
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.compared import Compared
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.resting import Resting
@@ -21,8 +23,10 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims import state_statements as state_kinds
 from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
+from lyapcheck.claims.procedures.compared import find_compared
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.every_n import find_every_n
+from lyapcheck.claims.procedures.gravity import find_gravity_below
 from lyapcheck.claims.procedures.identity import find_identity
 from lyapcheck.claims.procedures.implication import find_implies
 from lyapcheck.claims.procedures.inertia import find_mass_above, find_upper
@@ -121,6 +125,8 @@ PROCEDURES: dict[type[kinds.Statement], Callable[[Any], Finding]] = {
     MassAbove: find_mass_above,
     MassBelow: find_upper,
     CoriolisBelow: find_upper,
+    Compared: find_compared,
+    GravityBelow: find_gravity_below,
     state_kinds.Decreasing: find_decreasing,
     state_kinds.DampingBelow: find_damping_below,
     Settling: find_settling,

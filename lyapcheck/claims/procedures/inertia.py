@@ -16,6 +16,7 @@ from lyapcheck.check.kinds.inertia import (
     Bisection,
     CoriolisBelow,
     HarmonicSizes,
+    Links,
     MassAbove,
     MassBelow,
     PostureWitness,
@@ -36,28 +37,28 @@ OfArm = MassAbove | MassBelow | CoriolisBelow
 
 
 def find_mass_above(statement: MassAbove) -> Finding:
-    """A posture that refutes it, else the links, else boxes."""
-    proofs: list[Proof] = (
-        [mass_proof(statement.mass)] if statement.low == 0 and not statement.parameters else []
-    )
-    if len(statement.mass) <= MOST_BOXES_JOINTS:
-        proofs.append(Bisection())
+    """The links, else a posture that refutes it, else boxes."""
+    known = mass_proof(statement.mass) if statement.low == 0 and not statement.parameters else Bisection()
+    quick: list[Proof] = [known] if isinstance(known, Links) else []
     advice = "take a smaller bound, or name an arm whose links are known"
-    return _found(statement, proofs, advice)
+    return _found(statement, quick, advice)
 
 
 def find_upper(statement: MassBelow | CoriolisBelow) -> Finding:
-    """The sizes of harmonics, else a posture that refutes it."""
+    """The sizes of harmonics, else a posture that refutes it, else boxes."""
     return _found(statement, [HarmonicSizes()], "take a larger bound")
 
 
-def _found(statement: OfArm, proofs: list[Proof], advice: str) -> Finding:
+def _found(statement: OfArm, quick: list[Proof], advice: str) -> Finding:
+    """Boxes come last: where the statement is false they end only with their budget."""
+    for proof in quick:
+        if _verdict(statement, proof) == "proved":
+            return shown(proof, f"{METHOD}: {proof.rule}")
     for against in _postures(statement):
         if _verdict(statement, against) == "refuted":
             return broken(against, f"{METHOD}: a posture", _witness(statement, against))
-    for proof in proofs:
-        if _verdict(statement, proof) == "proved":
-            return shown(proof, f"{METHOD}: {proof.rule}")
+    if len(statement.mass) <= MOST_BOXES_JOINTS and _verdict(statement, Bisection()) == "proved":
+        return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
     return still_open(f"it is not shown, and no posture breaks it; {advice}", METHOD)
 
 

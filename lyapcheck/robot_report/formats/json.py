@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from importlib.metadata import version
 from typing import Any
 
 from lyapcheck.constants import SEED, Constant
 from lyapcheck.files import decimal_text
 from lyapcheck.robot_report.build import RobotReport
+from lyapcheck.robot_report.certified import Certified
 from lyapcheck.robot_report.properties import Property
 from lyapcheck.robots import Number
 
@@ -28,7 +30,7 @@ def render(report: RobotReport) -> str:
         "seed": SEED,
         "properties": [_property(row) for row in report.properties],
         "prints": [_property(row) for row in report.prints],
-        "constants": [_constant(constant, model.n) for constant in report.constants],
+        "constants": [_constant(report, constant) for constant in report.constants],
         "joints": [
             {
                 "name": joint,
@@ -61,18 +63,26 @@ def _property(row: Property) -> dict[str, Any]:
     }
 
 
-def _constant(constant: Constant, n: int) -> dict[str, Any]:
+def _constant(report: RobotReport, constant: Constant) -> dict[str, Any]:
+    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
     lower, upper = constant.enclosure.decimals(_DIGITS)
+    n, shown = report.model.n, report.certified.get(constant.name, Certified())
     return {
         "name": constant.name,
         "unit": constant.unit,
         "lower": lower,
         "upper": upper,
+        "certified": {"lower": _end(shown.lower), "upper": _end(shown.upper)},
+        "numeric": {"lower": lower, "upper": upper},
         "gap": f"{constant.gap:.3e}",
         "q": [repr(x) for x in constant.state[:n]],
         "x": [repr(x) for x in constant.state[n:]] or None,
         "boxes": constant.boxes,
     }
+
+
+def _end(value: Fraction | None) -> str | None:
+    return None if value is None else decimal_text(value)
 
 
 def _number(number: Number | None) -> dict[str, Any] | None:

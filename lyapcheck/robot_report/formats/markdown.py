@@ -33,9 +33,9 @@ def render(report: RobotReport) -> str:
         "",
         "## Constants",
         "",
-        "At nominal parameters; for k_c the last numbers are the direction x.",
+        "At nominal parameters, certified and numeric; for k_c the last numbers are the direction x.",
         "",
-        *_words(CONSTANT_HEADS, [constant_row(constant) for constant in report.constants]),
+        *_words(CONSTANT_HEADS, [constant_row(report, constant) for constant in report.constants]),
     ]
     lines += ["", "## Joints", "", *_words(JOINT_HEADS, joint_rows(report)), "", "## Numbers", ""]
     lines += _list([number_line(name, number) for name, number in report.model.numbers.items()])

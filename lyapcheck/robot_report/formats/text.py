@@ -26,8 +26,12 @@ def render(report: RobotReport) -> str:
         lines += ["", "As the source prints it", ""]
         for row in report.prints:
             lines += [f"  {row.verdict.value:<9}  {row.statement}", f"             {evidence(row)}"]
-    lines += ["", "Constants at nominal parameters; for k_c the last numbers are the direction x", ""]
-    lines += _table([CONSTANT_HEADS, *map(constant_row, report.constants)])
+    lines += [
+        "",
+        "Constants at nominal parameters, certified and in floating point; for k_c the last numbers are x",
+        "",
+    ]
+    lines += _table([CONSTANT_HEADS, *(constant_row(report, one) for one in report.constants)])
     lines += ["", "Joints", "", *_table([JOINT_HEADS, *joint_rows(report)]), "", "Numbers", ""]
     lines += [f"  {number_line(name, number)}" for name, number in report.model.numbers.items()]
     if report.model.assumptions:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.files import decimal_text
+from lyapcheck.robot_report.certified import Certified
 from lyapcheck.robots.number import with_unit
 
 if TYPE_CHECKING:
@@ -15,7 +16,16 @@ if TYPE_CHECKING:
 
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
 _DIGITS = 6
-CONSTANT_HEADS = ("constant", "at least", "at most", "unit", "gap", "shown at q (rad)")
+CONSTANT_HEADS = (
+    "constant",
+    "certified: above",
+    "at most",
+    "numeric: at least",
+    "at most",
+    "unit",
+    "gap",
+    "shown at q (rad)",
+)
 JOINT_HEADS = ("joint", "viscous (N·m·s/rad)", "Coulomb (N·m)", "torque limit (N·m)", "encoder (counts/turn)")
 
 
@@ -25,12 +35,14 @@ def headline(report: RobotReport) -> str:
     return f"{model.title}: {model.name}, {model.n} joint{'s' if model.n > 1 else ''}"
 
 
-def constant_row(constant: Constant) -> tuple[str, ...]:
-    """One constant, its ends rounded outward."""
+def constant_row(report: RobotReport, constant: Constant) -> tuple[str, ...]:
+    """One constant: the ends that certificates show, and those of floating point, rounded outward."""
+    shown = report.certified.get(constant.name, Certified())
+    known = ["–" if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
     low, high = constant.enclosure.decimals(_DIGITS)
     state = ", ".join(f"{x:.4f}" for x in constant.state)
     gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
-    return (SYMBOLS.get(constant.name, constant.name), low, high, constant.unit, gap, state)
+    return (SYMBOLS.get(constant.name, constant.name), *known, low, high, constant.unit, gap, state)
 
 
 def joint_rows(report: RobotReport) -> list[tuple[str, ...]]:
@@ -63,7 +75,8 @@ def evidence(row: Property) -> str:
     if finding.witness is not None:
         point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
         left, right = (finding.witness[side][0] for side in ("left", "right"))
-        parts.append(f"at {point}: not {left} {finding.witness['operator']} {right}")
+        at = f"at {point}: " if point else ""
+        parts.append(f"{at}not {left} {finding.witness['operator']} {right}")
     return "; ".join(part for part in parts if part)
 
 

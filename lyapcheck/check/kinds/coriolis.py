@@ -1,0 +1,230 @@
+"""Symmetry of M(q), and the Coriolis matrix of one arm: how it goes with the rate of M(q).
+
+C(q, w)_ij = Σ_k c_ijk(q) w_k + c_ij(q), by Christoffel symbols of M(q) or as it is printed.
+
+References: ``reyes2019family``, Properties 2.1 and 2.3 to 2.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache, partial
+from itertools import chain, product
+
+from lyapcheck.check.kinds.compared import Compared, Gap, compared, mixed
+from lyapcheck.check.kinds.inertia import (
+    Mass,
+    mass_text,
+    polynomial_text,
+    require_mass,
+    require_polynomials,
+    variable_names,
+    written_out,
+)
+from lyapcheck.check.loop.inertia import Inertia, inertia_of
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Ends, Monomials
+
+Matrices = tuple[tuple[tuple[Monomials, ...], ...], ...]
+Lost = list[tuple[tuple[int, ...], Uncertain]]
+
+
+@dataclass(frozen=True)
+class _OfMass(Compared):
+    """``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
+
+    mass: Mass
+    parameters: tuple[Ends, ...]
+
+    def require_well_formed(self) -> None:
+        """A matrix of polynomials."""
+        require_mass(self.mass, self.parameters)
+
+    @property
+    def joints(self) -> int:
+        """The rows of M."""
+        return len(self.mass)
+
+    @property
+    def inertia(self) -> Inertia:
+        """M(q)."""
+        return inertia_of(self.mass, self.parameters)
+
+    def rate(self, i: int, j: int, k: int) -> Uncertain:
+        """∂M_ij/∂q_k."""
+        return _slope(self.inertia.mass[i][j], k)
+
+
+@compared
+@dataclass(frozen=True)
+class MassSymmetric(_OfMass):
+    """M(q) = M(q)ᵀ, for all q and parameters."""
+
+    def gaps(self) -> Iterator[Gap]:
+        """Each entry below the diagonal less that above."""
+        for i, j in product(range(self.joints), repeat=2):
+            if j < i:
+                yield (
+                    f"M{i + 1}{j + 1}",
+                    (),
+                    mixed([(1, self.inertia.mass[i][j]), (-1, self.inertia.mass[j][i])]),
+                )
+
+    def text(self) -> str:
+        """``M(q) = M(q)ᵀ …``."""
+        return f"M(q) = M(q)ᵀ for all q, {mass_text(self.mass, self.parameters)}"
+
+
+@dataclass(frozen=True)
+class _OfCoriolis(_OfMass):
+    """``printed`` has for each i and j the polynomials that w1 … wn multiply, and then the one without rate.
+
+    Empty where C is that of Christoffel symbols.
+    """
+
+    printed: Matrices
+
+    def require_well_formed(self) -> None:
+        """Polynomials, n + 1 an entry, or none."""
+        super().require_well_formed()
+        n = self.joints
+        rows = [*self.printed, *chain.from_iterable(self.printed)]
+        require(len(self.printed) in (0, n), "printed", len(self.printed), f"must have no or {n} rows")
+        fits = all(len(row) == n for row in self.printed)
+        fits = fits and all(len(entry) == n + 1 for entry in rows[len(self.printed) :])
+        require(fits, "printed", "", f"must have {n} entries a row, each with {n + 1} polynomials")
+        require_polynomials(chain.from_iterable(chain.from_iterable(self.printed)), n, self.parameters)
+
+    @cached_property
+    def _printed(self) -> list[list[list[Uncertain]]]:
+        return [[[by_parameters(c, self.joints) for c in entry] for entry in row] for row in self.printed]
+
+    def symbol(self, i: int, j: int, k: int) -> Uncertain:
+        """What w_k multiplies in C_ij; what has no rate for k = n."""
+        return self._printed[i][j][k] if self.printed else _christoffel(self.inertia, i, j, k)
+
+    def lost(self, i: int, j: int) -> Lost:
+        """∂M_ij/∂q_k − c_ijk − c_jik for each rate, and what has none."""
+        if not self.printed:
+            return _lost_by_symbols(self.inertia, i, j)
+        n, at = self.joints, self.symbol
+        found = [((k,), _less(self.rate(i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
+        return [*found, ((), _less({}, at(i, j, n), at(j, i, n)))]
+
+    @property
+    def over(self) -> str:
+        """``for all q …``, and what C is."""
+        about = f"for all q, {mass_text(self.mass, self.parameters)}"
+        if not self.printed:
+            return f"{about}; C by Christoffel symbols"
+        n = self.joints
+        names = [*variable_names(n, len(self.parameters)), *(f"w{k + 1}" for k in range(n))]
+        entries = []
+        for i, j in product(range(n), repeat=2):
+            rated = [
+                ((*powers, *(int(m == k) for m in range(n))), c)
+                for k, polynomial in enumerate(self.printed[i][j])
+                for powers, c in polynomial
+            ]
+            entries.append(f"C{i + 1}{j + 1} = {polynomial_text(tuple(rated), names)}")
+        return f"{about}; {written_out(entries, 'C as printed', self.printed, ())}"
+
+
+@compared
+@dataclass(frozen=True)
+class CoriolisAtRest(_OfCoriolis):
+    """C(q, 0) = 0, for all q and parameters."""
+
+    def gaps(self) -> Iterator[Gap]:
+        """What has no rate."""
+        for i, j in product(range(self.joints), repeat=2):
+            yield f"C{i + 1}{j + 1}", (), self.symbol(i, j, self.joints)
+
+    def text(self) -> str:
+        """``C(q, 0) = 0 …``."""
+        return f"C(q, 0) = 0 {self.over}"
+
+
+@compared
+@dataclass(frozen=True)
+class RateOfMass(_OfCoriolis):
+    """Ṁ(q) = C(q, w) + C(q, w)ᵀ, and both are symmetric, for all q, w and parameters."""
+
+    def gaps(self) -> Iterator[Gap]:
+        """∂M_ij/∂q_k − c_ijk − c_jik below the diagonal; Ṁ is to be symmetric, as the sum on the right is."""
+        for i, j in product(range(self.joints), repeat=2):
+            if j <= i:
+                for rates, gap in self.lost(i, j):
+                    yield f"entry {i + 1}{j + 1}", rates, gap
+            elif self.inertia.mass[i][j] != self.inertia.mass[j][i]:
+                for k in range(self.joints):
+                    skew = mixed([(1, self.rate(i, j, k)), (-1, self.rate(j, i, k))])
+                    yield f"asymmetry {i + 1}{j + 1}", (k,), skew
+
+    def text(self) -> str:
+        """``Ṁ(q) = C(q, w) + C(q, w)ᵀ …``."""
+        return f"Ṁ(q) = C(q, w) + C(q, w)ᵀ with Ṁ along q̇ = w, and both are symmetric, {self.over}"
+
+
+@compared
+@dataclass(frozen=True)
+class RateLessTwiceCoriolis(_OfCoriolis):
+    """Ṁ(q) − 2C(q, w) is skew-symmetric, so that wᵀ[Ṁ − 2C]w = 0, for all q, w and parameters."""
+
+    def gaps(self) -> Iterator[Gap]:
+        """∂(M_ij + M_ji)/∂q_k − 2c_ijk − 2c_jik; a skew-symmetric matrix has the quadratic form 0."""
+        for i, j in product(range(self.joints), repeat=2):
+            if j <= i:
+                same = self.inertia.mass[i][j] == self.inertia.mass[j][i]
+                for rates, gap in self.lost(i, j):
+                    other = [] if same else [(1, self.rate(j, i, k)) for k in rates]
+                    other += [] if same else [(-1, self.rate(i, j, k)) for k in rates]
+                    yield f"entry {i + 1}{j + 1}", rates, mixed([(2, gap), *other]) if gap or other else gap
+
+    def text(self) -> str:
+        """``Ṁ(q) − 2C(q, w) is skew-symmetric …``."""
+        return f"Ṁ(q) − 2C(q, w) is skew-symmetric with Ṁ along q̇ = w, so that wᵀ[Ṁ − 2C]w = 0, {self.over}"
+
+
+@compared
+@dataclass(frozen=True)
+class CoriolisTorque(_OfCoriolis):
+    """C(q, w)w is that of the Christoffel symbols of M(q), for all q, w and parameters."""
+
+    def gaps(self) -> Iterator[Gap]:
+        """What w_j w_k multiplies, and what w_j multiplies."""
+        n, own = self.joints, self.inertia.symbols
+        for i, j, k in product(range(n), range(n), range(n + 1)):
+            if j < k < n:
+                both = [(1, self.symbol(i, j, k)), (1, self.symbol(i, k, j))]
+                yield f"row {i + 1}", (j, k), mixed([*both, (-2, own.get((i, k, j), {}))])
+            elif j == k:
+                yield f"row {i + 1}", (j, j), mixed([(1, self.symbol(i, j, j)), (-1, own.get((i, j, j), {}))])
+            elif k == n:
+                yield f"row {i + 1}", (j,), self.symbol(i, j, n)
+
+    def text(self) -> str:
+        """``C(q, w)w is that of the Christoffel symbols of M …``."""
+        return f"C(q, w)w is that of the Christoffel symbols of M, {self.over}"
+
+
+@lru_cache(maxsize=256)
+def _lost_by_symbols(inertia: Inertia, i: int, j: int) -> Lost:
+    """For the Christoffel symbols; several statements ask for the same, and it can take seconds."""
+    c, entry = partial(_christoffel, inertia), inertia.mass[i][j]
+    return [((k,), _less(_slope(entry, k), c(i, j, k), c(j, i, k))) for k in range(inertia.n)]
+
+
+def _christoffel(inertia: Inertia, i: int, j: int, k: int) -> Uncertain:
+    return inertia.symbols.get((i, max(j, k), min(j, k)), {})
+
+
+def _slope(entry: Uncertain, k: int) -> Uncertain:
+    found = {power: derivative(part, k) for power, part in entry.items()}
+    return {power: part for power, part in found.items() if part}
+
+
+def _less(entry: Uncertain, first: Uncertain, second: Uncertain) -> Uncertain:
+    return mixed([(1, entry), (-1, first), (-1, second)])

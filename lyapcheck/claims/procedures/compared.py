@@ -1,0 +1,53 @@
+"""Polynomials of an arm that should be the same: by their harmonics, else a posture that tells them apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+
+from lyapcheck.check.kinds.compared import Compared, Gap, MovingPosture, SameHarmonics, differences
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.procedures.search import BITS
+
+METHOD = "comparison of polynomials in normal form"
+TRIES = 40
+
+
+def find_compared(statement: Compared) -> Finding:
+    """The harmonics of all differences, else a posture at which the first that is left is not 0."""
+    gap = next((gap for gap in statement.gaps() if gap[2]), None)
+    if gap is None:
+        return shown(SameHarmonics(), METHOD)
+    for posture in _postures(statement, gap):
+        with precision(BITS):
+            value = next(value for place, value in differences(statement, posture) if place == gap[0])
+            if value.contains(0):
+                continue
+            left = list(Enclosure.from_arb(value).decimals(12))
+        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(posture.q)}
+        point |= {f"p{i + 1}": str(end) for i, end in enumerate(posture.parameters)}
+        if any(rates for _, rates, _ in statement.gaps()):
+            point |= {f"w{i + 1}": str(rate) for i, rate in enumerate(posture.x)}
+        witness = {"point": point, "left": left, "operator": "=", "right": ["0", "0"]}
+        return replace(broken(posture, METHOD, witness), reason=f"they differ in {_words(gap)}")
+    return still_open(f"they differ in {_words(gap)}, and no posture shows it; compare by hand", METHOD)
+
+
+def _words(gap: Gap) -> str:
+    place, rates, _ = gap
+    factor = " ".join(f"w{k + 1}" for k in rates)
+    return f"{place} (the factor of {factor})" if rates else place
+
+
+def _postures(statement: Compared, gap: Gap) -> Iterator[MovingPosture]:
+    """Angles without symmetry, ends of the ranges of parameters, and rates: those of the gap first."""
+    joints = range(statement.joints)
+    chosen = tuple(Fraction(int(k in gap[1] or not gap[1])) for k in joints)
+    for step in range(1, TRIES):
+        q = tuple(Fraction(step * (2 * i + 1), 2 * i + 2) for i in joints)
+        parameters = tuple(ends[step % 2] for ends in statement.parameters)
+        yield MovingPosture(q, parameters, chosen)
+        yield MovingPosture(q, parameters, tuple(Fraction(i + 1) for i in joints))

@@ -1,0 +1,50 @@
+"""How large the torque of gravity is: sizes of harmonics, else a posture against it, else boxes of angles."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.finding import Finding, broken, shown, still_open
+
+METHOD = "gravity"
+SAMPLES = 400
+SEED = 20190301
+
+
+def find_gravity_below(statement: GravityBelow) -> Finding:
+    """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
+    if _verdict(statement, HarmonicSizes()):
+        return shown(HarmonicSizes(), f"{METHOD}: {HarmonicSizes.rule}")
+    worst = max((_sampled(statement, k) for k in range(SAMPLES)), key=lambda row: row[0])
+    if _verdict(statement, worst[1]):
+        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(worst[1].q)}
+        point |= {f"p{i + 1}": str(end) for i, end in enumerate(worst[1].parameters)}
+        left = list(Enclosure.exact(Fraction(worst[0])).decimals(6))
+        right = list(Enclosure.exact(statement.high).decimals(12))
+        witness = {"point": point, "left": left, "operator": "<=", "right": right}
+        return broken(worst[1], f"{METHOD}: a posture", witness)
+    if _verdict(statement, Bisection()):
+        return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
+    return still_open("it is not shown, and no posture breaks it; take a larger bound", METHOD)
+
+
+def _sampled(statement: GravityBelow, k: int) -> tuple[float, PostureWitness]:
+    random = np.random.default_rng(SEED + k)
+    q = tuple(Fraction(int(step), 64) for step in random.integers(-201, 202, statement.joints))
+    ends = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
+    values = [float(value) for value in statement.at(q, ends)]
+    return float(np.linalg.norm(values)), PostureWitness(q, ends, ())
+
+
+def _verdict(statement: GravityBelow, proof: Bisection | HarmonicSizes | PostureWitness) -> str:
+    try:
+        return verify(statement, proof).verdict
+    except Refused:
+        return ""

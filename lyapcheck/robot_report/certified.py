@@ -1,0 +1,239 @@
+"""Ends of the constants of an arm that certificates show, beside the sharper ones of floating point.
+
+The end that a state shows is a bound refuted at a posture; the other one is shown for all angles by boxes,
+which are for few joints, or by the sizes of harmonics, which are coarse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import (
+    Bisection,
+    CoriolisBelow,
+    HarmonicSizes,
+    MassAbove,
+    MassBelow,
+    PostureWitness,
+)
+from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.statement import Statement
+from lyapcheck.claims.bounds import ArmBounds
+from lyapcheck.claims.finding import Finding, broken, shown
+from lyapcheck.constants import SEED, Constant
+from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.files import decimal_text
+from lyapcheck.robot_report.judged import Answer, Question
+from lyapcheck.robots import RobotModel
+from lyapcheck.robots.trig import to_terms
+from lyapcheck.verdicts import Grade
+
+FEW = 3
+"""Up to so many joints boxes are asked."""
+BOXES = 2000
+"""How many boxes the search may take for one bound."""
+DIGITS = 6
+MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
+"""How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
+MARGINS_OF_MANY = (Fraction(1, 200), Fraction(1, 20))
+"""The same for k_c, whose boxes cost more and end in a coarser bound anyway."""
+BITS = 64
+SAMPLES = 4096
+SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
+
+
+@dataclass(frozen=True)
+class Certified:
+    """Both ends as certificates show them; none where there is none."""
+
+    lower: Fraction | None = None
+    upper: Fraction | None = None
+
+
+@dataclass(frozen=True)
+class _Bound:
+    """How one constant is bounded.
+
+    Args:
+        state: a bound of it as a statement.
+        boxes: whether boxes show a bound.
+        start: about the best that they can show.
+        sizes: what the sizes of harmonics show; none for λmin(M).
+        witness: the posture that shows the other end.
+        seen: the constant there.
+        margins: those that are tried.
+    """
+
+    state: Callable[[Fraction], Statement]
+    boxes: Callable[[Fraction], bool]
+    start: Fraction
+    sizes: Fraction | None
+    witness: PostureWitness
+    seen: Fraction
+    margins: tuple[Fraction, ...] = MARGINS
+
+
+def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Question]:
+    """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
+    arm = ArmBounds(model)
+    for constant in constants:
+        with precision(BITS):
+            bound = _bound(arm, constant)
+        sign = -1 if constant.name == "lambda_min" else 1
+        sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
+        outer = _outer(arm.robot.n, bound, sign)
+        if outer is not None:
+            yield _question(constant.name, sides[0], sign, bound, *outer)
+        inner = max(_rounded(bound.seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
+        if inner > 0 or sign < 0:
+            point = {f"q{i + 1}": str(angle) for i, angle in enumerate(bound.witness.q)}
+            point |= {f"x{i + 1}": str(x) for i, x in enumerate(bound.witness.x)}
+            ends = [list(Enclosure.exact(value).decimals(12)) for value in (bound.seen, inner)]
+            told = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
+            found = broken(bound.witness, "a posture", told)
+            yield _question(constant.name, sides[1], sign, bound, inner, found)
+
+
+def certified(answers: Sequence[Answer], positive: bool) -> dict[str, Certified]:
+    """The ends that the checker has accepted, by the name of the constant.
+
+    Args:
+        answers: to ``questions``.
+        positive: whether M ≻ 0 is proved: only then ‖M‖ > b, which the refutation of ‖M‖ ≤ b comes to, is a
+            statement about λmax(M).
+    """
+    found: dict[str, Certified] = {}
+    for answer in answers:
+        name, _, side = answer.question.id.rpartition(".")
+        if answer.certificate is None or (name == "lambda_max" and side == "lower" and not positive):
+            continue
+        value = _value(answer.question.statement)
+        known = found.get(name, Certified())
+        found[name] = replace(known, lower=value) if side == "lower" else replace(known, upper=value)
+    return found
+
+
+def _value(statement: Statement) -> Fraction:
+    if isinstance(statement, MassAbove):
+        return statement.low
+    if isinstance(statement, (MassBelow, CoriolisBelow, GravityBelow)):
+        return statement.high
+    raise TypeError(f"{type(statement).__name__} is no bound of a constant")
+
+
+def _question(name: str, side: str, sign: int, bound: _Bound, value: Fraction, finding: Finding) -> Question:
+    grade = Grade.EXACT if isinstance(finding.proof, HarmonicSizes) else Grade.ENCLOSURE
+    words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {decimal_text(value)}"
+    return Question(f"{name}.{side}", words, bound.state(value), replace(finding, grade=grade))
+
+
+def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, Finding] | None:
+    """The best bound for all angles that is shown, and by what."""
+    coarse = None if bound.sizes is None else _rounded(bound.sizes, sign)
+    for margin in bound.margins if n <= FEW else ():
+        value = _rounded(bound.start * (1 + sign * margin), sign)
+        if coarse is not None and coarse <= value:
+            break
+        if value > 0 and bound.boxes(value):
+            return value, shown(Bisection(), Bisection.rule)
+    return None if coarse is None else (coarse, shown(HarmonicSizes(), HarmonicSizes.rule))
+
+
+def _bound(arm: ArmBounds, constant: Constant) -> _Bound:
+    q = tuple(Fraction(x).limit_denominator(10**6) for x in constant.state[: arm.robot.n])
+    if constant.name in ("lambda_min", "lambda_max"):
+        return _of_mass(arm, constant, q)
+    return _of_coriolis(arm, constant, q) if constant.name == "k_c" else _of_gravity(arm, constant, q)
+
+
+def _of_mass(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+    low, mass, inertia = constant.name == "lambda_min", arm.mass, arm.inertia
+    rows = np.array([[float(entry) for entry in row] for row in inertia.at(q, ())])
+    vector = np.linalg.eigh(rows)[1][:, 0 if low else -1]
+    x = tuple(Fraction(float(entry)).limit_denominator(10**6) for entry in vector)
+    v = np.array([float(entry) for entry in x])
+    seen = float(v @ rows @ v / (v @ v)) if low else float(np.linalg.norm(rows @ v) / np.linalg.norm(v))
+    witness = PostureWitness(q, (), x)
+    if low:
+        return _Bound(
+            lambda value: MassAbove(mass, (), value),
+            lambda value: inertia.above(value, BOXES),
+            constant.enclosure.lower,
+            None,
+            witness,
+            Fraction(seen),
+        )
+    return _Bound(
+        lambda value: MassBelow(mass, (), value),
+        lambda value: inertia.below(value, BOXES),
+        constant.enclosure.upper,
+        inertia.largest_row(),
+        witness,
+        Fraction(seen),
+    )
+
+
+def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+    mass, inertia = arm.mass, arm.inertia
+    x = tuple(Fraction(entry).limit_denominator(10**6) for entry in constant.state[arm.robot.n :])
+    balls = [to_arb(entry) for entry in x]
+    turned = [float(entry) for entry in inertia.coriolis(q, (), balls, balls)]
+    size = float(sum(entry * entry for entry in x))
+    return _Bound(
+        lambda value: CoriolisBelow(mass, (), value),
+        lambda value: inertia.turning_below(value, BOXES),
+        _unfolded(arm.robot) if arm.robot.n <= FEW else Fraction(0),
+        arm.kc,
+        PostureWitness(q, (), x, x),
+        Fraction(float(np.linalg.norm(turned)) / size),
+        MARGINS_OF_MANY,
+    )
+
+
+def _of_gravity(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+    robot = arm.robot
+    joints = range(robot.n) if constant.name == "k_g" else [int(constant.name.removeprefix("k_g")) - 1]
+    gravity = tuple(tuple(to_terms(robot.gravity[i])) for i in joints)
+
+    def state(value: Fraction) -> GravityBelow:
+        return GravityBelow(robot.n, gravity, (), value)
+
+    entries = state(Fraction(0)).entries
+    square = sum((size_of(entry, ()) ** 2 for entry in entries), Fraction(0))
+    seen = np.linalg.norm([float(value) for value in state(Fraction(0)).at(q, ())])
+    return _Bound(
+        state,
+        lambda value: state(value).shown_by_boxes(BOXES),
+        constant.enclosure.upper,
+        size_of(entries[0], ()) if len(entries) == 1 else _root(square),
+        PostureWitness(q, (), ()),
+        Fraction(float(seen)),
+    )
+
+
+def _unfolded(robot: RobotModel) -> Fraction:
+    """About the least bound of ‖C(q, x)y‖ that boxes can show: that of the better unfolding of the c_ijk."""
+    arm = ArmWaves(robot)
+    states = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, robot.n))
+    c = arm.tensor(arm.symbols.at(states))
+    both = (np.einsum("bijk,bijl->bkl", c, c), np.einsum("bijk,bljk->bil", c, c))
+    tops = [np.linalg.eigvalsh(square)[:, -1] for square in both]
+    return _root(Fraction(float(max(np.max(np.minimum(*tops)), 0.0))))
+
+
+def _root(square: Fraction) -> Fraction:
+    """√, rounded up."""
+    with precision(BITS):
+        return Enclosure.from_arb(to_arb(square).sqrt()).upper
+
+
+def _rounded(value: Fraction, sign: int) -> Fraction:
+    """The nearest decimal number of a few digits that is not below (sign > 0), or not above."""
+    return Fraction(Enclosure.exact(value).decimals(DIGITS)[1 if sign > 0 else 0])

@@ -1,0 +1,59 @@
+"""Statements about an arm with the verdicts of a fresh process of the checker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.statement import Statement
+from lyapcheck.claims.certificates import versions
+from lyapcheck.claims.decision import Decision, decided
+from lyapcheck.claims.finding import Finding
+from lyapcheck.claims.fresh_check import judge_afresh
+from lyapcheck.claims.handover import Key
+from lyapcheck.robots import RobotModel
+
+
+@dataclass(frozen=True)
+class Question:
+    """A statement in words and as data, with what a search proposes."""
+
+    id: str
+    says: str
+    statement: Statement
+    finding: Finding
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The decision, and the certificate if the checker has accepted one."""
+
+    question: Question
+    decision: Decision
+    certificate: Certificate | None
+
+
+def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answer]:
+    """The decisions, in order."""
+    rows = list(questions)
+    made: dict[Key, Certificate] = {
+        (row.id, None): Certificate(
+            About(row.id, row.says, None, model.n, model.name),
+            row.statement,
+            row.finding.verdict.value,
+            row.finding.grade.label,
+            row.finding.proof,
+            {},
+            versions(),
+        )
+        for row in rows
+        if row.finding.proof is not None
+    }
+    told = judge_afresh(made)
+    answers = []
+    for row in rows:
+        decision = decided(row.finding, told.get((row.id, None)))
+        accepted = None if decision.certificate is None else made[row.id, None]
+        answers.append(Answer(row, decision, accepted))
+    return answers
