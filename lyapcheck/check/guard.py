@@ -61,10 +61,11 @@ class Guard:
         pairs = {name: tuple(map(tuple, found[name])) for name in ("shows", "rules", "theorems")}
         return Finding(**{**found, **pairs, "granted": tuple(found["granted"])})
 
-    def lacks(self, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
+    def lacks(self, digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
         """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""
         request = {
             "task": "premises",
+            "digest": digest,
             "claims": list(used),
             "digests": [digest for digest, _ in used.values()],
         }

@@ -48,19 +48,22 @@ def judged(content: bytes, full: bool = False) -> Finding:
         return found.refused(f"cannot be judged ({type(error).__name__}: {error})")
 
 
-def lacking(content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
+def lacking(digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
     """What the claims behind the hypotheses of its theorems fail to state; empty if nothing is missing.
 
     Args:
-        content: a certificate.
+        digest: of the certificate that was judged.
+        content: its bytes.
         used: digest and bytes of accepted certificates, by the claims that it uses.
     """
     stated: dict[str, Statement] = {}
-    for claim, (digest, text) in used.items():
+    for claim, (own, text) in used.items():
         premise, data = certificate_of(text)
-        require(data["digest"] == digest, claim, digest, "changed while it was judged")
+        require(data["digest"] == own, claim, own, "changed while it was judged")
         stated[claim] = premise.statement
-    theorems = theorems_of(certificate_of(content)[0].statement)
+    certificate, data = certificate_of(content)
+    require(data["digest"] == digest, "digest", digest, "changed while it was judged")
+    theorems = theorems_of(certificate.statement)
     found = (unmet(theorem, stated) for theorem in theorems)
     return plain(next((lacks for lacks in found if lacks is not None), ""))
 
@@ -83,6 +86,7 @@ def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full
     """What it shows, now that its proof is accepted."""
     statement = certificate.statement
     decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
+    shown = certificate.verdict == "proved"
     shows = tuple((digest_of(part), verdict, where) for part, verdict, where in decided)
     return replace(
         found,
@@ -90,7 +94,7 @@ def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full
         statement=shortened(statement.text(), full),
         statement_digest=shows[0][0],
         shows=shows,
-        theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement)),
+        theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement) if shown),
         granted=statement.granted,
         rules=tuple(sorted(set(_rules(certificate)))),
     )

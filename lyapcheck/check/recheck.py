@@ -172,7 +172,7 @@ def _lacks(one: Checked, used: dict[str, Checked], guard: Guard) -> str:
     """What the claims behind the hypotheses of its theorems fail to state."""
     try:
         premises = {claim: (its.finding.digest, content(its.document.path)) for claim, its in used.items()}
-        return guard.lacks(content(one.document.path), premises)
+        return guard.lacks(one.finding.digest, content(one.document.path), premises)
     except (OSError, ValueError) as error:
         return words(error)
 

@@ -54,7 +54,8 @@ def _answer(judging: ModuleType, request: dict[str, Any], documents: list[bytes]
         return {"finding": asdict(judging.judged(documents[0], request["full"]))}
     pairs = zip(request["digests"], documents[1:], strict=True)
     try:
-        return {"lacks": judging.lacking(documents[0], dict(zip(request["claims"], pairs, strict=True)))}
+        used = dict(zip(request["claims"], pairs, strict=True))
+        return {"lacks": judging.lacking(request["digest"], documents[0], used)}
     except Exception as error:
         return {"lacks": f"what its theorem needs cannot be judged ({type(error).__name__}: {error})"}
 

@@ -51,6 +51,11 @@ class Algebra:
         """The element for π."""
         return arb.pi()
 
+    def power_zero(self, base: Any) -> Any:
+        """1, where the base has a value."""
+        undefined = isinstance(base, arb) and not base.is_finite()
+        return arb("nan") if undefined else self.number(Fraction(1))
+
     def function(self, name: str, value: Any) -> Any:
         """An elementary function of an element."""
         return abs(value) if name == "abs" else getattr(value, name)()
@@ -150,7 +155,7 @@ def power(base: Any, exponent: int, algebra: Algebra) -> Any:
             result = base if result is None else result * base
         exponent >>= 1
         base = base * base if exponent else base
-    return algebra.number(Fraction(1)) if result is None else result
+    return algebra.power_zero(base) if result is None else result
 
 
 def family_formula(kind: str, m: int, argument: Tree) -> Tree:
@@ -195,6 +200,8 @@ def taylor(tree: Tree, name: str, centre: arb, order: int) -> list[arb]:
     try:
         series = evaluate(tree, {name: arb_series([centre, 1])}, SeriesAlgebra())
         found = list(series.coeffs())[: order + 1]
+        if series.prec < order + 1:
+            raise Unsupported("a division that loses terms of the series")
     finally:
         ctx.cap = cap
     return found + [arb(0)] * (order + 1 - len(found))

@@ -21,6 +21,9 @@ NAME = re.compile(r"[A-Za-zα-ξπ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα-ξπ-ωΓΔ
 """Latin and Greek letters, without omicron and the capitals that look Latin: no name can pass for another, or
 for part of a statement."""
 
+CONSTANT_NAME = re.compile(r"π|(γ|ρ|L|h|U)_[0-9₀-₉]+[′']*")
+"""What the text of an expression writes for constants and functions of the family."""
+
 Parts = list[Any]
 
 
@@ -128,8 +131,15 @@ def require_name(name: str) -> None:
     Raises:
         Refused: it is too long, or has other signs than letters, digits and underscores.
     """
+    require(
+        is_name(name), "variable", name, "is not a name of Latin or Greek letters, digits and underscores"
+    )
+
+
+def is_name(name: str) -> bool:
+    """Whether text names a variable, and does not read as a constant."""
     plain = len(name) <= MAX_NAME and NAME.fullmatch(name) is not None
-    require(plain, "variable", name, "is not a name of Latin or Greek letters, digits and underscores")
+    return plain and CONSTANT_NAME.fullmatch(name) is None
 
 
 def is_rational_text(value: Any) -> bool:
@@ -148,9 +158,7 @@ def _member(parts: Parts) -> bool:
 
 SHAPES: dict[str, Callable[[Parts], bool]] = {
     "num": lambda parts: len(parts) == 1 and is_rational_text(parts[0]),
-    "var": lambda parts: (
-        _types(str)(parts) and len(parts[0]) <= MAX_NAME and NAME.fullmatch(parts[0]) is not None
-    ),
+    "var": lambda parts: _types(str)(parts) and is_name(parts[0]),
     "pi": _types(),
     "neg": _types(tuple),
     "div": _types(tuple, tuple),

@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice, product
+from itertools import chain, islice, product
 from random import Random
 
 from flint import fmpq
@@ -33,6 +33,7 @@ from lyapcheck.check.kinds.every_n import (
     known_of,
     rates_fit,
     solved_at,
+    sorts_text,
     words_of,
 )
 from lyapcheck.check.kinds.every_n import at_size as identity_at_size
@@ -76,6 +77,7 @@ class BoundEveryN(Statement):
         self.identity.require_well_formed()
         used = letters(self.left)
         for known, size in self.norms:
+            require(len(known) > 0, "norms", expression_text(size), "bounds no letter")
             for letter in known:
                 sort = next((sort for sort, kind in LETTERS.items() if letter[:1] == (kind,)), "matrix")
                 require_sort(letter, sort)
@@ -121,7 +123,8 @@ class BoundEveryN(Statement):
         ]
         least = [f"{expression_text(number)} ≥ {expression_text(size)}" for number, size in self.least]
         known = "; ".join([*known_of(self.identity), *norms, *least])
-        return f"{sides} for every n and all letters, no number negative, if {known or 'nothing more'}"
+        over = sorts_text(self.terms_with_values())
+        return f"{sides} for every n and all {over}, no number negative, if {known or 'nothing more'}"
 
 
 @dataclass(frozen=True)
@@ -183,12 +186,14 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     point = coordinates(proof.point, names_at(statement, proof.n))
     for name in sorted(statement.numbers):
         require(point[name] >= 0, name, point[name], "must not be negative")
-    for tree in (side for pair in (sides, *equations) for side in pair):
+    norms = norms_at(statement, proof.n)
+    terms = chain(sides, *equations, norms.terms(), norms.entries.moving.values())
+    for tree in terms:
         require_defined_at(tree, point)
-    given = all(compared(*pair, point) == 0 for pair in equations)
+    given = all(compared(*pair, point, certain=True) == 0 for pair in equations)
     require(given, "point", proof.n, "breaks what is given")
-    require(norms_at(statement, proof.n).hold(point), "point", proof.n, "breaks a bound of the norms")
-    require(compared(*sides, point) == -1, "point", proof.n, "does not exceed the bound")
+    require(norms.hold(point, certain=True), "point", proof.n, "breaks a bound of the norms")
+    require(compared(*sides, point, certain=True) == -1, "point", proof.n, "does not exceed the bound")
     return Accepted("refuted", "enclosure")
 
 
@@ -209,6 +214,7 @@ def names_at(statement: BoundEveryN, n: int) -> set[str]:
     (left, right), equations = at_size(statement, n)
     entries = Entries(n, statement.symmetric, dict(statement.rates))
     found = statement.numbers | variables(left) | variables(right)
+    found |= {name for tree in entries.moving.values() for name in variables(tree)}
     found |= {name for pair in equations for side in pair for name in variables(side)}
     for letter in (letter for letters_of, _ in statement.norms for letter in letters_of):
         found |= set(entries.names(letter))

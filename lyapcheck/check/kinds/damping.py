@@ -13,7 +13,7 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.decreasing import Decreasing, friction_text, member_text
 from lyapcheck.check.kinds.inertia import mass_text
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Relation, Statement
@@ -60,6 +60,7 @@ class DampingBelow(Statement):
         """The statement in one line."""
         return (
             "for all κ > 0 and ε₀ > 0: if M(q) ≻ 0 and dV/dt < 0 at every state but the origin, for "
+            f"B = {friction_text(self.viscous)}, h = {member_text(self.family, self.m)}, "
             f"K_p = {diagonal_text(self.kp)} and κ K_v with K_v = {diagonal_text(self.kv)}, then "
             f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; "
             f"{mass_text(self.mass, self.parameters)}"

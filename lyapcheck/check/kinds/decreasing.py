@@ -71,12 +71,11 @@ class Decreasing(Statement):
     def text(self) -> str:
         """The statement in one line."""
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
-        member_m = "" if self.m is None else f"_{self.m}"
-        friction = ", ".join(_ends_text(ends) for ends in self.viscous)
         return (
             "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
-            f"asymptotically stable by Lyapunov's direct method: for B = diag({friction}), "
-            f"h = {self.family}{member_m}, K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
+            "asymptotically stable by Lyapunov's direct method: for "
+            f"B = {friction_text(self.viscous)}, h = {member_text(self.family, self.m)}, "
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
             f"ε₀ = {number_text(self.eps0)}{weights} and {mass_text(self.mass, self.parameters)}"
         )
 
@@ -225,6 +224,16 @@ def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomi
             value *= parameter**power
         found.append((powers[:angles], value))
     return tuple(found)
+
+
+def friction_text(viscous: Sequence[Ends]) -> str:
+    """``diag(…)`` with the numbers, or the ranges."""
+    return f"diag({', '.join(map(_ends_text, viscous))})"
+
+
+def member_text(family: str, m: int | None) -> str:
+    """The function by its name, with its m."""
+    return family if m is None else f"{family}_{m}"
 
 
 def _ends_text(ends: Ends) -> str:

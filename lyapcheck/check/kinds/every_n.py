@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from random import Random
 
 from lyapcheck.check.expressions.defined import require_defined_at
@@ -90,7 +91,8 @@ class EveryN(Statement):
         """The statement in one line."""
         sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
         known = "; ".join(known_of(self))
-        return f"{sides} for every n and all letters{f', if {known}' if known else ''}"
+        over = sorts_text(tree for tree, _ in self.terms())
+        return f"{sides} for every n and all {over}{f', if {known}' if known else ''}"
 
 
 @dataclass(frozen=True)
@@ -126,10 +128,11 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
     """Soundness: exact arithmetic at one n, with the derivatives taken entry by entry."""
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, given = at_size(statement, proof.n)
-    point = coordinates(proof.point, names_at(sides, given))
+    point = coordinates(proof.point, names_of(statement, proof.n))
     for name in statement.positive:
         require(point[name] > 0, name, point[name], "must be positive")
-    for tree in (side for pair in (sides, *given) for side in pair):
+    moving = Entries(proof.n, statement.symmetric, dict(statement.rates)).moving
+    for tree in chain(sides, *given, moving.values()):
         require_defined_at(tree, point)
     for left, right in given:
         require(exact(left, point) == exact(right, point), "point", proof.n, "breaks what is given")
@@ -165,6 +168,12 @@ def at_size(statement: EveryN, n: int) -> tuple[Equation, list[Equation]]:
     return (entries.number(statement.left), entries.number(statement.right)), given
 
 
+def names_of(statement: EveryN, n: int) -> set[str]:
+    """The variables of a statement at one n, also of derivatives that nothing asks for."""
+    moving = Entries(n, statement.symmetric, dict(statement.rates)).moving
+    return names_at(*at_size(statement, n)) | {name for tree in moving.values() for name in variables(tree)}
+
+
 def names_at(sides: Equation, given: list[Equation]) -> set[str]:
     """The variables of both sides and of what is given."""
     return set().union(*(variables(tree) for pair in (sides, *given) for tree in pair))
@@ -174,6 +183,15 @@ def words_of(statement: EveryN) -> Words:
     """The words of a statement."""
     given = {(known.matrix, known.vector): known.equals for known in statement.given}
     return Words(statement.symmetric, dict(statement.rates), given)
+
+
+def sorts_text(trees: Iterable[Tree]) -> str:
+    """The letters by what they are: ``numbers s; vectors x, y; n × n matrices M``."""
+    found: dict[str, set[str]] = {kind: set() for kind in ("var", "vec", "mat")}
+    for kind, name in {letter for tree in trees for letter in letters(tree)}:
+        found[kind].add(name)
+    named = zip(("numbers", "vectors", "n × n matrices"), found.values(), strict=True)
+    return "; ".join(f"{sort} {', '.join(sorted(names))}" for sort, names in named if names) or "letters"
 
 
 def known_of(statement: EveryN) -> list[str]:

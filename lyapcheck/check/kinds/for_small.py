@@ -20,7 +20,7 @@ from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, substitute
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
-from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations, terms_of
+from lyapcheck.check.kinds.parts import domain_of, range_text, relation_text, require_relations, terms_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_inside
@@ -55,8 +55,12 @@ class ForSmall(Statement):
 
     def text(self) -> str:
         """The statement in one line."""
-        body = conditional_text(self.variables, self.hypotheses, self.conclusion)
-        return f"for every small enough {self.small} > 0: {body}"
+        over, given = range_text(self.variables), " and ".join(map(relation_text, self.hypotheses))
+        unit = f" and all {', '.join(self.bounded)} in (0, 1]" if self.bounded else ""
+        return (
+            f"{f'for all {over}: ' if over else ''}for every small enough {self.small} > 0{unit}"
+            f"{f', if {given}' if given else ''}: {relation_text(self.conclusion)}"
+        )
 
 
 @dataclass(frozen=True)

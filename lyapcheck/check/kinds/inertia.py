@@ -63,7 +63,10 @@ def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
     n = len(mass)
     names = variable_names(n, len(parameters))
     entries = [
-        f"M{i + 1}{j + 1} = {polynomial_text(mass[i][j], names)}" for i in range(n) for j in range(i, n)
+        f"M{i + 1}{j + 1} = {polynomial_text(mass[i][j], names)}"
+        for i in range(n)
+        for j in range(n)
+        if j >= i or mass[i][j] != mass[j][i]
     ]
     return written_out(entries, f"M(q) of {n} joints", mass, parameters)
 
@@ -74,7 +77,7 @@ def written_out(entries: list[str], what: str, data: object, parameters: tuple[E
     written = ", ".join([*entries, *ranged])
     if len(written) <= LONGEST:
         return written
-    digest = sha256(repr((data, parameters)).encode()).hexdigest()[:16]
+    digest = sha256(repr((data, parameters)).encode()).hexdigest()[:32]
     more = f" and {len(parameters)} uncertain numbers" if parameters else ""
     return f"the {what}{more} with digest {digest}"
 
@@ -233,6 +236,7 @@ def by_boxes_of_both_signs(statement: MassBelow, proof: Bisection) -> Accepted:
 @rule(CoriolisBelow, Bisection)
 def by_boxes_of_symbols(statement: CoriolisBelow, proof: Bisection) -> Accepted:
     """Soundness: see :meth:`Inertia.turning_below`."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
     require(statement.high > 0, "high", statement.high, "must be positive")
     shown = statement.inertia.turning_below(statement.high)
     require(shown, "C", "", "is not shown to keep the bound by boxes")
@@ -242,6 +246,7 @@ def by_boxes_of_symbols(statement: CoriolisBelow, proof: Bisection) -> Accepted:
 @rule(CoriolisBelow, HarmonicSizes)
 def by_symbols(statement: CoriolisBelow, proof: HarmonicSizes) -> Accepted:
     """Soundness: see :meth:`Inertia.squares_of_symbols`."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
     reached = statement.inertia.squares_of_symbols()
     require(statement.high >= 0, "high", statement.high, "must not be negative")
     require(reached <= statement.high**2, "squares", reached, f"are above {statement.high}²")
@@ -260,6 +265,7 @@ def by_small_direction(statement: MassAbove, proof: PostureWitness) -> Accepted:
 @rule(MassBelow, PostureWitness)
 def by_large_direction(statement: MassBelow, proof: PostureWitness) -> Accepted:
     """Soundness: ‖M(q)x‖ > high ‖x‖ at one posture, by balls."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
     found = _at(statement, proof)
     bound = to_arb(max(statement.high, Fraction(0))) ** 2 * _square(found.x)
     require(_square(found.inertia_times_x) > bound, "posture", "", "does not show ‖Mx‖ > high ‖x‖")
@@ -269,6 +275,7 @@ def by_large_direction(statement: MassBelow, proof: PostureWitness) -> Accepted:
 @rule(CoriolisBelow, PostureWitness)
 def by_turning(statement: CoriolisBelow, proof: PostureWitness) -> Accepted:
     """Soundness: ‖C(q, x)y‖ > high ‖x‖ ‖y‖ at one posture, by balls."""
+    require(statement.inertia.symmetric, "M", "", "is not symmetric")
     found = _at(statement, proof)
     require(len(proof.y) == len(proof.x), "y", len(proof.y), f"must have {len(proof.x)} entries")
     y = [to_arb(value) for value in proof.y]

@@ -111,7 +111,8 @@ def facts_of(statement: LoopProperty, numbers: tuple[Fraction, ...]) -> list[tup
     wanted, listed = FACTS[statement.property]
     require(len(numbers) == wanted, "numbers", len(numbers), f"must be {wanted}")
     require(all(number > 0 for number in numbers), "numbers", numbers, "must be positive")
-    return listed(statement, *numbers)
+    slope = Identity(derivative(statement.h, "x"), statement.slope)
+    return [("h' is the derivative of h", slope), *listed(statement, *numbers)]
 
 
 Named = list[tuple[str, Statement]]

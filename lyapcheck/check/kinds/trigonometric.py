@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
@@ -117,6 +118,7 @@ def by_entry_out_of_bounds(statement: TrigonometricBound, proof: EntryWitness) -
     tree, bound = statement.entries[proof.entry]
     if bound is None:
         raise Refused("entry", proof.entry, "has no bound to break")
+    _require_values(statement)
     return _broken(within(tree, bound)[1 if proof.lower else 0], tree, proof)
 
 
@@ -126,6 +128,7 @@ def by_entry_not_positive(statement: TrigonometricPositive, proof: EntryWitness)
     require(0 <= proof.entry < len(statement.entries), "entry", proof.entry, "does not exist")
     require(proof.lower, "lower", proof.lower, "must be true: the bound is from below")
     tree = statement.entries[proof.entry]
+    _require_values(statement)
     return _broken(above_zero(tree), tree, proof)
 
 
@@ -155,3 +158,9 @@ def lowest(tree: Tree) -> Fraction:
 def _broken(relation: Relation, tree: Tree, proof: EntryWitness) -> Accepted:
     require_failure(relation.comparison, coordinates(proof.point, variables(tree)), proof.bits)
     return Accepted("refuted", "enclosure")
+
+
+def _require_values(statement: Statement) -> None:
+    """Refuse where an entry, also another one, may be without a value: a refutation needs them all."""
+    for tree, domain in statement.terms():
+        require_defined(tree, domain)

@@ -10,7 +10,7 @@ import re
 from typing import Any
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.expressions.grammar import MAX_DEPTH, MAX_NAME, SHAPES
+from lyapcheck.check.expressions.grammar import MAX_DEPTH, MAX_NAME, SHAPES, is_name
 from lyapcheck.check.refusal import require
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -46,7 +46,8 @@ def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPT
     operation, *parts = tree
     if operation == LETTERS[sort] or (sort, operation) == ("matrix", "diag"):
         known = len(parts) == 1 and isinstance(parts[0], str) and len(parts[0]) <= MAX_NAME
-        require(known and NAME.fullmatch(parts[0]) is not None, "letter", parts, "is not a name")
+        plain = known and NAME.fullmatch(parts[0]) is not None and is_name(parts[0])
+        require(plain, "letter", parts, "is not a name")
         return
     require(operation != "rate" or rate, "rate", tree, "may not occur here")
     for part, wanted in zip(parts, _sorts(operation, parts, sort), strict=True):

@@ -6,7 +6,7 @@ nothing with the words; and where a statement is false, such entries may show it
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
@@ -58,10 +58,10 @@ def _at(entry: Tree, point: Point) -> object:
     return rational(point[entry[1]])
 
 
-def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
+def compared(left: Tree, right: Tree, point: Mapping[str, Fraction], certain: bool = False) -> int | None:
     """The sign of right − left at a point: exactly in ℚ, else by balls; ``None`` where these do not tell.
 
-    Balls that agree to half of their bits count as equal.
+    Balls that agree to half of their bits count as equal, unless the answer has to be ``certain``.
 
     Raises:
         ZeroDivisionError: there is no value.
@@ -77,6 +77,8 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | No
         found, size = ball(gap, balls), ball(("add", ("abs", left), ("abs", right)), balls)
         if found > 0 or found < 0:
             return 1 if found > 0 else -1
+        if certain:
+            return None
         small = abs(found) < (1 + size) * arb(2) ** (-BITS // 2)
         return 0 if small else None
 
@@ -95,7 +97,7 @@ class Norms:
     norms: tuple[tuple[tuple[Tree, ...], Tree], ...]
     least: tuple[tuple[Tree, Tree], ...]
 
-    def hold(self, point: Mapping[str, Fraction]) -> bool:
+    def hold(self, point: Mapping[str, Fraction], certain: bool = False) -> bool:
         """Whether all bounds are met, as balls show; a full matrix is taken at its Frobenius norm."""
         with ctx.workprec(BITS):
             balls = {name: ball_of(value) for name, value in point.items()}
@@ -104,9 +106,15 @@ class Norms:
                 if not (bound >= 0 and ball_of(self.squared(letters, point)) <= bound * bound):
                     return False
         for number, size in self.least:
-            if compared(size, self.entries.number(number), point) not in (0, 1):
+            if compared(size, self.entries.number(number), point, certain) not in (0, 1):
                 return False
         return True
+
+    def terms(self) -> Iterator[Tree]:
+        """All expressions in the bounds, entry by entry."""
+        yield from (size for _, size in self.norms)
+        for number, size in self.least:
+            yield from (self.entries.number(number), size)
 
     def squared(self, letters: Iterable[Tree], point: Mapping[str, Fraction]) -> Fraction:
         """The square of a product of norms, from above."""

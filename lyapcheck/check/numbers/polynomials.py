@@ -66,6 +66,8 @@ def nonnegative_on(poly: fmpq_poly, low: End, high: End) -> bool:
     """Whether ``poly >= 0`` on the closed interval from low to high; never undecided."""
     if not poly or _positive_by_coefficients(poly, low, high):
         return True
+    if low is not None and low == high:
+        return sign_at(poly, low) >= 0
     point = inner_point(poly, low, high)
     return sign_at(poly, point) >= 0 and _inside(odd_part(poly), low, high) == 0
 
@@ -79,6 +81,8 @@ def positive_on(
     ends = [end for end, is_open in ((low, open_low), (high, open_high)) if end is not None and not is_open]
     if any(sign_at(poly, end) <= 0 for end in ends):
         return False
+    if low is not None and low == high:
+        return True
     if _positive_by_coefficients(poly, low, high):
         return True
     return sign_at(poly, inner_point(poly, low, high)) > 0 and _inside(poly, low, high) == 0
