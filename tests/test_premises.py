@@ -181,7 +181,6 @@ TIME_VARYING = (
         *(("scalar.py", "arm.stable", name) for name in ("h.bounds", "arm.M", "arm.C", "arm.theta")),
         *(("tracking.py", "21", name) for name in (*TIME_VARYING, "21.small")),
         *(("tracking.py", "arm.21", name) for name in ("arm.M", "arm.C", "arm.21.theta")),
-        ("published.py", "P", "12p"),
         ("examples/arctan.py", "stable", "sizes"),
     ],
 )

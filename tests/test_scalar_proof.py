@@ -40,13 +40,21 @@ def altered(tmp_path):
 def test_every_step_is_proved_for_the_gains_of_the_paper(result):
     assert {row.verdict for row in result.claims} == {Verdict.PROVED}
     assert result.exit_code is Exit.PROVED
-    stable = {(row.id, row.m) for row in result.claims if "asymptotically" in row.statement}
-    assert stable == {(name, m) for name in ("arms.stable", "arms.all", "arm.stable") for m in (1, 2, 3)}
+    concluding = [row for row in result.claims if "asymptotically" in row.statement]
+    kinds = {(row.id, type(row.stated).__name__) for row in concluding}
+    assert kinds == {
+        ("arms.stable", "Theorem"),
+        ("arms.all", "Theorem"),
+        ("arm.stable", "Theorem"),
+        ("arm.states", "Decreasing"),
+        ("arm.ranges", "Decreasing"),
+    }
+    assert {(row.id, row.m) for row in concluding} == {(name, m) for name, _ in kinds for m in (1, 2, 3)}
 
 
 def test_every_conclusion_rests_on_the_chain_below_it(result):
     uses = {row.id: set(row.uses) for row in result.claims}
-    assert {"rate.form", "arm.theta", "arm.M", "arm.C", "arm.B", "V.positive"} <= uses["arm.stable"]
+    assert {"rate.form", "arm.theta", "arm.M", "arm.C", "h.bounds", "V.positive"} <= uses["arm.stable"]
     assert uses["rate.form"] == {f"rate.{k}" for k in range(1, 12)}
 
 
@@ -127,7 +135,7 @@ def test_without_friction_nothing_is_concluded_about_the_arm():
     model = load("buap3")
     number = replace(model.viscous[0], value=Fraction(0), low=None, high=None)
     found = verdicts("scalar.py", robot=replace(model, viscous=(number, *model.viscous[1:])))
-    assert found["arm.B"] == "refuted"
+    assert found["arm.M"] == found["arm.C"] == "proved"
     assert found["arm.stable"] == found["arm.theta"] == found["arm.states"] == "undecided"
     assert found["arms.all"] == "proved"
 
@@ -145,6 +153,14 @@ def test_large_members_and_many_joints_for_every_arm():
 
 # Faults -----------------------------------------------------------------------------------------------------
 
+FUNCTION = "h(case.m, x), dh(case.m, x), potential(case.m, x)"
+"""h, h' and U as every property of V takes them."""
+BOUNDS = "FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))"
+LESS = [
+    BOUNDS.replace("gamma(case.m)", "1"),
+    BOUNDS.replace("rho(case.m)", "1"),
+    BOUNDS.replace("secant_bound(case.m)", "expr('0.8')"),
+]
 FAULTS = [
     (
         "h.slope",
@@ -154,13 +170,15 @@ FAULTS = [
     ("h.bound", "every_entry=for_all(h(case.m, x) <= known.gamma)", "every_entry=for_all(h(case.m, x) <= 1)"),
     ("h.steep", "dh(case.m, x) <= known.rho", "dh(case.m, x) <= known.gamma"),
     ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
-    ("V.positive", "expr(1) < 1 + sinh(x)", "expr(1) < 1 - sinh(x)"),
-    ("V.unbounded", "(exp(x) / 4)", "(exp(x) / 1)"),
-    (
-        "equilibrium",
-        "dot(z, loops.force(still)), dot(z, scaled(s.kp, s.h))",
-        "dot(z, loops.force(s)), dot(z, scaled(s.kp, s.h))",
-    ),
+    *(("h.bounds", BOUNDS, wrong) for wrong in LESS),
+    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) + 1"),
+    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), 2 * potential(case.m, x)"),
+    ("V.unbounded", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) / 2"),
+    ("V.unbounded", FUNCTION, "x, expr(1), x**2 / 2"),
+    ("V.smooth", FUNCTION, "h(case.m, x), 2 * dh(case.m, x), potential(case.m, x)"),
+    ("V.smooth", FUNCTION, "x**3, 3 * x**2, x**4 / 4"),
+    ("equilibrium", FUNCTION, "-h(case.m, x), -dh(case.m, x), -potential(case.m, x)"),
+    ("equilibrium", FUNCTION, "x**3 - x, 3 * x**2 - 1, x**4 / 4 - x**2 / 2"),
     ("rate", "total(loops.terms(s))", "total(loops.terms(s)[1:])"),
     ("rate", "rate(dot(s.e, s.e))", "rate(dot(s.e, s.w))"),
     ("rate.1", '["h.odd"], [], ["damping"]', '["h.odd"], ["w"]'),
@@ -175,13 +193,24 @@ FAULTS = [
     ("rate.form", "return eps * k, -eps / 2", "return eps * k, -eps / 3"),
     ("arms.theta", "d + eps0 * c) ** 2 / 4 < k", "d + eps0 * c) ** 2 / 8 < k"),
     ("arms.small", "side**2 < corner * low", "corner * low < side**2"),
-    ("arm.M", "expr(row) <= arm.beta", "2 * expr(row) <= arm.beta"),
-    ("arm.B", "expr(number.value) <= arm.b_max", "expr(number.value) < arm.b_max"),
+    ("arm.M", "arm.mass_above()", "arm.mass_above(1000)"),
+    ("arm.M", "arm.mass_below()", "type(arm.mass_below())(arm.mass, (), arm.beta / 2)"),
+    (
+        "arm.C",
+        "ArmBounds(case.robot).coriolis_below()",
+        "(lambda arm: type(arm.coriolis_below())(arm.mass, (), arm.kc / 100))(ArmBounds(case.robot))",
+    ),
+    ("arm.stable", '"b_min": arm.b_min', '"b_min": 2 * arm.b_min'),
+    ("arm.stable", '"b_max": arm.b_max', '"b_max": arm.b_max / 2'),
+    ("arm.stable", '"kp": min(case.gains.kp)', '"kp": 2 * min(case.gains.kp)'),
+    ("arm.stable", '"kv_max": max(case.gains.kv)', '"kv_max": max(case.gains.kv) / 2'),
+    ("arm.stable", '"eps0": eps0_of(case)', '"eps0": 2 * eps0_of(case)'),
+    ("arm.stable", "arm=ArmBounds(case.robot).under(case.gains), ", ""),
     ("arm.properties", "plus(turning, transpose(turning))", "plus(turning, turning)"),
 ]
 
 
-@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS, ids=[row[0] for row in FAULTS])
+@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS, ids=[f"{row[0]}: {row[2]}" for row in FAULTS])
 def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
     assert verdicts(altered(right, wrong), (claim,))[claim] in ("refuted", "undecided")
 

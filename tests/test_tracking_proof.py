@@ -151,6 +151,7 @@ def test_an_eps0_that_is_too_large_is_refuted(altered):
     assert verdicts(path, ("arm.21.theta", "21")) == {"arm.21.theta": "refuted", "21": "proved"}
 
 
+FUNCTION = "h(case.m, x), dh(case.m, x), potential(case.m, x)"
 FAULTS = [
     ("21.loop", "scaled(s.kp, s.h) - scaled(s.kv, s.hw)", "scaled(s.kp, s.h) + scaled(s.kv, s.hw)"),
     ("21.loop", "+ s.C @ speed + weight", "+ s.C @ s.w + weight"),
@@ -161,18 +162,25 @@ FAULTS = [
     ("21.9", "eps**2 * kc * vd * a**2 +", "eps**2 * kc * vd * a**2 / 2 +"),
     ("21.form", "return eps * (k - eps * turn),", "return eps * k,"),
     ("21.form", "-eps / 2 * (d + turn + eps * c)", "-eps / 2 * (d + eps * c)"),
-    ("21.below", "mu * yy / 2 + stored <=", "mu * yy + stored <="),
-    ("21.above", "<= beta * yy / 2 + stored", "<= beta * yy / 3 + stored"),
+    ("21.loop", "function_of(case), desired=True", "(-h(case.m, x), -dh(case.m, x), x), desired=True"),
+    ("21.below", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) + 1"),
+    ("21.below", FUNCTION, "h(case.m, x), dh(case.m, x), 2 * potential(case.m, x)"),
+    ("21.above", FUNCTION, "-h(case.m, x), -dh(case.m, x), -potential(case.m, x)"),
+    ("21.above", FUNCTION, "h(case.m, x), dh(case.m, x), x**2"),
     (
         "21.small",
         'nonnegative("more", "kv_max", "kc", "vd")',
         'nonnegative("more", "kv_max", "kc", "vd", "b_min")',
     ),
-    ("arm.inertia", "expr(0) < mu", "expr(1) < mu"),
+    ("arm.inertia", "arm.mass_above(arm.guessed_floor())", "arm.mass_above(4 * arm.guessed_floor())"),
+    ("arm.21", '"vd": SPEED', '"vd": 2 * SPEED'),
+    ("arm.21", '"beta": arm.beta', '"beta": arm.beta / 100'),
+    ("arm.21", '"kc": arm.kc,', '"kc": arm.kc / 100,'),
+    ("arm.21", "arm=arm.under(case.gains), ", ""),
 ]
 
 
-@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS, ids=[row[0] for row in FAULTS])
+@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS, ids=[f"{row[0]}: {row[2]}" for row in FAULTS])
 def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
     path = altered(right, wrong)
     if claim == "21.small":  # friction that may vanish: b_min is no longer positive
@@ -195,7 +203,7 @@ def test_claims_can_be_adopted_from_another_script(tmp_path):
     path.write_text(head + own + "proof.adopt('scalar.py', 'rate.5', section='Theirs')\n", encoding="utf-8")
     rows = {row.id: row for row in run_proof(path, ms=(1,), n=2).claims}
     assert {"rate.5", "rate", "V.smooth", "h.steep"} <= set(rows)
-    assert rows["h.bound"].statement == "mine"
+    assert (rows["h.bound"].statement, rows["h.bound"].comment) == ("1 ≤ 2", "mine")
     assert rows["rate.5"].section == "Theirs"
     path.write_text(head + "proof.adopt('scalar.py', 'rate.55')\n", encoding="utf-8")
     with pytest.raises(InputError, match=r"did you mean rate\.5"):

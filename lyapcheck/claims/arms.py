@@ -6,34 +6,11 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.claims.case import lacking
 from lyapcheck.claims.expressions import Expr, cos, diff, expr, sin, total, var
 from lyapcheck.claims.products import Matrix, Vector, vector
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
-
-
-MOST_ROWS = 4
-
-
-def determinant(a: Matrix) -> Expr:
-    """det A, by expansion along the first row."""
-    if len(a) == 1:
-        return a[0][0]
-    minors = ([row[:j] + row[j + 1 :] for row in a[1:]] for j in range(len(a)))
-    return total((-1) ** j * a[0][j] * determinant(minor) for j, minor in enumerate(minors))
-
-
-def leading_minors(a: Matrix) -> Vector:
-    """The leading principal minors: a symmetric A is positive definite where all are positive (Sylvester).
-
-    Raises:
-        Lacking: for more rows than determinants can be written out for.
-    """
-    if len(a) > MOST_ROWS:
-        raise lacking(f"the determinants of {len(a)} rows are too large to be written out")
-    return [determinant([row[:k] for row in a[:k]]) for k in range(1, len(a) + 1)]
 
 
 def mass_matrix(robot: RobotModel) -> Matrix:

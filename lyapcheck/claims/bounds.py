@@ -18,7 +18,7 @@ from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.inertia import CoriolisBelow, Mass, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import secant_fact, sign_facts, size_facts, slope_facts
-from lyapcheck.check.kinds.trigonometric import largest, lowest
+from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Relation
@@ -59,11 +59,6 @@ def below(value: object, digits: int = DIGITS) -> Fraction:
 def entry_sizes(entries: Iterable[Expr]) -> list[Fraction]:
     """For each polynomial in sines and cosines a number that its absolute value does not exceed."""
     return [largest(entry.tree) for entry in entries]
-
-
-def entry_floors(entries: Iterable[Expr]) -> list[Fraction]:
-    """For each polynomial in sines and cosines a number that it does not fall below."""
-    return [lowest(entry.tree) for entry in entries]
 
 
 class FamilyBounds:

@@ -1,0 +1,104 @@
+"""An arm whose M(q) is not positive definite at some postures: nothing says that it is stable."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
+from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.claims import ArmBounds, decreasing, run_proof
+from lyapcheck.claims.procedures import propose
+from lyapcheck.cli.main import build_app
+from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.robots import load
+
+GAINS = paper_gain_file("table2_shoulder_elbow")
+ARM = """
+title = "M11 = 1 + 1.05 cos q2, which is below 0 where q2 is near π"
+source = "no arm has it"
+
+[numbers]
+inertia = {{ value = 1, unit = "kg·m²" }}
+swing = {{ value = {swing}, unit = "kg·m²" }}
+
+[model]
+M11 = [[1, "inertia"], [1, "swing c2"]]
+M12 = []
+M22 = [[1, "inertia"]]
+potential = []
+
+[[joints]]
+name = "shoulder"
+viscous = 2
+torque_limit = 150
+
+[[joints]]
+name = "elbow"
+viscous = 2
+torque_limit = 15
+"""
+
+
+def arm(folder: Path, swing: str = "1.05") -> Path:
+    """The file of the arm."""
+    path = folder / f"swing{swing}.toml"
+    path.write_text(ARM.format(swing=swing), encoding="utf-8")
+    return path
+
+
+def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(tmp_path: Path) -> None:
+    gains = read_gain_file(GAINS).gains[0]
+    statement = decreasing(load(str(arm(tmp_path))), gains, "0.001")
+    decision = propose(statement)
+    assert decision.verdict.value == "refuted"
+    assert isinstance(decision.proof, PostureWitness)
+    assert verify(statement, decision.proof).verdict == "refuted"
+
+
+def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) -> None:
+    gains = read_gain_file(GAINS).gains[0]
+    definite = decreasing(load(str(arm(tmp_path, "0.5"))), gains, "0.001")
+    decision = propose(definite)
+    assert decision.verdict.value == "proved"
+    assert isinstance(decision.proof, PositiveAndDecreasing)
+    assert decision.proof.inertia == Bisection()
+    with pytest.raises(Refused):
+        verify(decreasing(load(str(arm(tmp_path))), gains, "0.001"), decision.proof)
+
+
+def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
+    claims = ("arm.M", "arm.C", "arm.theta", "arm.stable", "arm.states", "arm.ranges", "arms.all")
+    result = run_proof("scalar.py", ms=(1,), robot=str(arm(tmp_path)), gains=GAINS, only=claims)
+    found = {row.id: row.verdict.value for row in result.claims}
+    assert found == {
+        "arm.M": "refuted",
+        "arm.C": "proved",
+        "arm.theta": "proved",
+        "arm.stable": "undecided",
+        "arm.states": "refuted",
+        "arm.ranges": "refuted",
+        "arms.all": "proved",
+    }
+    said = [row for row in result.claims if row.verdict.value == "proved" and "stable" in row.statement]
+    assert [row.id for row in said] == ["arms.all"], "for every arm with Property 2.1, which this one lacks"
+    assert "every arm of 2 joints with Properties 2.1 to 2.7" in said[0].statement
+
+
+def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path: Path) -> None:
+    folder = tmp_path / "certificates"
+    options = ["--m", "1", "--starts", "4", "--max-boxes", "100", "--certificates", str(folder)]
+    run = CliRunner().invoke(
+        build_app(("epsilon", "recheck")), ["epsilon", str(GAINS), "--robot", str(arm(tmp_path)), *options]
+    )
+    assert run.exit_code != 2, run.output
+    assert [path.name for path in folder.iterdir()] == ["tau_m1.falsified.json"]
+    assert "asymptotically stable" not in run.output
+
+
+def test_bounds_of_m_know_it(tmp_path: Path) -> None:
+    bounds = ArmBounds(load(str(arm(tmp_path))))
+    assert propose(bounds.mass_above()).verdict.value == "refuted"
+    assert propose(bounds.mass_below()).verdict.value == "proved"
