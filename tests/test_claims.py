@@ -362,6 +362,6 @@ def test_the_hypotheses_of_a_bound_are_printed_with_it():
         x * dot(V, W), x * a * b, [(V, a), ((x, W), b), (diagonal(W), c)], [(dot(V, W), 0)]
     )
     assert statement.text() == (
-        "x·Vᵀ·W ≤ x·a·b for every n and all letters, no number negative, "
+        "x·Vᵀ·W ≤ x·a·b for every n and all numbers a, b, c, x; vectors V, W, no number negative, "
         "if ‖V‖ ≤ a; ‖x‖‖W‖ ≤ b; ‖diag(W)‖ ≤ c; Vᵀ·W ≥ 0"
     )

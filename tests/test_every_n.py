@@ -303,10 +303,15 @@ def test_a_proof_by_words_of_something_false_is_refused():
 
 
 def test_it_is_written_out_for_readers():
-    assert every_n(form(x, S, y), form(y, S, x), [S]).text() == ("xᵀ·S·y = yᵀ·S·x for every n, with Sᵀ = S")
-    assert TRUE["what is given, transposed"].text() == ("(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n, with A·x = 2·z")
+    assert every_n(form(x, S, y), form(y, S, x), [S]).text() == (
+        "xᵀ·S·y = yᵀ·S·x for every n and all vectors x, y; n × n matrices S, if Sᵀ = S"
+    )
+    assert TRUE["what is given, transposed"].text() == (
+        "(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n and all vectors x, y, z; n × n matrices A, if A·x = 2·z"
+    )
     moving = every_n(rate(s * dot(x, x + d)), expr(0), rates=[(x, -y), (d, zero_vector()), (s, t)])
     assert moving.text() == (
-        "d/dt(s·xᵀ·(x + d)) = 0 for every n, with d/dt(x) = (−1)·y, d/dt(d) = 0, d/dt(s) = t"
+        "d/dt(s·xᵀ·(x + d)) = 0 for every n and all numbers s, t; vectors d, x, y, "
+        "if d/dt(x) = (−1)·y; d/dt(d) = 0; d/dt(s) = t"
     )
     assert "wᵀ·diag(Kp)·h − wᵀ·diag(Kp)·h = 0 for every n" in str(explain("15"))

@@ -357,12 +357,18 @@ def is_running(pid):
         return False
 
 
+def interruptible():
+    """A shell lets what it runs in the background ignore Ctrl-C; here it is not to."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts processes as Linux lists them")
 @pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
 def test_no_process_is_left_behind(folder, command, number, code):
     (folder / "slow.json").write_text(SLOW, encoding="utf-8")
-    with subprocess.Popen([*command, str(folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as parent:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen([*command, str(folder)], **pipes, preexec_fn=interruptible) as parent:  # noqa: PLW1509
         deadline = time.monotonic() + 20
         while not (found := children(parent.pid)) and time.monotonic() < deadline:
             time.sleep(0.05)

@@ -163,7 +163,7 @@ def test_no_clock_and_no_path_of_this_machine(files: dict[str, str]) -> None:
 
 def claim(claim_id: str, m: int | None, verdict: str) -> dict[str, Any]:
     witness = {"point": {"x": "3/2"}, "left": ["1.0", "1.0"], "operator": "<=", "right": ["0", "0"]}
-    return {"id": claim_id, "m": m, "verdict": verdict, "statement": "1 ≤ 0", "witness": witness}
+    return {"id": claim_id, "m": m, "verdict": verdict, "comment": "one is small", "witness": witness}
 
 
 def test_refuted_claims_become_one_finding_for_all_their_members() -> None:
