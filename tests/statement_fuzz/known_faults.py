@@ -161,7 +161,7 @@ FAULTS: tuple[KnownFault, ...] = (
     ),
     KnownFault(
         "log to the power 0 at 0",
-        for_all(log(x) ** 0 < x, 0),
+        for_all(log(x) ** 0 < x, 0, 0),
         Witness((("x", Fraction(0)),)),
         "enclosure",
         "refuted",
