@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.every_n import (
     EveryN,
     at_size,
     in_words,
-    names_at,
+    names_of,
     rates_fit,
     solved_at,
 )
@@ -62,7 +62,7 @@ def _attempts(statement: EveryN) -> Iterator[tuple[int, Point]]:
     random = Random(SEED)
     for n in SIZES:
         for _ in range(TRIES):
-            names = names_at(*at_size(statement, n))
+            names = names_of(statement, n)
             try:
                 yield n, solved_at(statement, n, drawn(names, statement.positive, random))
             except (Unsupported, ZeroDivisionError):
