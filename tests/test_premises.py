@@ -279,7 +279,8 @@ def test_which_facts_a_property_rests_on():
         name: {fact for fact, _ in facts_of(one, (Fraction(1),) * FACTS[name][0])}
         for name, one in statement.items()
     }
-    sign = {"h(−x) = −h(x)", "0 < h(x) for x > 0"}
+    slope = "h' is the derivative of h"
+    sign = {slope, "h(−x) = −h(x)", "0 < h(x) for x > 0"}
     definite = {"U' = h", "U(0) = 0", *sign}
     assert found == {
         "the origin is the only equilibrium": {*sign, "the loop that the controller closes"},
@@ -287,10 +288,17 @@ def test_which_facts_a_property_rests_on():
         "V is positive definite": definite,
         "V is bounded below by a positive definite function": definite,
         "V is bounded above by a positive definite function": definite,
-        "V is radially unbounded": {"U' = h", "h(−x) = −h(x)", "c ≤ h(x) from some x on", "h ≤ γ", "−γ ≤ h"},
+        "V is radially unbounded": {
+            slope,
+            "U' = h",
+            "h(−x) = −h(x)",
+            "c ≤ h(x) from some x on",
+            "h ≤ γ",
+            "−γ ≤ h",
+        },
         "V is continuously differentiable": {
             "U' = h",
-            "h' is the derivative of h",
+            slope,
             "h' ≤ ρ",
             "−ρ ≤ h'",
             "|h(x)| ≤ L|x|",

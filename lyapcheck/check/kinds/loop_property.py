@@ -111,8 +111,9 @@ def facts_of(statement: LoopProperty, numbers: tuple[Fraction, ...]) -> list[tup
     wanted, listed = FACTS[statement.property]
     require(len(numbers) == wanted, "numbers", len(numbers), f"must be {wanted}")
     require(all(number > 0 for number in numbers), "numbers", numbers, "must be positive")
-    slope = Identity(derivative(statement.h, "x"), statement.slope)
-    return [("h' is the derivative of h", slope), *listed(statement, *numbers)]
+    slope = ("h' is the derivative of h", Identity(derivative(statement.h, "x"), statement.slope))
+    found = listed(statement, *numbers)
+    return found if slope in found else [slope, *found]
 
 
 Named = list[tuple[str, Statement]]
