@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 _pending: set[str] = set()
 
@@ -19,6 +20,13 @@ def pending(path: str | Path) -> Iterator[None]:
         yield
     finally:
         _pending.discard(str(path))
+
+
+@contextmanager
+def temporary_folder() -> Iterator[str]:
+    """A new folder that is removed at the end, also where the command is ended by a signal."""
+    with TemporaryDirectory(prefix="lyapcheck-") as folder, pending(folder):
+        yield folder
 
 
 def clear() -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -49,11 +50,10 @@ def verdict(path, claim="false"):
 ATTACKS = {
     "the judge": """
 import sys
-import lyapcheck.check.certificates as package
 import lyapcheck.claims.procedures as searches
-judge = sys.modules['lyapcheck.check.certificates.verify']
+judge = sys.modules['lyapcheck.check.verify']
 yes = lambda *anything: judge.Accepted("proved", "exact")
-judge.verify = package.verify = searches.verify = searches.propose = yes
+judge.verify = searches.verify = searches.propose = yes
 judge.RULES.update({pair: yes for pair in judge.RULES})
 """,
     "json": "import json\njson.loads = json.load = lambda *a, **k: {'certificates': []}\n",
@@ -84,7 +84,7 @@ def test_a_false_claim_stays_false_whatever_its_script_patches(write, name, tmp_
 
 def test_a_script_cannot_alter_what_explain_prints(write):
     body = "import lyapcheck.claims.explain_formats as f\nf.text = lambda found: 'all is well'\n"
-    body += "import lyapcheck.claims.statement_text as t\nt.statement_text = lambda one: '1 ≤ 2'\n"
+    body += "from lyapcheck.check.kinds.constant import Constant\nConstant.text = lambda self: '1 ≤ 2'\n"
     text = str(explain("false", str(write(body + FALSE))))
     assert "2 ≤ 1" in text
     assert "all is well" not in text
@@ -119,9 +119,9 @@ def test_what_a_script_prints_goes_to_standard_error(write, tmp_path):
         ("proof.add(7, '', Constant(expr(1) <= 2))", "must be of type str"),
         ("proof.add('a', '', Constant(7))", "a.relation = 7: must be an object"),
         ("proof.add('a', '', Constant(object()))", "not plain data"),
-        ("class Mine(Statement):\n    pass\nproof.add('a', '', Mine())", "not plain data|does not know|kind"),
+        ("class Mine(Statement):\n    pass\nproof.add('a', '', Mine())", "abstract class Mine"),
         ("class Mine(Constant):\n    pass\nproof.add('a', '', Mine(expr(1) <= 2))", "Mine: is not a kind"),
-        ("proof.add('a', '\\udc80', Constant(expr(1) <= 2))", "not Unicode text"),
+        ("proof.add('a', '\\udc80', Constant(expr(1) <= 2))", "not plain Unicode text"),
         ("import lyapcheck.claims.handover as h\nh.json.dumps = lambda *a, **k: '{}'", "does not hand over"),
     ],
 )
@@ -136,7 +136,7 @@ def test_what_no_checker_reads_is_undecided(write, levels):
     body += "proof.add('a', '', Identity(t, t))\n"
     row = rows(write(body))["a", None]
     assert row.verdict is Verdict.UNDECIDED
-    assert "nested deeper than 300 levels" in row.decision.reason
+    assert re.search(r"nested deeper than \d+ levels", row.decision.reason)
 
 
 def test_what_comes_back_is_limited(write, monkeypatch):

@@ -9,7 +9,6 @@ import subprocess
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.handover import Handover, Request, read
@@ -17,6 +16,7 @@ from lyapcheck.claims.order import in_order
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.claims.script import check_ids
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.temporary import temporary_folder
 
 MAX_BYTES = 400_000_000
 STANDARD_ERROR = 2
@@ -30,7 +30,7 @@ def ask(request: Request) -> Handover:
     Raises:
         InputError: the script cannot be used, or hands over something else.
     """
-    with TemporaryDirectory(prefix="lyapcheck-") as folder:
+    with temporary_folder() as folder:
         answer = Path(folder, "answer.json")
         code = _run(replace(request, answer=str(answer)))
         told = _read(answer, request, code)

@@ -7,12 +7,12 @@ import subprocess
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.python_process import command, environment
+from lyapcheck.temporary import temporary_folder
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
     if not certificates:
         return {}
     files = {f"{number}.json": key for number, key in enumerate(certificates)}
-    with TemporaryDirectory(prefix="lyapcheck-") as folder:
+    with temporary_folder() as folder:
         for name, key in files.items():
             Path(folder, name).write_text(certificates[key].text(), encoding="utf-8")
         words = command("lyapcheck.check", "--format", "json", folder)

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from lyapcheck.check.certificate import TOO_DEEP as DOCUMENT_TOO_DEEP
 from lyapcheck.check.certificate import parse
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.expressions.grammar import MAX_DEPTH
@@ -133,6 +134,6 @@ def _statement(line: str, claim: str) -> Statement | Missing:
     try:
         return from_json(Statement, parse(line), claim)
     except Refused as refusal:
-        if refusal.rule == TOO_DEEP:
-            return Missing(f"its statement {TOO_DEEP}")
+        if refusal.rule in (TOO_DEEP, DOCUMENT_TOO_DEEP):
+            return Missing(f"its statement {refusal.rule}")
         raise
