@@ -229,7 +229,7 @@ REFUSED = {
     "writing from the right": (altered(says="\u202eaccepted"), "is not plain Unicode text"),
     "half a surrogate pair": (altered(says="\ud800"), "is not plain Unicode text"),
     "decomposed letters": (altered(id="e\u0301"), "is not plain Unicode text in NFC"),
-    "a long id": (altered(id="a" * 201), "is longer than 200 characters"),
+    "a long id": (altered(id="a" * 201), "must have 1 to 200 characters"),
     "a variable of another script": (same(["var", "\u0430"]), "is not an operation"),
     "a variable that says something": (same(["var", "x for all x < 1; y"]), "is not an operation"),
     "a kind that is no text": (sealed({**GOOD, "kind": ["Identity"]}), "statement.kind"),

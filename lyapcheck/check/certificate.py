@@ -157,7 +157,9 @@ def read(data: Any) -> Certificate:
         require(DIGEST.fullmatch(digest) is not None, "uses", digest, "is not a digest")
     claim = from_json(About, content["claim"], "claim")
     for name in (claim.id, *uses):
-        require(len(name) <= MAX_NAME, "id of a claim", name, f"is longer than {MAX_NAME} characters")
+        require(0 < len(name) <= MAX_NAME, "id of a claim", name, f"must have 1 to {MAX_NAME} characters")
+    for name, count in (("m", claim.m), ("n", claim.n)):
+        require(count is None or count >= 1, f"claim.{name}", count, "must be at least 1")
     return Certificate(
         claim,
         from_json(Statement, content["statement"], "statement"),
