@@ -337,6 +337,17 @@ def test_whatever_ends_the_process_that_judges_ends_no_more_than_that(folder, nu
         assert not guard.judge(good, False).reason
 
 
+def test_a_large_parent_does_not_count_as_memory_of_the_process_that_judges(folder):
+    script = (
+        "import sys; from pathlib import Path; from lyapcheck.check.guard import Guard, Limits\n"
+        "large = bytearray(b'x') * (700 << 20)\n"
+        "with Guard(Limits()) as guard:\n"
+        "    assert not guard.judge(Path(sys.argv[1]).read_bytes(), False).reason\n"
+        "    assert guard._process is not None\n"
+    )
+    subprocess.run([sys.executable, "-c", script, str(folder / "good.json")], check=True)
+
+
 def test_too_little_memory_to_start_is_not_the_fault_of_a_certificate(folder):
     with Guard(Limits(memory=1)) as guard, pytest.raises(CannotStart):
         guard.judge((folder / "good.json").read_bytes(), False)

@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import asdict
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from types import ModuleType
 from typing import IO, Any
 
@@ -93,8 +94,17 @@ def _limit_seconds(limits: Limits) -> None:
 
 def _is_spent(limits: Limits) -> bool:
     """Whether the process has grown so much that the next certificate would have less memory."""
+    return _most_memory() * SHARE > limits.memory * 2**20
+
+
+def _most_memory() -> int:
+    """The most bytes that this process has had in memory; 0 where the system does not say."""
+    with suppress(OSError, ValueError):
+        # Not ru_maxrss: there Linux counts what the parent had when it started this process.
+        for line in Path("/proc/self/status").read_text("ascii", "replace").splitlines():
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) * 1024
     if resource is None:
-        return False
-    unit = 1 if sys.platform == "darwin" else 1024
-    most: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
-    return most * SHARE > limits.memory * 2**20
+        return 0
+    most: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most * (1 if sys.platform == "darwin" else 1024)
