@@ -34,6 +34,9 @@ def main(arguments: list[str] | None = None) -> int:
         tally += part
         _print_faults(part, printed, options.shown)
         print(f"… {tally.statements}: {len(tally.faults)} faults", file=sys.stderr)
+        if options.report is not None:  # after every part: an interrupted run leaves what it did
+            options.report.parent.mkdir(parents=True, exist_ok=True)
+            options.report.write_text(markdown(tally, options.seed), encoding="utf-8")
     seconds = time.monotonic() - started
     for sort, count in Counter(judged.signature for _, judged in tally.faults).most_common():
         print(f"{count} × {' | '.join(sort)}")
@@ -41,9 +44,6 @@ def main(arguments: list[str] | None = None) -> int:
     print(
         f"{seconds:.0f} s, {seconds / max(options.statements, 1) * 10_000:.0f} s for 10 000", file=sys.stderr
     )
-    if options.report is not None:
-        options.report.parent.mkdir(parents=True, exist_ok=True)
-        options.report.write_text(markdown(tally, options.seed), encoding="utf-8")
     return int(bool(tally.faults))
 
 
