@@ -94,12 +94,13 @@ def check_end(process: subprocess.Popen[bytes], number: signal.Signals, place: P
     assert list((place / "tmp").iterdir()) == []
 
 
-@pytest.mark.parametrize("to_all", [False, True], ids=["process", "group"])
+ONLY_IT, ALL_OF_IT = False, True
+SIGNALLED = [(name, ONLY_IT) for name in COMMANDS] + [("epsilon", ALL_OF_IT), ("simulate", ALL_OF_IT)]
+
+
+@pytest.mark.parametrize(("name", "to_all"), SIGNALLED)
 @pytest.mark.parametrize("number", CODES)
-@pytest.mark.parametrize("name", COMMANDS)
 def test_a_signal_ends_a_command(name: str, number: signal.Signals, to_all: bool, tmp_path: Path) -> None:
-    if to_all and name not in ("epsilon", "simulate"):
-        pytest.skip("two commands are enough")
     with started(COMMANDS[name], tmp_path) as process:
         busy = wait_for(lambda: catches_term(process.pid), process)
         assert busy, (tmp_path / "err").read_text()
