@@ -365,3 +365,9 @@ def test_the_hypotheses_of_a_bound_are_printed_with_it():
         "x·Vᵀ·W ≤ x·a·b for every n and all numbers a, b, c, x; vectors V, W, no number negative, "
         "if ‖V‖ ≤ a; ‖x‖‖W‖ ≤ b; ‖diag(W)‖ ≤ c; Vᵀ·W ≥ 0"
     )
+
+
+def test_the_root_of_a_negative_number_is_no_constant() -> None:
+    b = var("b")
+    decision = propose(implies(nonnegative("a", "b"), (), a <= 0 / (sqrt(rho(1) - 3) * b)))
+    assert decision.verdict is Verdict.UNDECIDED

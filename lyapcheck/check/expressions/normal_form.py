@@ -172,7 +172,7 @@ class RationalAlgebra(Algebra):
         return Ratio(self.ring.gen(index), self.one)
 
     def constants(self) -> dict[int, arb]:
-        """The generators that are numbers (γ_m, π, √3, …), with balls for them."""
+        """The generators that are numbers (γ_m, π, √3, …), with balls for them; √−3 is none."""
         found = {}
         for (name, argument), index in self.uses.items():
             if name in CONSTANTS:
@@ -181,7 +181,7 @@ class RationalAlgebra(Algebra):
                 found[index] = arb.pi()
             elif name == "sqrt" and index in self.squares and self.squares[index].is_constant():
                 found[index] = arb(self.squares[index].leading_coefficient()).sqrt()
-        return found
+        return {index: number for index, number in found.items() if number.is_finite()}
 
     def reduced(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
         """The polynomial with every square of a root and of a cosine replaced by what it equals."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
+from math import floor
 from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
@@ -226,7 +227,7 @@ def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) 
         lows[i], strict[i] = interval.low, interval.open_low
     with ctx.workprec(BITS[0]):
         for i, number in algebra.constants().items():
-            lows[i], strict[i] = Fraction(int(Enclosure.from_arb(number).lower * 16), 16), False
+            lows[i], strict[i] = Fraction(floor(Enclosure.from_arb(number).lower * 16), 16), False
     generators = list(algebra.ring.gens())
     for i, low in lows.items():
         if low:
