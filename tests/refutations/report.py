@@ -13,6 +13,7 @@ from tests.refutations.statements import MEMBER
 from tests.refutations.suite import Outcome, Planted
 
 REPORT = Path(__file__).parents[2] / "reports" / "refutations.md"
+AT_RANDOM = REPORT.with_name("statement_fuzz.md")
 COLUMNS = (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED, Verdict.ERROR)
 INTRODUCTION = f"""\
 A program changes the statements of the proofs in `proofs/` in one place each (m = {MEMBER}, the arm and
@@ -38,6 +39,8 @@ def markdown(plan: Planted, found: list[Outcome]) -> str:
         "",
         *INTRODUCTION.splitlines(),
         "",
+        f"Beside them, [statements at random]({AT_RANDOM.name}) and not near any shipped one: {_at_random()}",
+        "",
         "## By kind of fault",
         "",
         *_table("fault", RULES, found, lambda o: o.fault.kind, plan.others),
@@ -55,6 +58,11 @@ def markdown(plan: Planted, found: list[Outcome]) -> str:
         *_listed("No numbers to judge them by, so not changed", plan.unjudged),
     ]
     return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _at_random() -> str:
+    """The counts of the last run of the fuzzer, as its own page has them."""
+    return AT_RANDOM.read_text(encoding="utf-8").splitlines()[2]
 
 
 def _table(
