@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from lyapcheck.admissible import EpsilonResult, epsilon
+    from lyapcheck.answers.table import Table, build_table
     from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
     from lyapcheck.check.numbers.enclosure import Enclosure
     from lyapcheck.check.recheck import recheck
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.family.base import Family
     from lyapcheck.family.registry import named as named_family
-    from lyapcheck.family.table import Table, build_table
     from lyapcheck.gating.gate import GateResult, gate
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
@@ -131,13 +131,13 @@ _HOMES = {
     "RobotConstants": "constants.bounds",
     "RobotModel": "robots.model",
     "Run": "simulate.run",
-    "Table": "family.table",
+    "Table": "answers.table",
     "Targets": "tune.targets",
     "TrackingRun": "tracking.run",
     "Tuning": "tune.results",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
-    "build_table": "family.table",
+    "build_table": "answers.table",
     "epsilon": "admissible",
     "explain": "claims.explain",
     "gamma_less_than": "check.numbers.constants",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck.files.printable import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.records import Record
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck.escapes import markdown_text
+from lyapcheck.output.escapes import markdown_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

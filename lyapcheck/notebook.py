@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lyapcheck.escapes import html_text
+from lyapcheck.output.escapes import html_text
 
 _LEFT = ' style="text-align:left"'
 

@@ -15,7 +15,7 @@ from markdown_it import MarkdownIt
 
 from lyapcheck import escapes
 from lyapcheck.cli.main import main
-from lyapcheck.files.printable import document_text, printable
+from lyapcheck.output.escapes import document_text, printable
 
 NASTY = [
     "<script>alert(1)</script>",

@@ -8,8 +8,8 @@ from dataclasses import asdict
 from textwrap import fill
 
 from lyapcheck.claims.explain import SHOWN_MEMBER, Explanation, Part
-from lyapcheck.escapes import markdown_text
 from lyapcheck.notebook import html_paragraph, html_table
+from lyapcheck.output.escapes import markdown_text
 
 SCHEMA = "lyapcheck/explain/1"
 WIDTH = 100

@@ -7,9 +7,8 @@ from collections.abc import Callable
 from itertools import groupby
 
 from lyapcheck.claims.result import ClaimResult, ProofResult
-from lyapcheck.escapes import markdown_text
-from lyapcheck.files.printable import document_text
 from lyapcheck.markdown import markdown_table
+from lyapcheck.output.escapes import document_text, markdown_text
 
 Renderer = Callable[[ProofResult, bool], str]
 SHOWN_COORDINATES = 12

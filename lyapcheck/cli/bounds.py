@@ -14,7 +14,7 @@ from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 

@@ -7,9 +7,9 @@ import sys
 
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.printable import document_text
 from lyapcheck.gating.formats import renderer
 from lyapcheck.gating.gate import DECIDING, GateResult, gate, gate_exit
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 TYPE_CHECKING = False

@@ -10,7 +10,7 @@ import sys
 
 from lyapcheck.cli.stopping import Stopping
 from lyapcheck.errors import InputError, argument_error
-from lyapcheck.files.printable import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
 TYPE_CHECKING = False

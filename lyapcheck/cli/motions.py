@@ -13,7 +13,7 @@ from lyapcheck.cli.eps0 import Eps0
 from lyapcheck.cli.output import write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
 from lyapcheck.cli.progress import Advance
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import typer
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import progress
 from lyapcheck.errors import argument_error
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from lyapcheck.cli.progress import progress
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 
 
 class RobotFormat(StrEnum):

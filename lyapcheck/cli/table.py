@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,25 +10,16 @@ import typer
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import progress
+from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.family.table import Table
+    from lyapcheck.answers.table import Table
 
 _MOST_DIGITS = 2_000
 _QUIET_ROWS = 500
-
-
-class TableFormat(StrEnum):
-    """How the table is written."""
-
-    TEXT = "text"
-    JSON = "json"
-    CSV = "csv"
-    MARKDOWN = "markdown"
-    LATEX = "latex"
 
 
 def command(
@@ -46,7 +35,7 @@ def command(
     plot: Annotated[
         Path | None, typer.Option(help="Draw them against m into this folder, as SVG and PNG.")
     ] = None,
-    format: Annotated[TableFormat, typer.Option(help="How to write it.")] = TableFormat.TEXT,  # noqa: A002
+    format: Annotated[Format, typer.Option(help="How to write it.")] = Format.TEXT,  # noqa: A002
 ) -> None:
     """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
 
@@ -56,8 +45,7 @@ def command(
     members = parse_m(m)
     if not 1 <= digits <= _MOST_DIGITS:
         raise argument_error("--digits", digits, f"must be from 1 to {_MOST_DIGITS}", "write --digits 30")
-    from lyapcheck.family.table import build_table
-    from lyapcheck.family.table_formats import renderer
+    from lyapcheck.answers.table import build_table
 
     folder = None if plot is None else open_folder("--plot", plot)
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
@@ -70,7 +58,7 @@ def command(
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         _draw(table, folder)
-    sys.stdout.write(document_text(renderer(format.value)(table)))
+    show(table, format)
     raise typer.Exit(int(Exit.PROVED))
 
 

@@ -15,7 +15,7 @@ from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.errors import argument_error
-from lyapcheck.files.printable import document_text
+from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

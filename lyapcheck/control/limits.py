@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lyapcheck.control.known_arms import ArmLimits, known_arm
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.printable import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.records import Record
 
 TYPE_CHECKING = False

@@ -5,8 +5,8 @@ Each name is imported from its home when it is first used: reading decimals need
 
 from __future__ import annotations
 
-from lyapcheck.files.printable import printable  # now: its module has the same name
 from lyapcheck.lazy import exporter
+from lyapcheck.output.escapes import printable  # now: its module has the same name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

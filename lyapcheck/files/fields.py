@@ -10,7 +10,8 @@ from typing import Any, Self
 from lyapcheck.errors import Problem
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
 from lyapcheck.files.place import KeyPath
-from lyapcheck.files.printable import RETYPE, UNPRINTABLE, printable
+from lyapcheck.files.rules import RETYPE, UNPRINTABLE
+from lyapcheck.output.escapes import printable
 
 
 class Notes:

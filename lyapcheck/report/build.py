@@ -89,12 +89,9 @@ def _gate(subject: Subject) -> list[Data]:
 
 
 def _table(ms: Sequence[int]) -> list[Data]:
-    import json
+    from lyapcheck.answers.table import build_table
 
-    from lyapcheck.family.table import build_table
-    from lyapcheck.family.table_formats import renderer
-
-    rows: list[Data] = json.loads(renderer("json")(build_table(ms)))["rows"]
+    rows: list[Data] = build_table(ms).data()["rows"]
     return rows
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import resources
 from typing import Any
 
-from lyapcheck.escapes import html_text
+from lyapcheck.output.escapes import html_text
 from lyapcheck.report.model import Report
 from lyapcheck.report.templating import environment
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lyapcheck.escapes import markdown_text
+from lyapcheck.output.escapes import markdown_text
 from lyapcheck.report.model import Report
 from lyapcheck.report.templating import environment
 

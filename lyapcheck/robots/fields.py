@@ -9,7 +9,7 @@ from typing import cast
 
 from lyapcheck.files import Fields, Notes, decimal_text
 from lyapcheck.files.place import KeyPath
-from lyapcheck.files.printable import RETYPE, UNPRINTABLE
+from lyapcheck.files.rules import RETYPE, UNPRINTABLE
 from lyapcheck.robots.number import Number
 
 LARGEST = 10**12

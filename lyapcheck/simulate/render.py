@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.escapes import markdown_text
 from lyapcheck.markdown import markdown_table
+from lyapcheck.output.escapes import markdown_text
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.indices import SETTLING_BAND
 from lyapcheck.simulate.printed import printed_for

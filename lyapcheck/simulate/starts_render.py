@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.escapes import csv_text, markdown_text
+from lyapcheck.output.escapes import csv_text, markdown_text
 from lyapcheck.simulate.render import LEGEND, SCHEMA, broken, bullets, cell, section
 from lyapcheck.simulate.starts import SHARES, Sweep, quantiles
 

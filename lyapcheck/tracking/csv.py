@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lyapcheck.escapes import csv_text
+from lyapcheck.output.escapes import csv_text
 from lyapcheck.tracking.run import TrackingRun
 
 SIGNALS = (

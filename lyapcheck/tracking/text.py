@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.escapes import markdown_text
+from lyapcheck.output.escapes import markdown_text
 from lyapcheck.simulate.render import broken, bullets, cell, in_columns, section
 from lyapcheck.tracking.run import TrackingRun
 

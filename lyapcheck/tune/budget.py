@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from lyapcheck.answers.table import Budget, Table
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import Constants
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.limits import Limits
-from lyapcheck.family.table import Budget, Table
 from lyapcheck.robots import load
 from lyapcheck.tune.arm import arm_limits
 

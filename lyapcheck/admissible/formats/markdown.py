@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.admissible.formats.words import heads, notes, remarks, row
-from lyapcheck.escapes import markdown_text
 from lyapcheck.markdown import markdown_table
+from lyapcheck.output.escapes import markdown_text
 
 if TYPE_CHECKING:
     from lyapcheck.admissible import EpsilonResult

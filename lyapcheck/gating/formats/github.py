@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from lyapcheck.escapes import github_property, github_text
 from lyapcheck.gating.formats.words import KEYS, advice
 from lyapcheck.gating.stability import remarks
+from lyapcheck.output.escapes import github_property, github_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

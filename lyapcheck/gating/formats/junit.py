@@ -5,9 +5,9 @@ from __future__ import annotations
 from re import compile as pattern
 from xml.etree import ElementTree as ET
 
-from lyapcheck.files.printable import printable
 from lyapcheck.gating.formats.words import advice, joint_name
 from lyapcheck.gating.stability import remarks
+from lyapcheck.output.escapes import printable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

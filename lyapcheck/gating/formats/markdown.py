@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from lyapcheck.escapes import markdown_text
 from lyapcheck.gating.formats.words import (
     RULES,
     SYMBOLS,
@@ -15,6 +14,7 @@ from lyapcheck.gating.formats.words import (
     value_text,
 )
 from lyapcheck.gating.stability import remarks
+from lyapcheck.output.escapes import markdown_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

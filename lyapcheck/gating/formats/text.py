@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lyapcheck.files.printable import printable
 from lyapcheck.gating.formats.rows import HEADS, legend, row, sentences, summary, title
+from lyapcheck.output.escapes import printable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

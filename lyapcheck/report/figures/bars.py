@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lyapcheck.escapes import plot_text
+from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 

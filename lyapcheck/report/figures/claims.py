@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from lyapcheck.escapes import plot_text
+from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import panels, styled
 from lyapcheck.report.model import Data

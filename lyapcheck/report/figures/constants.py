@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from lyapcheck.answers.table import Table
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.asymptotes import asymptotes, limits
-from lyapcheck.family.table import Table
 from lyapcheck.report.figures.style import COLOURS, panels, png, styled, svg
 
 MOST_MARKERS = 40

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck.escapes import plot_text
+from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from io import StringIO
 from typing import Any
 
-from lyapcheck.escapes import csv_text
+from lyapcheck.output.escapes import csv_text
 from lyapcheck.report.figures.style import png, settle, svg
 
 Files = dict[str, str | bytes]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from lyapcheck.escapes import plot_text
+from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.bars import TICK
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lyapcheck.escapes import markdown_text
 from lyapcheck.markdown import markdown_table
+from lyapcheck.output.escapes import markdown_text
 from lyapcheck.robot_report.build import RobotReport
 from lyapcheck.robot_report.formats.words import (
     CONSTANT_HEADS,

@@ -11,7 +11,8 @@ from pathlib import Path
 from xml.parsers import expat
 
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.printable import RETYPE, UNPRINTABLE, printable
+from lyapcheck.files.rules import RETYPE, UNPRINTABLE
+from lyapcheck.output.escapes import printable
 
 LARGEST_URDF = 5_000_000
 """Bytes; a humanoid with all its meshes named has about half a million."""

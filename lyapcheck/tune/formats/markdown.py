@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lyapcheck.escapes import markdown_text
 from lyapcheck.markdown import markdown_table
+from lyapcheck.output.escapes import markdown_text
 from lyapcheck.tune.formats.rows import compared_rows, notes, tuned_rows
 from lyapcheck.tune.gain_file import targets_text
 from lyapcheck.tune.results import TUNED, TunedSet, Tuning

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import re
 
-from lyapcheck.files.printable import printable
-
 _HTML = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
 _MARKDOWN = re.compile(r"[\\`*\[\]|~#!@&<>]|:(?=\S)|(?<![^\W_])_|_(?![^\W_])")
@@ -19,8 +17,33 @@ _LATEX = {
     "^": r"\textasciicircum{}",
     **{c: f"\\{c}" for c in "&%$#_{}"},
 }
+_NOT_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that no XML 1.0 document may hold, not even as a reference."""
 _FORMULA = ("=", "+", "-", "@")
 """What spreadsheets take for the beginning of a formula."""
+
+
+def printable(text: str) -> str:
+    """The text with every character that does not print written as an escape, like ``\\n`` or ``\\x1b``.
+
+    So no name can break a line, move the cursor or turn the direction of writing.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def document_text(text: str) -> str:
+    """A whole text or JSON document; what does not print, line ends aside, as JSON escapes it."""
+    if text.replace("\n", "").isprintable():
+        return text
+    return "".join(c if c == "\n" or c.isprintable() else _unit_escapes(c) for c in text)
+
+
+def _unit_escapes(c: str) -> str:
+    """The UTF-16 code units of a character as ``\\uXXXX``."""
+    units = c.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{units[i : i + 4]}" for i in range(0, len(units), 4))
 
 
 def markdown_text(text: str) -> str:
@@ -31,6 +54,11 @@ def markdown_text(text: str) -> str:
 def html_text(text: str) -> str:
     """The text as HTML, in an element or in a quoted attribute."""
     return "".join(_HTML.get(c, c) for c in printable(text))
+
+
+def xml_text(text: str) -> str:
+    """The text with what XML cannot hold written as an escape; the writer of the XML escapes the rest."""
+    return _NOT_XML.sub(lambda found: printable(found[0]), text)
 
 
 def latex_text(text: str) -> str:

@@ -1,0 +1,236 @@
+"""Which γ_m, ρ_m and L_m: the table of the constants of the hyperbolic family."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.family.asymptotes import Asymptotes, asymptotes
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Document, Paragraph
+from lyapcheck.output.document import Table as Cells
+
+PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
+"""The γ_m that the paper prints after (7)."""
+
+TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x), certified"
+LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."
+CONSTANTS = ("gamma", "rho", "L", "gamma_at", "rho_at", "L_at")
+ENDS = ("lower", "upper")
+INFINITY, NONE = "∞", "none"
+REST_DIGITS = 6
+
+LIMITS = (
+    "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
+    "lyapcheck check every_m.py proves it for all m, asymptotics.py --m … how fast for each."
+)
+LEADING = (
+    "Leading terms for m → ∞: γ ~ √2 (1 − (1 + ln 4m)/(4m)), ρ ~ m − 1/2 + 9/(16m), "
+    "L ~ √2/asinh 1 · (1 − κ (1 + ln(m/κ))/m) with κ = (1 + √2/asinh 1)/4."
+)
+
+RESTS = (
+    "Proved by every_m.py: 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6 for all m ≥ 2, −3/4 < (ρ − leading) m² "
+    "< 0 for all m ≥ 12; by asymptotics.py for each m: both, and 1/5 < (L − leading) asinh 1 m²/(√2 ln² 4m) "
+    "< 1/3."
+)
+
+_GUARD_DIGITS = 6
+_RESTS_DIGITS = 12
+"""More digits still, where the constants are compared with numbers that come close to them."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What an arm leaves to k_p + k_v: (τmax − k_g)/(√n γ) of each joint, N·m, a tuple a row of the table.
+
+    ``None`` where a joint has no torque limit, or none above its gravity torque.
+    """
+
+    robot: str
+    joints: tuple[str, ...]
+    rows: tuple[tuple[Enclosure | None, ...], ...]
+
+
+@dataclass(frozen=True)
+class Table(Answer):
+    """Certified constants of members of the hyperbolic family, to a number of significant digits.
+
+    Args:
+        digits: how many are shown; the enclosures are tighter.
+        rows: the constants of each member.
+        budget: what an arm's torque limits leave to the gains.
+        asymptotes: for each row what the constants come close to as m grows.
+    """
+
+    schema = "lyapcheck/table/1"
+
+    digits: int
+    rows: tuple[Constants, ...]
+    budget: Budget | None = None
+    asymptotes: tuple[Asymptotes, ...] | None = None
+
+    def document(self) -> Document:
+        """The constants, where each is reached, what was asked for beside them; all digits correct."""
+        blocks = [self._constants(), self._asymptotes(), self._budget()]
+        return Document(TITLE, (Paragraph(LEGEND), *filter(None, blocks)), tuple(self._notes()))
+
+    def data(self) -> dict[str, Any]:
+        """``rows: [{m, gamma: {lower, upper}, …}]``, decimal strings that enclose; ``None`` at infinity."""
+        head: dict[str, Any] = {"digits": self.digits}
+        if self.budget is not None:
+            head["robot"] = self.budget.robot
+        return head | {"rows": [self._row(index) for index in range(len(self.rows))]}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row an m; the budget of each joint under its name."""
+        rows = []
+        for row in self.data()["rows"]:
+            budget = {
+                limit["joint"]: limit["limit"] or dict.fromkeys(ENDS) for limit in row.pop("budget", [])
+            }
+            tails = {
+                f"{name}_{part}": ends
+                for name, parts in row.pop("asymptotics", {}).items()
+                for part, ends in parts.items()
+            }
+            slope, _ = row.pop("slope_at_0"), row.pop("gamma_printed")
+            ends = {name: dict.fromkeys(ENDS) if value is None else value for name, value in row.items()}
+            rows.append({**ends, **tails, **({"budget": budget} if budget else {}), "slope_at_0": slope})
+        return rows
+
+    def _constants(self) -> Cells:
+        heads = ("m", "γ", "ρ", "L", "x of γ", "x of ρ", "x of L", "h′(0)")
+        rows = [
+            (
+                str(row.m),
+                *self._cells(*(getattr(row, name) for name in CONSTANTS)),
+                str(slope_at_zero(row.m)),
+            )
+            for row in self.rows
+        ]
+        return Cells(heads, tuple(rows), align="rlllllll")
+
+    def _asymptotes(self) -> Cells | None:
+        if self.asymptotes is None:
+            return None
+        heads = ("m", *(head for name in "γρL" for head in (f"{name} leading", f"{name} − leading")))
+        rows = []
+        for row, tail in zip(self.rows, self.asymptotes, strict=True):
+            pairs = ((tail.gamma, tail.gamma_rest), (tail.rho, tail.rho_rest), (tail.L, tail.L_rest))
+            cells = [
+                text
+                for leading, rest in pairs
+                for text in (*self._cells(leading), *self._cells(rest, digits=min(self.digits, REST_DIGITS)))
+            ]
+            rows.append((str(row.m), *cells))
+        return Cells(heads, tuple(rows), LEADING, "r" + "l" * 6)
+
+    def _budget(self) -> Cells | None:
+        if self.budget is None:
+            return None
+        rows = [
+            (str(row.m), *(NONE if limit is None else self._cells(limit)[0] for limit in limits))
+            for row, limits in zip(self.rows, self.budget.rows, strict=True)
+        ]
+        title = f"Torque budget of {self.budget.robot}: k_p + k_v < (τmax − k_g)/(√n γ), N·m."
+        heads = ("m", *self.budget.joints)
+        return Cells(heads, tuple(rows), title, "r" + "l" * len(self.budget.joints))
+
+    def _notes(self) -> list[str]:
+        """A line for each printed γ in the table, and what is proved about large m."""
+        printed = [
+            f"The paper prints γ_{row.m} = {float(PRINTED_GAMMA[row.m]):g}: "
+            + ("an upper bound of h." if printed_bounds(row.m) else "not an upper bound, h exceeds it.")
+            for row in self.rows
+            if row.m in PRINTED_GAMMA
+        ]
+        return [*printed, LIMITS, *([RESTS] if self.asymptotes else [])]
+
+    def _cells(self, *values: Enclosure | None, digits: int | None = None) -> list[str]:
+        shown = self.digits if digits is None else digits
+        return [INFINITY if value is None else value.correct_digits(shown) for value in values]
+
+    def _row(self, index: int) -> dict[str, Any]:
+        row = self.rows[index]
+        found: dict[str, Any] = {"m": row.m}
+        found |= {name: self._ends(getattr(row, name)) for name in CONSTANTS}
+        printed = PRINTED_GAMMA.get(row.m)
+        found["slope_at_0"] = str(slope_at_zero(row.m))
+        found["gamma_printed"] = (
+            None if printed is None else {"value": f"{float(printed):g}", "bounds_h": printed_bounds(row.m)}
+        )
+        if self.asymptotes is not None:
+            tail = self.asymptotes[index]
+            found["asymptotics"] = {
+                name: {
+                    "leading": self._ends(getattr(tail, name)),
+                    "rest": self._ends(getattr(tail, f"{name}_rest")),
+                }
+                for name in ("gamma", "rho", "L")
+            }
+        if self.budget is not None:
+            found["budget"] = [
+                {"joint": joint, "limit": self._ends(limit)}
+                for joint, limit in zip(self.budget.joints, self.budget.rows[index], strict=True)
+            ]
+        return found
+
+    def _ends(self, value: Enclosure | None) -> dict[str, str] | None:
+        return None if value is None else dict(zip(ENDS, value.decimals(self.digits), strict=True))
+
+
+def build_table(
+    members: Sequence[int],
+    digits: int = 30,
+    on_progress: Callable[[float, str], None] | None = None,
+    *,
+    with_asymptotes: bool = False,
+) -> Table:
+    """γ_m, ρ_m and L_m of each member, enclosed a few digits tighter than they are shown.
+
+    Args:
+        members: m of each row, at least 1.
+        digits: significant digits to show, at least 1; all of them correct.
+        on_progress: called with the fraction done (0 to 1) and a note.
+        with_asymptotes: add what the constants come close to as m grows.
+
+    Raises:
+        ValueError: an m or ``digits`` below 1.
+
+    Soundness: see ``lyapcheck.check.numbers.constants``; digits are cut off from an enclosure, never rounded.
+
+    References: (6), (7) and (8) of reyes2019family.
+
+    Example:
+        >>> table = build_table([1, 2, 3], digits=8)
+        >>> [row.gamma.correct_digits(8) for row in table.rows]
+        ['1', '1.0535692', '1.1142096']
+        >>> table.rows[1].gamma.decimals(8)
+        ('1.0535692', '1.0535693')
+        >>> print(table)  # doctest: +ELLIPSIS
+        Constants of h_m(x) = ...
+    """
+    rows, step = [], 1 + len(members) // 10
+    exact = digits + _GUARD_DIGITS + (_RESTS_DIGITS if with_asymptotes else 0)
+    for done, m in enumerate(members):
+        if on_progress and done and done % step == 0:
+            on_progress(done / len(members), f"m = {m}")
+        rows.append(hyperbolic_constants(m, exact))
+    tails = tuple(asymptotes(row, exact) for row in rows) if with_asymptotes else None
+    return Table(digits, tuple(rows), asymptotes=tails)
+
+
+def slope_at_zero(m: int) -> int:
+    """h_m'(0), from (8) at x = 0, where only its first term can be left: (2m − 1) sinh^(2m−2) 0."""
+    return int((2 * m - 1) * 0 ** (2 * m - 2))
+
+
+def printed_bounds(m: int) -> bool:
+    """Whether h_m never exceeds the printed γ: tanh stays below 1, the others reach their γ."""
+    value = PRINTED_GAMMA[m]
+    return value >= 1 if m == 1 else gamma_less_than(m, value**2)

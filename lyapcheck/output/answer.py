@@ -1,0 +1,59 @@
+"""What every answer can say of itself."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from typing import Any, ClassVar
+
+from lyapcheck.output.annotations import Annotation
+from lyapcheck.output.document import Document
+from lyapcheck.output.escapes import document_text
+
+
+class Answer(ABC):
+    """An answer to a question, ready for every format.
+
+    ``print`` shows it as in a terminal, a notebook as HTML.
+    """
+
+    schema: ClassVar[str]
+    """Name and version of its JSON, such as ``lyapcheck/gate/1``."""
+
+    @abstractmethod
+    def document(self) -> Document:
+        """For people."""
+
+    @abstractmethod
+    def data(self) -> dict[str, Any]:
+        """For programs: strings, numbers, lists and dicts; exact numbers as decimal strings."""
+
+    def records(self) -> Sequence[Mapping[str, Any]]:
+        """The rows of its CSV: one a result, or what is natural for it."""
+        rows: Sequence[Mapping[str, Any]] = self.data()["results"]
+        return rows
+
+    def annotations(self) -> Sequence[Annotation]:
+        """For systems that run checks; none where nothing is judged."""
+        return ()
+
+    def written(self, format: str, colour: bool = False) -> str:  # noqa: A002
+        """The answer in a format, the same bytes for the same answer.
+
+        Args:
+            format: a value of :class:`~lyapcheck.output.formats.JudgedFormat`.
+            colour: with the escape sequences of a terminal; for text alone.
+        """
+        renderer = import_module(f"lyapcheck.output.{format}")
+        if format == "text":
+            shown: str = renderer.render(self.document(), colour)
+            return shown
+        whole = self.document() if format in ("markdown", "html", "latex") else self
+        return document_text(renderer.render(whole))
+
+    def __str__(self) -> str:
+        return self.written("text").rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return self.written("html")

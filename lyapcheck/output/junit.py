@@ -1,0 +1,47 @@
+"""What was judged as JUnit XML: a suite a group, a test case a case."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from xml.etree import ElementTree as ET
+
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.escapes import xml_text
+
+
+def render(answer: Answer) -> str:
+    """Failed cases fail, undecided ones are skipped, remarks are what the suite says."""
+    top = ET.Element("testsuites", name=f"lyapcheck {answer.schema.split('/')[1]}")
+    for (path, group), found in groupby(answer.annotations(), key=lambda one: (one.path, one.group)):
+        _suite(top, path, group, list(found))
+    ET.indent(top)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(top, encoding="unicode") + "\n"
+
+
+def _suite(top: ET.Element, path: str, group: str, found: list[Annotation]) -> None:
+    levels = [one.level for one in found]
+    suite = ET.SubElement(
+        top,
+        "testsuite",
+        name=xml_text(group),
+        tests=str(len(found) - levels.count(Level.REMARK)),
+        failures=str(levels.count(Level.FAILED)),
+        skipped=str(levels.count(Level.UNDECIDED)),
+        errors="0",
+    )
+    for one in found:
+        if one.level is not Level.REMARK:
+            _case(suite, one, ".".join(part for part in (path, group) if part))
+    said = [one.message for one in found if one.level is Level.REMARK]
+    if said:
+        ET.SubElement(suite, "system-out").text = xml_text("\n".join(said))
+
+
+def _case(suite: ET.Element, one: Annotation, place: str) -> None:
+    name = " ".join(part for part in (f"({one.rule})", one.case) if part)
+    case = ET.SubElement(suite, "testcase", classname=xml_text(place), name=xml_text(name))
+    if one.level is Level.FAILED:
+        ET.SubElement(case, "failure", message=xml_text(one.message), type=one.level.value)
+    elif one.level is Level.UNDECIDED:
+        ET.SubElement(case, "skipped", message=xml_text(one.message))

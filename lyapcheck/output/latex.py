@@ -1,0 +1,64 @@
+"""A document as LaTeX for ``\\input``: sections, lists and ``tabular`` environments, no package needed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.escapes import latex_text, printable
+
+HEADINGS = (r"\section*", r"\subsection*", r"\subsubsection*", r"\paragraph*")
+
+
+def render(document: Document) -> str:
+    """The whole document; compile with a typesetter that knows Unicode, or copy the tables."""
+    lines = [f"{HEADINGS[0]}{{{latex_text(document.title)}}}", *_blocks(document.blocks, 1)]
+    if document.notes:
+        lines += ["", *_bullets(document.notes)]
+    return "\n".join(lines) + "\n"
+
+
+def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+    for block in blocks:
+        yield ""
+        yield from _block(block, level)
+
+
+def _block(block: Block, level: int) -> Iterator[str]:
+    match block:
+        case Paragraph(text):
+            yield latex_text(text)
+        case Bullets(items):
+            yield from _bullets(items)
+        case Code(text):
+            yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
+        case Section(title, blocks):
+            yield f"{HEADINGS[min(level, len(HEADINGS) - 1)]}{{{latex_text(title)}}}"
+            yield from _blocks(blocks, level + 1)
+        case Table():
+            yield from _table(block)
+
+
+def _lines(text: str) -> Iterator[str]:
+    return (rf"{latex_text(printable(line))}\\" for line in text.splitlines() if line.strip())
+
+
+def _bullets(items: Iterable[str]) -> Iterator[str]:
+    yield r"\begin{itemize}"
+    yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
+    yield r"\end{itemize}"
+
+
+def _table(table: Table) -> Iterator[str]:
+    if table.caption:
+        yield from (latex_text(table.caption), "")
+    yield rf"\begin{{tabular}}{{{table.align}}}"
+    yield r"\hline"
+    yield _row(table.heads)
+    yield r"\hline"
+    yield from map(_row, table.rows)
+    yield from (r"\hline", r"\end{tabular}")
+
+
+def _row(cells: Sequence[str]) -> str:
+    return " & ".join(map(latex_text, cells)) + r" \\"

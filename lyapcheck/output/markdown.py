@@ -1,0 +1,49 @@
+"""A document as Markdown, for a pull request or a step summary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.escapes import markdown_text, printable
+
+
+def render(document: Document, level: int = 1) -> str:
+    """The whole document, its title a heading of a level."""
+    lines = [f"{'#' * level} {markdown_text(document.title)}", *_blocks(document.blocks, level + 1)]
+    if document.notes:
+        lines += ["", *_bullets(document.notes)]
+    return "\n".join(lines) + "\n"
+
+
+def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+    for block in blocks:
+        yield ""
+        yield from _block(block, level)
+
+
+def _block(block: Block, level: int) -> Iterator[str]:
+    match block:
+        case Paragraph(text):
+            yield markdown_text(text)
+        case Bullets(items):
+            yield from _bullets(items)
+        case Code(text):
+            yield from (f"    {printable(line)}" for line in text.splitlines())
+        case Section(title, blocks):
+            yield f"{'#' * min(level, 6)} {markdown_text(title)}"
+            yield from _blocks(blocks, level + 1)
+        case Table():
+            if block.caption:
+                yield from (markdown_text(block.caption), "")
+            yield _row(block.heads)
+            yield f"| {' | '.join('---' if side == 'l' else '---:' for side in block.align)} |"
+            yield from map(_row, block.rows)
+
+
+def _bullets(items: Iterable[str]) -> Iterator[str]:
+    return (f"- {markdown_text(item)}" for item in items)
+
+
+def _row(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(map(markdown_text, cells))} |"

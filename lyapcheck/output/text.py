@@ -1,0 +1,172 @@
+"""A document in a terminal: 80 columns, straight tables, colour where it is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from textwrap import wrap
+from unicodedata import east_asian_width
+
+from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.escapes import printable
+
+WIDTH = 80
+GAP = "  "
+LEAST = 12
+"""A column of words is not made narrower than this, nor than its longest word."""
+
+BOLD, DIM, GREEN, RED, YELLOW, PLAIN = (f"\x1b[{code}m" for code in (1, 2, 32, 31, 33, 0))
+COLOURS = {
+    **dict.fromkeys(("✓", "proved", "accepted"), GREEN),
+    **dict.fromkeys(("✗", "refuted", "rejected", "refused", "error"), RED),
+    **dict.fromkeys(("?", "undecided"), YELLOW),
+}
+"""Of cells that are one of these words, and of titles that begin with one."""
+
+
+def render(document: Document, colour: bool = False) -> str:
+    """The whole document; lines end where they must, also within words that no line could hold."""
+    writer = _Writer(colour)
+    lines = [writer.title(document.title, "═"), *writer.blocks(document.blocks)]
+    if document.notes:
+        lines += ["", *writer.bullets(document.notes)]
+    return "\n".join(lines) + "\n"
+
+
+class _Writer:
+    """What a block comes to in lines, with or without colour."""
+
+    def __init__(self, colour: bool) -> None:
+        self.colour = colour
+
+    def title(self, text: str, rule: str) -> str:
+        lines = _wrapped(text)
+        long = max(map(_width, lines), default=0)
+        return "\n".join([*(self._titled(line) for line in lines), self._in(DIM, rule * long)])
+
+    def _titled(self, line: str) -> str:
+        mark, space, rest = line.partition(" ")
+        return f"{self._cell(mark)}{space}{self._in(BOLD, rest)}" if mark in COLOURS else self._in(BOLD, line)
+
+    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
+        for block in blocks:
+            yield ""
+            yield from self.block(block)
+
+    def block(self, block: Block) -> Iterator[str]:
+        match block:
+            case Paragraph(text):
+                yield from _wrapped(text)
+            case Bullets(items):
+                yield from self.bullets(items)
+            case Code(text):
+                yield from (f"    {printable(line)}" for line in text.splitlines())
+            case Section(title, blocks):
+                yield self.title(title, "─")
+                yield from self.blocks(blocks)
+            case Table():
+                yield from self.table(block)
+
+    def bullets(self, items: Iterable[str]) -> Iterator[str]:
+        for item in items:
+            first, *rest = _wrapped(item, WIDTH - 2) or [""]
+            yield f"- {first}"
+            yield from (f"  {line}" for line in rest)
+
+    def table(self, table: Table) -> Iterator[str]:
+        if table.caption:
+            yield from _wrapped(table.caption)
+        cells = [tuple(map(printable, row)) for row in (table.heads, *table.rows)]
+        for number, columns in enumerate(_sheets(table, cells)):
+            if number:
+                yield ""
+            align = "".join(table.align[i] for i in columns)
+            yield from self._sheet([tuple(row[i] for i in columns) for row in cells], align)
+
+    def _sheet(self, cells: Sequence[tuple[str, ...]], align: str) -> Iterator[str]:
+        widths = _fitting(cells, align)
+        heads, *rows = cells
+        yield from self._row(heads, widths, align, BOLD)
+        yield self._in(DIM, GAP.join("─" * width for width in widths))
+        for row in rows:
+            yield from self._row(row, widths, align)
+
+    def _row(self, row: Sequence[str], widths: Sequence[int], align: str, style: str = "") -> Iterator[str]:
+        """The lines of a row: one, unless a cell is wider than its column."""
+        if all(_width(cell) <= width for cell, width in zip(row, widths, strict=True)):
+            stacks = [[cell] for cell in row]
+        else:
+            stacks = [_wrapped(cell, width) or [""] for cell, width in zip(row, widths, strict=True)]
+        for k in range(max(map(len, stacks))):
+            parts = []
+            for stack, width, side in zip(stacks, widths, align, strict=True):
+                cell = stack[k] if k < len(stack) else ""
+                space = " " * (width - _width(cell))
+                shown = self._in(style, cell) if style and cell else self._cell(cell)
+                parts.append(shown + space if side == "l" else space + shown)
+            yield GAP.join(parts).rstrip()
+
+    def _cell(self, text: str) -> str:
+        return self._in(COLOURS[text], text) if text in COLOURS else text
+
+    def _in(self, style: str, text: str) -> str:
+        return f"{style}{text}{PLAIN}" if self.colour and text else text
+
+
+def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
+    """The columns that fit side by side, the keys with each lot of them."""
+    least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), table.align, strict=True)]
+    keys = list(range(min(table.keys, len(least))))
+    used = sum(least[i] + len(GAP) for i in keys)
+    sheets: list[list[int]] = [[]]
+    room = WIDTH - used
+    for i in range(len(keys), len(least)):
+        if sheets[-1] and least[i] > room:
+            sheets.append([])
+            room = WIDTH - used
+        sheets[-1].append(i)
+        room -= least[i] + len(GAP)
+    return [[*keys, *sheet] for sheet in sheets]
+
+
+def _fitting(cells: Sequence[Sequence[str]], align: str) -> list[int]:
+    """Widths of columns that make lines of at most `WIDTH`, where wrapping words can do it."""
+    columns = list(zip(*cells, strict=True))
+    widths = [max(map(_width, column)) for column in columns]
+    least = [_least(column, side) for column, side in zip(columns, align, strict=True)]
+    excess = sum(widths) + len(GAP) * (len(widths) - 1) - WIDTH
+    while excess > 0:
+        spare = [width - low for width, low in zip(widths, least, strict=True)]
+        if max(spare) <= 0:
+            break
+        widest = max((i for i in range(len(widths)) if spare[i] > 0), key=lambda i: widths[i])
+        others = [widths[i] for i in range(len(widths)) if spare[i] > 0 and widths[i] < widths[widest]]
+        step = min(excess, spare[widest], max(1, widths[widest] - max(others, default=0)))
+        widths[widest] -= step
+        excess -= step
+    return widths
+
+
+def _least(column: Sequence[str], side: str) -> int:
+    """The least width of a column: heads and words may be wrapped at spaces, numbers are not."""
+    head, *body = column
+    lowest = max(map(_width, head.split()), default=0)
+    if side == "l":
+        natural = max(map(_width, column))
+        longest = max((_width(word) for cell in body for word in cell.split()), default=0)
+        return max(lowest, min(natural, max(longest, LEAST)))
+    return max([lowest, *map(_width, body)])
+
+
+def _wrapped(text: str, width: int = WIDTH) -> list[str]:
+    """The lines of a text; a word that is longer than a line stands on one of its own."""
+    shown = printable(text)
+    if _width(shown) <= width:
+        return [shown]
+    return wrap(shown, width, break_long_words=False, break_on_hyphens=False)
+
+
+def _width(text: str) -> int:
+    """How many columns a terminal needs."""
+    if text.isascii():
+        return len(text)
+    return sum(2 if east_asian_width(c) in "WF" else 1 for c in text)
