@@ -10,10 +10,10 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lyapcheck.check.numbers.members import Functions
 from lyapcheck.check.loop.states import (
     Arm,
     Controller,
-    Functions,
     State,
     confirms_positive,
     hyperbolic,

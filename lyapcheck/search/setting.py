@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop import Closure
-from lyapcheck.check.loop.states import Arm, Controller, Functions
+from lyapcheck.check.loop.states import Arm, Controller
+from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
 from lyapcheck.robots import RobotModel

@@ -20,6 +20,7 @@ from flint import arb
 
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.members import Functions
 
 Vector = tuple[Fraction, ...]
 Term = tuple[tuple[int, ...], Fraction]
@@ -40,15 +41,6 @@ class Arm:
     def n(self) -> int:
         """Number of joints."""
         return len(self.viscous)
-
-
-@dataclass(frozen=True)
-class Functions:
-    """h, h' and U of one variable, each a map of balls that contains."""
-
-    h: Callable[[arb], arb]
-    dh: Callable[[arb], arb]
-    potential: Callable[[arb], arb]
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,18 @@ from functools import lru_cache, partial
 
 from flint import arb
 
-from lyapcheck.check.loop.states import Functions
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
+
+
+@dataclass(frozen=True)
+class Functions:
+    """h, h' and U of one variable, each a map of balls that contains."""
+
+    h: Callable[[arb], arb]
+    dh: Callable[[arb], arb]
+    potential: Callable[[arb], arb]
 
 
 @dataclass(frozen=True)
