@@ -81,3 +81,12 @@ class Document:
     title: str
     blocks: tuple[Block, ...]
     notes: tuple[str, ...] = ()
+
+    @property
+    def body(self) -> tuple[Block, ...]:
+        """The blocks, then the notes: under a heading where they would else belong to the last block."""
+        if not self.notes:
+            return self.blocks
+        notes = Bullets(self.notes)
+        joined = self.blocks and isinstance(self.blocks[-1], (Section, Bullets))
+        return (*self.blocks, Section("Notes", (notes,)) if joined else notes)

@@ -12,9 +12,7 @@ _SIDES = {"l": "left", "r": "right"}
 
 def render(document: Document, level: int = 2) -> str:
     """The whole document, its title a heading of a level; no script, no style sheet needed."""
-    lines = [_element(f"h{level}", document.title), *_blocks(document.blocks, level + 1)]
-    if document.notes:
-        lines += _bullets(document.notes)
+    lines = [_element(f"h{level}", document.title), *_blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
 
 

@@ -12,9 +12,7 @@ HEADINGS = (r"\section*", r"\subsection*", r"\subsubsection*", r"\paragraph*")
 
 def render(document: Document) -> str:
     """The whole document; compile with a typesetter that knows Unicode, or copy the tables."""
-    lines = [f"{HEADINGS[0]}{{{latex_text(document.title)}}}", *_blocks(document.blocks, 1)]
-    if document.notes:
-        lines += ["", *_bullets(document.notes)]
+    lines = [f"{HEADINGS[0]}{{{latex_text(document.title)}}}", *_blocks(document.body, 1)]
     return "\n".join(lines) + "\n"
 
 

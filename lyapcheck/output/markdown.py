@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
@@ -10,9 +11,7 @@ from lyapcheck.output.escapes import markdown_text, printable
 
 def render(document: Document, level: int = 1) -> str:
     """The whole document, its title a heading of a level."""
-    lines = [f"{'#' * level} {markdown_text(document.title)}", *_blocks(document.blocks, level + 1)]
-    if document.notes:
-        lines += ["", *_bullets(document.notes)]
+    lines = [f"{'#' * level} {markdown_text(document.title)}", *_blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
 
 
@@ -29,7 +28,7 @@ def _block(block: Block, level: int) -> Iterator[str]:
         case Bullets(items):
             yield from _bullets(items)
         case Code(text):
-            yield from (f"    {printable(line)}" for line in text.splitlines())
+            yield from _fenced(text)
         case Section(title, blocks):
             yield f"{'#' * min(level, 6)} {markdown_text(title)}"
             yield from _blocks(blocks, level + 1)
@@ -39,6 +38,14 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield _row(block.heads)
             yield f"| {' | '.join('---' if side == 'l' else '---:' for side in block.align)} |"
             yield from map(_row, block.rows)
+
+
+def _fenced(text: str) -> Iterator[str]:
+    """Lines between fences longer than any in them; indented lines would go on a list that stands before."""
+    fence = "`" * max(3, *(len(run) + 1 for run in re.findall("`+", text)), 3)
+    yield fence
+    yield from map(printable, text.splitlines())
+    yield fence
 
 
 def _bullets(items: Iterable[str]) -> Iterator[str]:
