@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from lyapcheck.output.escapes import printable
-from lyapcheck.records import Record
 
 
-class Problem(Record):
+@dataclass(frozen=True)
+class Problem:
     """One thing that is wrong with an input: where, what, which rule, and the repair."""
 
     file: str

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from lyapcheck.gating import GateResult
+    from lyapcheck.answers.gate import GateAnswer, GateResult
 
 
 class AcceptedGains(Protocol):
@@ -23,14 +23,14 @@ class AcceptedGains(Protocol):
 
     def __call__(
         self, path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
-    ) -> list[GateResult]:
+    ) -> GateAnswer:
         """See :func:`assert_accepted`; a relative path is meant from pytest's root directory."""
         ...
 
 
 def assert_accepted(
     path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
-) -> list[GateResult]:
+) -> GateAnswer:
     """Fail unless every gain set of a file is accepted by the conditions.
 
     Args:
@@ -48,9 +48,9 @@ def assert_accepted(
     Soundness: that of the gate, which decides exactly.
     """
     __tracebackhide__ = True
+    from lyapcheck.answers.gate import gate
     from lyapcheck.control import read_gain_file
     from lyapcheck.errors import argument_error
-    from lyapcheck.gating import gate
 
     if not conditions:
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
@@ -68,7 +68,7 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
 
     def accepted(
         path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
-    ) -> list[GateResult]:
+    ) -> GateAnswer:
         __tracebackhide__ = True
         return assert_accepted(root / path, robot=robot, conditions=conditions)
 
@@ -77,7 +77,7 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
 
 def _complaints(result: GateResult) -> list[str]:
     """A line a failed check, with the place of the gain."""
-    from lyapcheck.gating.formats.words import KEYS, advice
+    from lyapcheck.answers.gate.words import KEYS, advice
 
     lines = []
     for check in result.failures:

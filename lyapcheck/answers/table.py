@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells
-
-PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
-"""The γ_m that the paper prints after (7)."""
 
 TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x), certified"
 LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import gc
 import io
 import os
 import sys
@@ -84,8 +83,6 @@ def _run() -> None:
     """Run the command, all its output written, and leave."""
     wanted = sys.argv[1] if len(sys.argv) > 1 else ""
     try:
-        if wanted == "gate":
-            _quick_gate(sys.argv[2:])
         build_app((wanted,) if wanted in COMMANDS else COMMANDS)(prog_name="lyapcheck")
     except SystemExit as leave:
         # what Typer makes of a reader that went away is 1, which here would mean refuted
@@ -117,25 +114,6 @@ def _tell(line: str) -> None:
         print(printable(line), file=sys.stderr)
     except OSError:
         _drop(sys.stderr)
-
-
-def _quick_gate(words: list[str]) -> None:
-    """Run the gate and leave, without Typer, if the words are plain: in a hook the start is what counts."""
-    gc.disable()  # neither modules nor results hold cycles worth looking for in so short a run
-    try:
-        from lyapcheck.cli.gate_options import quick_call
-
-        call = quick_call(words)
-        if call is None:
-            return
-        from lyapcheck.cli.gate_run import run
-
-        code = run(call)
-        sys.stdout.flush()
-        gc.freeze()  # nor is there anything to be found by the collection that Python ends with
-    finally:
-        gc.enable()
-    sys.exit(int(code))
 
 
 def _same_bytes_everywhere() -> None:

@@ -53,7 +53,7 @@ def command(
     if robot is not None:
         from dataclasses import replace
 
-        from lyapcheck.tune.budget import torque_budget
+        from lyapcheck.answers.tune.budget import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:

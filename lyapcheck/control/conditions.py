@@ -11,18 +11,21 @@ Each check is a statement about numbers and has the verdict of ``lyapcheck.check
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, Judgement
-from lyapcheck.control.threshold import Threshold, norms, scaled
+from lyapcheck.control.paper import PRINTED_GAMMA
+from lyapcheck.control.threshold import Threshold, norms, number, scaled
+from lyapcheck.errors import argument_error
+from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import places_of
-from lyapcheck.records import Record
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from lyapcheck.check.expressions.expression import Tree
-    from lyapcheck.control.bracket import Bracket
-    from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.files.decimals import Written
 
@@ -35,7 +38,8 @@ _UNTOLD = "the checker gives no verdict: {}"
 _NO_FRICTION = "the arm has no viscous friction; give [bounds] viscous_min"
 
 
-class Check(Record):
+@dataclass(frozen=True)
+class Check:
     """One condition on one joint (or on all): its value, its limit and what would still pass.
 
     Args:
@@ -54,7 +58,7 @@ class Check(Record):
     joint: int | None
     judgement: Judgement | None
     value: Fraction | None
-    limit: Bracket | None
+    limit: Enclosure | None
     largest_admissible: Written | None
     reason: str = ""
 
@@ -131,6 +135,21 @@ class Conditions:
         limit = threshold.apart(value, places)
         reason = _UNTOLD.format(found.reason) if found.proof is None else ""
         return Check(name, joint, found, value, limit, threshold.largest(places), reason)
+
+
+def gamma_of(gain_set: GainSet, source: str = "true") -> Tree | None:
+    """γ of a gain set, the true one or the one the paper prints; ``None`` where h is unbounded.
+
+    Raises:
+        InputError: the paper prints no γ for this m.
+    """
+    if source == "true":
+        return named(gain_set.family, gain_set.m).gamma
+    if gain_set.family != "hyperbolic" or gain_set.m not in PRINTED_GAMMA:
+        raise argument_error(
+            "--gamma", source, f"the paper prints no γ for {gain_set.name}", "use the true γ"
+        )
+    return number(PRINTED_GAMMA[gain_set.m])
 
 
 def _square(vector: list[Fraction] | tuple[Fraction, ...]) -> Fraction:

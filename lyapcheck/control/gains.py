@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-import os
+from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 
+from lyapcheck.errors import InputError
+from lyapcheck.family.registry import LARGEST_M, names
+from lyapcheck.files import Document, Fields, Notes, open_document
 from lyapcheck.files.place import KeyPath, Place
-from lyapcheck.records import Record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from pathlib import Path
-    from typing import Protocol
-
-    class Placed(Protocol):
-        """What knows where a key of a file stands."""
-
-        def place(self, path: KeyPath) -> Place | None:
-            """Line and column of a key, or of the nearest table or list around it."""
 
 
-FAMILIES = ("hyperbolic", "tanh", "arctan", "algebraic", "linear")
-LARGEST_M = 100_000
-
-
-class GainSet(Record):
+@dataclass(frozen=True)
+class GainSet:
     """The gains of one controller τ = K_p h(e) − K_v h(q̇) + g(q).
 
     Args:
@@ -53,7 +42,8 @@ class GainSet(Record):
         return len(self.kp)
 
 
-class Bounds(Record):
+@dataclass(frozen=True)
+class Bounds:
     """What a gain file says about the arm itself; ``None`` where it leaves that to the arm.
 
     Args:
@@ -67,14 +57,15 @@ class Bounds(Record):
     gravity: tuple[Fraction, ...] | None = None
 
 
-class GainFile(Record):
+@dataclass(frozen=True)
+class GainFile:
     """A gain file as read; ``document`` knows the line and column of every number."""
 
     path: str
     robot: str | None
     gains: tuple[GainSet, ...]
     bounds: Bounds = Bounds()
-    document: Placed | None = None
+    document: Document | None = None
 
     def place(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> Place | None:
         """Where a gain of a set stands; ``joint`` counts from 0."""
@@ -90,11 +81,77 @@ def read_gain_file(path: str | Path) -> GainFile:
     Raises:
         InputError: everything that is wrong with the file, each problem with its line and repair.
     """
-    from lyapcheck.control.plain import read_plain
+    document = open_document(Path(path), str(path))
+    notes = Notes(document.name, document.line)
+    top = Fields(document.data, (), notes)
+    robot = top.text("robot") or None
+    tables = top.tables("gains", required=True)
+    sets = [_gain_set(table, index) for index, table in enumerate(tables)]
+    gains = tuple(gain_set for gain_set in sets if gain_set is not None)
+    bounds = _bounds(top.table("bounds"))
+    top.close()
+    _check_names(tables)
+    _check_lengths(gains, bounds, notes)
+    if notes.problems:
+        raise InputError(notes.problems)
+    return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document)
 
-    found = read_plain(os.fspath(path))
-    if found is not None:
-        return found
-    from lyapcheck.control.reading import read_toml
 
-    return read_toml(path)
+def _gain_set(table: Fields, index: int) -> GainSet | None:
+    name = table.text("name", required=True)
+    family = table.choice("family", names(), "hyperbolic")
+    m = table.integer("m", 1, LARGEST_M, required=family == "hyperbolic")
+    if m is not None and family != "hyperbolic":
+        table.fail("m", f"belongs to the hyperbolic family, not to {family}", "remove m, or the key family")
+    angle = table.choice("angle", ("rad", "deg"), "rad")
+    if angle == "deg" and family != "linear":
+        table.fail("angle", f"the gains of {family} are torques, not torques per angle", "remove angle")
+    kp, kv = table.numbers("kp", required=True), table.numbers("kv", required=True)
+    table.close()
+    if kp is None or kv is None:
+        return None
+    if len(kp) != len(kv):
+        table.fail("kv", f"has {len(kv)} gains where kp has {len(kp)}", f"give {len(kp)} gains, one a joint")
+    return GainSet(name, m, kp, kv, family, angle, index)
+
+
+def _bounds(table: Fields | None) -> Bounds:
+    if table is None:
+        return Bounds()
+    found = Bounds(
+        table.number("viscous_min"), table.numbers("torque"), table.numbers("gravity", positive=False)
+    )
+    table.close()
+    return found
+
+
+def _check_names(tables: list[Fields]) -> None:
+    seen: set[str] = set()
+    for table in tables:
+        name = table.data.get("name")
+        if not isinstance(name, str):
+            continue
+        if name in seen:
+            table.fail("name", "is used twice", "give each set its own name")
+        seen.add(name)
+
+
+def _check_lengths(gains: tuple[GainSet, ...], bounds: Bounds, notes: Notes) -> None:
+    if not gains:
+        return
+    n = gains[0].n
+    for gain_set in gains[1:]:
+        if gain_set.n != n:
+            rule = f"has {gain_set.n} joints where the first set has {n}"
+            notes.fail(("gains", gain_set.index, "kp"), None, rule, "keep one arm to a file")
+    for key, values in (("torque", bounds.torque), ("gravity", bounds.gravity)):
+        if values is not None and len(values) != n:
+            rule = f"has {len(values)} entries for {n} joints"
+            notes.fail(("bounds", key), None, rule, f"give {n} numbers, one a joint")
+
+
+def beside(robot: str | None, file: Path) -> str | None:
+    """A robot named by a path is meant relative to the gain file."""
+    if robot is not None and robot.endswith((".toml", ".urdf")) and not Path(robot).is_absolute():
+        return str(file.parent / robot)
+    return robot

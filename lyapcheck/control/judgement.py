@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.records import Record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from lyapcheck.check.statement import Proof, Statement
 
 ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
 VERDICTS = {"proved": ACCEPTED, "refuted": REJECTED}
 
 
-class Judgement(Record):
+@dataclass(frozen=True)
+class Judgement:
     """A statement with the verdict of ``lyapcheck.check.verify``; no proof where none was accepted.
 
     Args:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from lyapcheck.control.known_arms import ArmLimits, known_arm
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.control.arm_limits import ArmLimits, arm_limits
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.escapes import printable
-from lyapcheck.records import Record
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from lyapcheck.control.gains import GainFile
 
 
-class Limits(Record):
+@dataclass(frozen=True)
+class Limits:
     """Exact limits of an arm; an entry is ``None`` where neither the arm nor the gain file gives it.
 
     Args:
@@ -79,21 +80,6 @@ def limits_for(
         assumptions=notes,
         robot=name,
     )
-
-
-def arm_limits(name: str) -> ArmLimits:
-    """The limits of an arm: of a built-in one without building its model.
-
-    Raises:
-        InputError: no such arm, or a file that describes none.
-    """
-    known = known_arm(name)
-    if known is not None:
-        return known
-    from lyapcheck.control.model_limits import model_limits
-    from lyapcheck.robots import load
-
-    return model_limits(load(name))
 
 
 def _numbered(n: int) -> tuple[str, ...]:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from importlib import resources
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
+
+PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
+"""γ_1, γ_2, γ_3 as the paper prints them after (7): the last two are below the true ones."""
 
 
 def proofs_folder() -> Path:

@@ -7,7 +7,8 @@ norms    (√T − √G)/(√n γ)     of (10), which gains must not exceed; T =
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isqrt
+from math import floor, isqrt
+from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.normal_form import normal_form
@@ -16,11 +17,9 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.replay import MAX_BITS
 from lyapcheck.check.statement import Relation
-from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.judgement import Judgement, judged
 from lyapcheck.files.decimals import Written, exact_decimal, scaled_text
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -48,14 +47,14 @@ class Threshold:
         self.bounded, self.operator = gamma is not None, operator
         self.limit = _quotient(budget, (root(Fraction(n)), gamma or ONE))
         self._known: dict[Fraction, Judgement] = {}
-        self._near: dict[int, Bracket] = {}
+        self._near: dict[int, Enclosure] = {}
         self._largest: dict[int, Written | None] = {}
 
     def judged(self, value: Fraction, places: int = 0) -> Judgement:
         """What the checker says of a positive value with so many decimal places."""
         if value not in self._known:
             if self.bounded:
-                statement = Constant(Relation(_number(value), self.operator, self.limit))
+                statement = Constant(Relation(number(value), self.operator, self.limit))
                 self._known[value] = judged(statement, _proofs(places))
             else:
                 self._known[value] = judged(*self._against(value))
@@ -65,19 +64,19 @@ class Threshold:
         """Whether the checker proves that a positive value passes."""
         return self.judged(value, places).shown == "proved"
 
-    def near(self, places: int = 0) -> Bracket:
+    def near(self, places: int = 0) -> Enclosure:
         """The number between two others that tell decimals of so many places apart."""
         bits = FIRST_BITS + 4 * (places - places % 16)
         if bits not in self._near:
             found = self._within(bits)
-            wide = ((found.high - found.low) * 10**places // found.den).bit_length()
+            wide = floor(found.width * 10**places).bit_length()
             self._near[bits] = self._within(bits + wide + 4) if wide else found
         return self._near[bits]
 
-    def apart(self, value: Fraction, places: int = 0) -> Bracket:
+    def apart(self, value: Fraction, places: int = 0) -> Enclosure:
         """As `near`, and without the value, unless the number is known to be it or cannot be told from it."""
         found, bits = self.near(places), FIRST_BITS + 4 * places
-        while found.side(value) == 0 and found.low < found.high and bits < MAX_BITS:
+        while found.lower <= value <= found.upper and found.width and bits < MAX_BITS:
             bits *= 2
             found = self._within(bits)
         return found
@@ -89,8 +88,8 @@ class Threshold:
         """
         if places not in self._largest:
             units, most, near = self.most_units(places), places, self.near(places)
-            if units == 0 and near.low > 0:
-                while near.low * 10**most < 10 * near.den:
+            if units == 0 and near.lower > 0:
+                while near.lower * 10**most < 10:
                     most += 1
                 units = self.most_units(most)
             self._largest[places] = exact_decimal(scaled_text(units, most)) if units else None
@@ -99,30 +98,28 @@ class Threshold:
     def most_units(self, places: int) -> int:
         """The largest number of units in so many places that passes; 0 where none does."""
         near, scale = self.near(places), 10**places
-        most = near.high * scale // near.den if self.bounded else 0
+        most = floor(near.upper * scale) if self.bounded else 0
         # beside the last decimal before the limit, one more where the limit itself is a decimal
         tried = (units for units in range(most, max(0, most - 3), -1))
         return next((units for units in tried if self.admits(Fraction(units, scale), places)), 0)
 
-    def _within(self, bits: int) -> Bracket:
+    def _within(self, bits: int) -> Enclosure:
         """The number to about so many bits; exactly, where it is rational."""
         ratio, _ = normal_form(self.limit)
         ratio = ratio.lowest()
         if ratio.top.is_constant() and ratio.bottom.is_constant():
             top = ratio.top.leading_coefficient() if ratio.top != 0 else 0
             value = top / ratio.bottom.leading_coefficient()
-            return Bracket.exact(Fraction(int(value.p), int(value.q)))
+            return Enclosure.exact(Fraction(int(value.p), int(value.q)))
         with precision(bits):
-            found = Enclosure.from_arb(ball(self.limit))
-        den = max(found.lower.denominator, found.upper.denominator)
-        return Bracket(int(found.lower * den), int(found.upper * den), den)
+            return Enclosure.from_arb(ball(self.limit))
 
     def _against(self, value: Fraction) -> tuple[ForAll, list[Proof]]:
         """That value·h(x) = value·x keeps to the limit for all x, and an x where it does not."""
         from lyapcheck.check.kinds.for_all import ForAll
         from lyapcheck.check.statement import Witness
 
-        product = ("mul", _number(value), ("var", "x"))
+        product = ("mul", number(value), ("var", "x"))
         statement = ForAll(Relation(product, self.operator, self.limit), Fraction(0))
         x = Fraction(max(0, self.near().upper // value) + 1)
         return statement, [Witness((("x", x),))]
@@ -130,7 +127,7 @@ class Threshold:
 
 def scaled(budget: Fraction, n: int, gamma: Tree | None) -> Threshold:
     """budget/(√n γ), which values must stay below."""
-    return Threshold(_number(budget), n, gamma)
+    return Threshold(number(budget), n, gamma)
 
 
 def norms(torque_squared: Fraction, gravity_squared: Fraction, n: int, gamma: Tree | None) -> Threshold:
@@ -153,13 +150,13 @@ def root(square: Fraction) -> Tree:
     outside, inside = _square_out(whole)
     factor = Fraction(outside, square.denominator)
     if inside == 1 or whole == 0:
-        return _number(factor if whole else Fraction(0))
-    surd: Tree = ("sqrt", _number(Fraction(inside)))
-    return surd if factor == 1 else ("mul", _number(factor), surd)
+        return number(factor if whole else Fraction(0))
+    surd: Tree = ("sqrt", number(Fraction(inside)))
+    return surd if factor == 1 else ("mul", number(factor), surd)
 
 
 def _plain_root(square: Fraction) -> Tree:
-    return "sqrt", _number(square)
+    return "sqrt", number(square)
 
 
 def _square_out(whole: int) -> tuple[int, int]:
@@ -178,7 +175,8 @@ def _square_out(whole: int) -> tuple[int, int]:
     return outside, inside * rest
 
 
-def _number(value: Fraction) -> Tree:
+def number(value: Fraction) -> Tree:
+    """A rational as a term."""
     return "num", f"{value.numerator}/{value.denominator}" if value.denominator > 1 else str(value.numerator)
 
 

@@ -13,6 +13,8 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from lyapcheck.check.expressions.expression import Tree
+
     Doubles = NDArray[Any]
 
 
@@ -61,6 +63,11 @@ class Family(ABC):
     name: str
     m: int | None = None
     bounded: bool = True
+
+    @property
+    @abstractmethod
+    def gamma(self) -> Tree | None:
+        """γ = sup h as a term that the checker knows; ``None`` where h is unbounded."""
 
     @abstractmethod
     def h(self, x: ArrayLike) -> Doubles:

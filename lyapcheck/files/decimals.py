@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-
-from lyapcheck.records import Record
 
 TYPE_CHECKING = False  # so that nothing is imported that is not used
 if TYPE_CHECKING:
@@ -43,7 +42,8 @@ class Written(Fraction):
         return (written, (self.text,))
 
 
-class NotFinite(Record):
+@dataclass(frozen=True)
+class NotFinite:
     """A number of a file that has no finite exact value here: ``nan``, ``inf``, or one beyond all sizes."""
 
     text: str
@@ -75,6 +75,9 @@ def exact_decimal(text: str) -> Written:
 
 def of_physical_size(value: Fraction | int) -> bool:
     """Whether a value is 0 or between 10^-400 and 10^400 in size."""
+    bits = value.numerator.bit_length() - value.denominator.bit_length()
+    if abs(bits) < LARGEST_EXPONENT:  # 2^400 is far within; the exact comparison takes longer
+        return True
     size, largest = abs(Fraction(value)), 10**LARGEST_EXPONENT
     return size == 0 or Fraction(1, largest) <= size <= largest
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from lyapcheck.records import Record
+from dataclasses import dataclass
 
 KeyPath = tuple[str | int, ...]
 
 
-class Place(Record):
+@dataclass(frozen=True)
+class Place:
     """Line and column, both counted from 1."""
 
     line: int

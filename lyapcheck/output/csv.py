@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from lyapcheck.output.answer import Answer
@@ -18,12 +18,18 @@ def render(answer: Answer) -> str:
     without a value are empty.
     """
     rows = [dict(_flat("", record)) for record in answer.records()]
-    heads = list(dict.fromkeys(name for row in rows for name in row))
+    names = dict.fromkeys(name for row in rows for name in row)
+    heads = [name for name in names if any(row.get(name) for row in rows) or not _has_parts(name, names)]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(map(csv_text, heads))
     writer.writerows([row.get(name, "") for name in heads] for row in rows)
     return text.getvalue()
+
+
+def _has_parts(name: str, names: Iterable[str]) -> bool:
+    """Whether a name that has no value of its own anywhere has parts in some record."""
+    return any(other.startswith(f"{name}_") for other in names)
 
 
 def _flat(name: str, value: Any) -> Iterator[tuple[str, str]]:

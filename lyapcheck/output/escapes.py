@@ -17,8 +17,6 @@ _LATEX = {
     "^": r"\textasciicircum{}",
     **{c: f"\\{c}" for c in "&%$#_{}"},
 }
-_NOT_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""Characters that no XML 1.0 document may hold, not even as a reference."""
 _FORMULA = ("=", "+", "-", "@")
 """What spreadsheets take for the beginning of a formula."""
 
@@ -54,11 +52,6 @@ def markdown_text(text: str) -> str:
 def html_text(text: str) -> str:
     """The text as HTML, in an element or in a quoted attribute."""
     return "".join(_HTML.get(c, c) for c in printable(text))
-
-
-def xml_text(text: str) -> str:
-    """The text with what XML cannot hold written as an escape; the writer of the XML escapes the rest."""
-    return _NOT_XML.sub(lambda found: printable(found[0]), text)
 
 
 def latex_text(text: str) -> str:

@@ -1,4 +1,7 @@
-"""What was judged as JUnit XML: a suite a group, a test case a case."""
+"""What was judged as JUnit XML: a suite a group, a test case a case.
+
+Characters that XML cannot hold do not print, and come as escapes in every format.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,6 @@ from xml.etree import ElementTree as ET
 
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.escapes import xml_text
 
 
 def render(answer: Answer) -> str:
@@ -24,7 +26,7 @@ def _suite(top: ET.Element, path: str, group: str, found: list[Annotation]) -> N
     suite = ET.SubElement(
         top,
         "testsuite",
-        name=xml_text(group),
+        name=group,
         tests=str(len(found) - levels.count(Level.REMARK)),
         failures=str(levels.count(Level.FAILED)),
         skipped=str(levels.count(Level.UNDECIDED)),
@@ -35,13 +37,13 @@ def _suite(top: ET.Element, path: str, group: str, found: list[Annotation]) -> N
             _case(suite, one, ".".join(part for part in (path, group) if part))
     said = [one.message for one in found if one.level is Level.REMARK]
     if said:
-        ET.SubElement(suite, "system-out").text = xml_text("\n".join(said))
+        ET.SubElement(suite, "system-out").text = "\n".join(said)
 
 
 def _case(suite: ET.Element, one: Annotation, place: str) -> None:
     name = " ".join(part for part in (f"({one.rule})", one.case) if part)
-    case = ET.SubElement(suite, "testcase", classname=xml_text(place), name=xml_text(name))
+    case = ET.SubElement(suite, "testcase", classname=place, name=name)
     if one.level is Level.FAILED:
-        ET.SubElement(case, "failure", message=xml_text(one.message), type=one.level.value)
+        ET.SubElement(case, "failure", message=one.message, type=one.level.value)
     elif one.level is Level.UNDECIDED:
-        ET.SubElement(case, "skipped", message=xml_text(one.message))
+        ET.SubElement(case, "skipped", message=one.message)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from textwrap import wrap
-from unicodedata import east_asian_width
+from unicodedata import combining, east_asian_width
 
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 from lyapcheck.output.escapes import printable
@@ -13,11 +14,13 @@ WIDTH = 80
 GAP = "  "
 LEAST = 12
 """A column of words is not made narrower than this, nor than its longest word."""
+MOST = 24
+"""A longer word of a sentence in a table is broken where the column ends; a cell of one word never is."""
 
 BOLD, DIM, GREEN, RED, YELLOW, PLAIN = (f"\x1b[{code}m" for code in (1, 2, 32, 31, 33, 0))
 COLOURS = {
     **dict.fromkeys(("✓", "proved", "accepted"), GREEN),
-    **dict.fromkeys(("✗", "refuted", "rejected", "refused", "error"), RED),
+    **dict.fromkeys(("✗", "!", "refuted", "rejected", "refused", "error"), RED),
     **dict.fromkeys(("?", "undecided"), YELLOW),
 }
 """Of cells that are one of these words, and of titles that begin with one."""
@@ -26,9 +29,7 @@ COLOURS = {
 def render(document: Document, colour: bool = False) -> str:
     """The whole document; lines end where they must, also within words that no line could hold."""
     writer = _Writer(colour)
-    lines = [writer.title(document.title, "═"), *writer.blocks(document.blocks)]
-    if document.notes:
-        lines += ["", *writer.bullets(document.notes)]
+    lines = [writer.title(document.title, "═"), *writer.blocks(document.body)]
     return "\n".join(lines) + "\n"
 
 
@@ -95,7 +96,9 @@ class _Writer:
         if all(_width(cell) <= width for cell, width in zip(row, widths, strict=True)):
             stacks = [[cell] for cell in row]
         else:
-            stacks = [_wrapped(cell, width) or [""] for cell, width in zip(row, widths, strict=True)]
+            stacks = [
+                _wrapped(cell, width, broken=True) or [""] for cell, width in zip(row, widths, strict=True)
+            ]
         for k in range(max(map(len, stacks))):
             parts = []
             for stack, width, side in zip(stacks, widths, align, strict=True):
@@ -114,6 +117,8 @@ class _Writer:
 
 def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
     """The columns that fit side by side, the keys with each lot of them."""
+    if _excess(_natural(cells)) <= 0:
+        return [list(range(len(table.heads)))]
     least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), table.align, strict=True)]
     keys = list(range(min(table.keys, len(least))))
     used = sum(least[i] + len(GAP) for i in keys)
@@ -130,10 +135,11 @@ def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
 
 def _fitting(cells: Sequence[Sequence[str]], align: str) -> list[int]:
     """Widths of columns that make lines of at most `WIDTH`, where wrapping words can do it."""
-    columns = list(zip(*cells, strict=True))
-    widths = [max(map(_width, column)) for column in columns]
-    least = [_least(column, side) for column, side in zip(columns, align, strict=True)]
-    excess = sum(widths) + len(GAP) * (len(widths) - 1) - WIDTH
+    widths = _natural(cells)
+    excess = _excess(widths)
+    if excess <= 0:
+        return widths
+    least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), align, strict=True)]
     while excess > 0:
         spare = [width - low for width, low in zip(widths, least, strict=True)]
         if max(spare) <= 0:
@@ -146,27 +152,48 @@ def _fitting(cells: Sequence[Sequence[str]], align: str) -> list[int]:
     return widths
 
 
+def _natural(cells: Sequence[Sequence[str]]) -> list[int]:
+    """The widths of columns in which no cell is wrapped."""
+    return [max(map(_width, column)) for column in zip(*cells, strict=True)]
+
+
+def _excess(widths: Sequence[int]) -> int:
+    """By how much columns of these widths are too wide for a line."""
+    return sum(widths) + len(GAP) * (len(widths) - 1) - WIDTH
+
+
 def _least(column: Sequence[str], side: str) -> int:
     """The least width of a column: heads and words may be wrapped at spaces, numbers are not."""
     head, *body = column
     lowest = max(map(_width, head.split()), default=0)
     if side == "l":
-        natural = max(map(_width, column))
-        longest = max((_width(word) for cell in body for word in cell.split()), default=0)
+        natural = max(map(_width, body), default=0)
+        longest = max(map(_longest, body), default=0)
         return max(lowest, min(natural, max(longest, LEAST)))
     return max([lowest, *map(_width, body)])
 
 
-def _wrapped(text: str, width: int = WIDTH) -> list[str]:
-    """The lines of a text; a word that is longer than a line stands on one of its own."""
+def _longest(cell: str) -> int:
+    """The width that the words of a cell need."""
+    words = cell.split()
+    longest = max(map(_width, words), default=0)
+    return longest if len(words) < 2 else min(longest, MOST)
+
+
+def _wrapped(text: str, width: int = WIDTH, broken: bool = False) -> list[str]:
+    """The lines of a text; a word that is longer than a line stands on one of its own, or is broken."""
     shown = printable(text)
     if _width(shown) <= width:
         return [shown]
-    return wrap(shown, width, break_long_words=False, break_on_hyphens=False)
+    return wrap(shown, width, break_long_words=broken, break_on_hyphens=False)
+
+
+_ODD = re.compile("[^\x20-\u02ff\u0370-\u0482\u2010-\u20cf\u2100-\u22ff\u2500-\u257f]")
+"""All but letters, signs and lines of which each takes one column."""
 
 
 def _width(text: str) -> int:
     """How many columns a terminal needs."""
-    if text.isascii():
+    if not _ODD.search(text):
         return len(text)
-    return sum(2 if east_asian_width(c) in "WF" else 1 for c in text)
+    return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)

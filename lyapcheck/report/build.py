@@ -80,12 +80,11 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
 
 def _gate(subject: Subject) -> list[Data]:
-    from lyapcheck.gating.formats.json import result_json
-    from lyapcheck.gating.gate import gate
+    from lyapcheck.answers.gate import gate
 
-    results = [result for file in subject.gain_files for result in gate(file, subject.robot)]
-    kept = [item for item in results if item.m is None or item.m in subject.ms]
-    return [{**result_json(item), "file": item.file.path.rsplit("/", 1)[-1]} for item in kept]
+    found = [gate(file, subject.robot).data() for file in subject.gain_files]
+    rows = [row for data in found for row in data["results"] if row["m"] is None or row["m"] in subject.ms]
+    return [{**row, "file": row["file"].rsplit("/", 1)[-1]} for row in rows]
 
 
 def _table(ms: Sequence[int]) -> list[Data]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from flint import arb
 
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers import members
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
@@ -18,6 +19,11 @@ from lyapcheck.family.registry import require_none
 @dataclass(frozen=True)
 class Algebraic(ElementaryFamily):
     """h = x/√(1 + x²), h' = (1 + x²)^(-3/2), U = √(1 + x²) - 1; γ = 1 in the limit, ρ = L = 1 at 0."""
+
+    @property
+    def gamma(self) -> Tree:
+        """1."""
+        return "num", "1"
 
     def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
         """Beyond |x| = 2^27 adding 1 to x² changes nothing, so x² is never needed where it would overflow."""

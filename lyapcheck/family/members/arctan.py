@@ -7,6 +7,7 @@ from typing import Any
 
 from flint import arb
 
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers import members
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -25,6 +26,11 @@ _HUGE = 2.0**27
 @dataclass(frozen=True)
 class Arctan(ElementaryFamily):
     """h = arctan x, h' = 1/(1 + x²), U = x arctan x - ln(1 + x²)/2; γ = π/2 in the limit, ρ = L = 1 at 0."""
+
+    @property
+    def gamma(self) -> Tree:
+        """π/2."""
+        return "div", ("pi",), ("num", "2")
 
     def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
         """From 1/x where x² may overflow; U near 0 by its series, where its parts cancel."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
@@ -25,6 +26,11 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Hyperbolic(Family):
     """h_m = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x), U_m = ln(1 + sinh^(2m)x) / (2m)."""
+
+    @property
+    def gamma(self) -> Tree:
+        """γ_m."""
+        return "gamma", self._member
 
     @property
     def _member(self) -> int:

@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 class Linear(Family):
     """h = x, h' = 1, U = x²/2: unbounded, so γ does not exist; ρ = L = 1 everywhere."""
 
+    @property
+    def gamma(self) -> None:
+        """None: h is unbounded."""
+        return None
+
     def h(self, x: ArrayLike) -> Doubles:
         """x itself."""
         return _array(x).copy()

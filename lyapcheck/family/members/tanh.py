@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.family.members.hyperbolic import Hyperbolic
 from lyapcheck.family.registry import require_none
 
@@ -11,6 +12,11 @@ from lyapcheck.family.registry import require_none
 @dataclass(frozen=True)
 class Tanh(Hyperbolic):
     """h = tanh x, h' = sech²x, U = ln cosh x."""
+
+    @property
+    def gamma(self) -> Tree:
+        """1."""
+        return "num", "1"
 
     @property
     def _member(self) -> int:

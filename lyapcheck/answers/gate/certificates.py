@@ -6,15 +6,15 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from lyapcheck.answers.gate.words import RULES, joint_name
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.errors import argument_error
-from lyapcheck.gating.formats.words import RULES, joint_name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.control.conditions import Check
-    from lyapcheck.gating.gate import GateResult
 
 PROOF = "gate"
 

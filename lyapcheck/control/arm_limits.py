@@ -1,13 +1,50 @@
-"""The limits of an arm from its model."""
+"""What an arm's model says about its limits."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.control.known_arms import ArmLimits
-from lyapcheck.robots import Number, RobotModel
+from lyapcheck.robots import Number, RobotModel, load
+
+
+@dataclass(frozen=True)
+class ArmLimits:
+    """What the conditions take from an arm: see ``Limits``.
+
+    Args:
+        name: of the arm.
+        joints: their names.
+        torque: torque limit of each joint, N·m; ``None`` where there is none.
+        gravity: bound of each gravity torque, N·m.
+        viscous_min: λmin(B), N·m·s/rad.
+        torque_notes: which torque limits are assumed, and why.
+        viscous_notes: which friction is assumed, and why.
+    """
+
+    name: str
+    joints: tuple[str, ...]
+    torque: tuple[Fraction | None, ...]
+    gravity: tuple[Fraction, ...]
+    viscous_min: Fraction
+    torque_notes: tuple[str, ...] = ()
+    viscous_notes: tuple[str, ...] = ()
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.joints)
+
+
+def arm_limits(name: str) -> ArmLimits:
+    """The limits of an arm.
+
+    Raises:
+        InputError: no such arm, or a file that describes none.
+    """
+    return model_limits(load(name))
 
 
 def model_limits(model: RobotModel) -> ArmLimits:

@@ -6,9 +6,9 @@ torques of (6): a motor that saturates is outside, see (10p).
 
 from __future__ import annotations
 
+from lyapcheck.answers.gate.judge import CERTIFICATES, GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.gating.gate import CERTIFICATES, GateResult
 
 _NO_ARM = (
     "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"

@@ -1,15 +1,14 @@
-"""What every format says about a check, in one place."""
+"""What is said about one check."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 
+from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from lyapcheck.gating.gate import GateResult
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
@@ -44,7 +43,18 @@ def limit_text(check: Check, digits: int = 6) -> str:
     """The limit to a few digits, all correct; ``none`` where there is no limit."""
     if check.id not in _SUBJECTS:
         return "ε₀ > 0"
-    return "none" if check.limit is None else check.limit.correct_digits(digits)
+    return "none" if check.limit is None else _digits(check.limit, digits)
+
+
+@lru_cache(maxsize=256)  # joints and sets share limits
+def _digits(limit: Enclosure, digits: int) -> str:
+    return limit.correct_digits(digits)
+
+
+@lru_cache(maxsize=256)
+def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
+    """The limit between two decimals."""
+    return limit.decimals(digits)
 
 
 def largest_text(check: Check) -> str:
@@ -60,8 +70,8 @@ def margin_text(check: Check, digits: int = 4) -> str:
     limit, value = check.limit, check.value
     if limit is None or value is None:
         return ""
-    margin = limit.low * value.denominator - value.numerator * limit.den
-    return _down(margin, limit.den * value.denominator, digits)
+    margin = limit.lower - value
+    return _down(margin.numerator, margin.denominator, digits)
 
 
 def significant_down(value: Fraction, digits: int) -> str:

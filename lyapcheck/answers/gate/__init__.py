@@ -1,0 +1,47 @@
+"""Which gains hold the conditions that must hold: the gate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.answers.gate.answer import GateAnswer
+from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
+from lyapcheck.control.arm_limits import ArmLimits
+from lyapcheck.control.gains import GainFile
+
+__all__ = ["DECIDING", "GateAnswer", "GateResult", "gate"]
+
+
+def gate(
+    gain_file: GainFile,
+    robot: str | None = None,
+    deciding: Sequence[str] = DECIDING,
+    gamma: str = "true",
+    strict: bool = False,
+    arms: dict[str, ArmLimits] | None = None,
+) -> GateAnswer:
+    """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
+
+    Args:
+        gain_file: what ``read_gain_file`` returned.
+        robot: an arm that replaces the one the file names.
+        deciding: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
+        gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
+        strict: whether what is undecided counts as a failure.
+        arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
+
+    Raises:
+        InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
+
+    Soundness: every verdict is that of ``lyapcheck.check.verify`` on a statement with a proof, which
+        ``lyapcheck.answers.gate.certificates`` writes as a certificate; where there is no proof it is
+        ``undecided``.
+
+    References: (10), (19) and Section 4 of reyes2019family.
+
+    Example:
+        >>> from lyapcheck.control import paper_gain_file, read_gain_file
+        >>> [result.verdict for result in gate(read_gain_file(paper_gain_file("table2")))]
+        ['accepted', 'rejected', 'rejected']
+    """
+    return GateAnswer(judged_sets(gain_file, robot, deciding, gamma, strict, arms))

@@ -1,0 +1,178 @@
+"""The gate's answer: which gain sets hold the conditions, and what to change where they do not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.answers.gate.stability import remarks, stable_otherwise
+from lyapcheck.answers.gate.words import (
+    KEYS,
+    RULES,
+    SYMBOLS,
+    about,
+    advice,
+    joint_name,
+    largest_text,
+    limit_ends,
+    limit_text,
+    margin_text,
+    value_text,
+)
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.verdicts import Exit
+
+HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
+DIGITS, MARGIN_DIGITS = 20, 12
+"""Significant digits of limits and of margins in data; people see fewer."""
+LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
+NO_DECISION = "* shown, but does not decide; --condition chooses what does"
+
+
+class GateAnswer(tuple[GateResult, ...], Answer):
+    """The results of gain sets, in the order of their files."""
+
+    schema = "lyapcheck/gate/1"
+
+    @property
+    def exit_code(self) -> Exit:
+        """1 if any set is rejected, else 3 if any is undecided, else 0; strictly, undecided leads to 1."""
+        found = {REJECTED if any(map(one.failed, one.failures)) else one.verdict for one in self}
+        if REJECTED in found:
+            return Exit.REFUTED
+        return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
+
+    def document(self) -> Document:
+        """How many sets got which verdict; a section a set."""
+        return Document(self._title(), tuple(map(_section, self)), tuple(self._notes()))
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, m, verdict, checks: [...]}]``, numbers as decimal strings, limits enclosed."""
+        return {"results": [_data(result) for result in self]}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a check."""
+        return [
+            {"name": result.name, "m": result.m, **_check_data(result, check)}
+            for result in self
+            for check in result.checks
+        ]
+
+    def annotations(self) -> list[Annotation]:
+        """A case a check that decides, and what the conditions say about each other."""
+        return [annotation for result in self for annotation in _annotations(result)]
+
+    def _title(self) -> str:
+        verdicts = [result.verdict for result in self]
+        worst = next((v for v in (REJECTED, UNDECIDED) if v in verdicts), ACCEPTED)
+        counts = {verdict: verdicts.count(verdict) for verdict in (REJECTED, UNDECIDED, ACCEPTED)}
+        counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+        return f"{SYMBOLS[worst]} {counted or 'no gain sets'}"
+
+    def _notes(self) -> Iterator[str]:
+        """What the conditions say, and what the numbers rest on."""
+        shown = dict.fromkeys(check.id for result in self for check in result.checks)
+        yield from (f"({name}) {RULES[name]}" for name in shown)
+        if any(check.id not in result.deciding for result in self for check in result.checks):
+            yield NO_DECISION
+        yield from (f"assumed: {text}" for text in dict.fromkeys(_assumptions(self)))
+
+
+def _assumptions(results: GateAnswer) -> Iterator[str]:
+    return (text for result in results for text in result.limits.assumptions)
+
+
+def _section(result: GateResult) -> Section:
+    verdict = result.verdict
+    title = f"{SYMBOLS[verdict]} {result.name}: {verdict} ({about(result)}, {result.file.path})"
+    rows = tuple([_row(result, check) for check in result.checks])
+    said = [*(advice(result, check) for check in result.failures), *remarks(result)]
+    table = Table(HEADS, rows, align="lllrrrr", keys=3)
+    return Section(title, (table, Bullets(tuple(said))) if said else (table,))
+
+
+def _row(result: GateResult, check: Check) -> tuple[str, ...]:
+    """One check; a star for one that does not decide."""
+    return (
+        SYMBOLS[check.verdict],
+        check.id if check.id in result.deciding else f"{check.id} *",
+        joint_name(result, check),
+        value_text(check),
+        limit_text(check),
+        margin_text(check),
+        largest_text(check),
+    )
+
+
+def _data(result: GateResult) -> dict[str, Any]:
+    stable = stable_otherwise(result)
+    return {
+        "name": result.name,
+        "file": result.file.path,
+        "family": result.gains.family,
+        "m": result.m,
+        "verdict": result.verdict,
+        "deciding": list(result.deciding),
+        "strict": result.strict,
+        "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": _exact(stable)},
+        "remarks": remarks(result),
+        "assumptions": list(result.limits.assumptions),
+        "checks": [_check_data(result, check) for check in result.checks],
+    }
+
+
+def _exact(check: Check) -> str | None:
+    return None if check.value is None else decimal_text(check.value)
+
+
+def _check_data(result: GateResult, check: Check) -> dict[str, Any]:
+    place = result.file.place(result.gains, KEYS[check.id], check.joint)
+    limit = None if check.limit is None else limit_ends(check.limit, DIGITS)
+    return {
+        "id": check.id,
+        "joint": None if check.joint is None else joint_name(result, check),
+        "verdict": check.verdict,
+        "value": _exact(check),
+        "limit": None if limit is None else {"lower": limit[0], "upper": limit[1]},
+        "margin": None if limit is None else margin_text(check, MARGIN_DIGITS),
+        "largest_admissible": None if check.largest_admissible is None else largest_text(check),
+        "line": None if place is None else place.line,
+        "column": None if place is None else place.column,
+        "message": advice(result, check),
+    }
+
+
+def _annotations(result: GateResult) -> Iterator[Annotation]:
+    for check in result.checks:
+        if check.id not in result.deciding:
+            continue
+        place = result.file.place(result.gains, KEYS[check.id], check.joint)
+        yield Annotation(
+            level=Level.FAILED if result.failed(check) else LEVELS[check.verdict],
+            rule=f"condition-{check.id}",
+            rule_text=RULES[check.id],
+            group=result.name,
+            case=joint_name(result, check),
+            message=advice(result, check),
+            path=result.file.path,
+            line=0 if place is None else place.line,
+            column=0 if place is None else place.column,
+        )
+    place = result.file.place(result.gains)
+    for remark in remarks(result):
+        yield Annotation(
+            level=Level.REMARK,
+            rule="remark",
+            rule_text="what the conditions say about each other",
+            group=result.name,
+            case="",
+            message=remark,
+            path=result.file.path,
+            line=0 if place is None else place.line,
+            column=0 if place is None else place.column,
+        )

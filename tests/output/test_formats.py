@@ -1,0 +1,328 @@
+"""Every format of an answer: what it says is shown, nothing of what it says is obeyed."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from dataclasses import dataclass
+from html.parser import HTMLParser
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from markdown_it import MarkdownIt
+
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.escapes import document_text, printable
+from lyapcheck.output.formats import Format, JudgedFormat
+from lyapcheck.output.json import LONGEST, laid_out
+from lyapcheck.output.text import WIDTH, render
+
+NASTY = [
+    "<script>alert(1)</script>",
+    "<b>&amp;\"'</b>",
+    "a|b|c\\",
+    "`code` *bold* _it_ ~~no~~ [x](javascript:y) ![z](w) <!-- # -->",
+    "a\nb\r\nc",
+    "::error file=x,line=1::owned",
+    "100%0A, a:b",
+    "\x1b[31mred\x07\x00",
+    "\u202egnp.exe \u2028 \ufffe \u00a0",
+    "λ 关节 🦾",
+    "]]> --> %1B",
+    "### heading",
+    "@everyone #1",
+    "=cmd|' /C calc'!A0",
+    "$\\frac$ 100% {x} ^ ~ _ &",
+]
+NAMES = st.one_of(st.sampled_from(NASTY), st.text(min_size=1, max_size=12))
+QUICK = settings(max_examples=60, deadline=None)
+
+
+@dataclass(frozen=True)
+class Sample(Answer):
+    """An answer with a text in every place that can hold one."""
+
+    schema = "lyapcheck/sample/1"
+    name: str
+
+    def document(self) -> Document:
+        name = self.name
+        table = Table((name, "value"), ((name, "1"), ("b", name)), name)
+        inner = Section(name, (Paragraph(name), table))
+        return Document(name, (Bullets((name, name)), Code(name), inner), (name,))
+
+    def data(self) -> dict[str, Any]:
+        return {"results": [{"name": self.name, self.name: {"inner": [self.name, 1, None]}}]}
+
+    def annotations(self) -> list[Annotation]:
+        return [
+            Annotation(
+                level, f"rule-{level.value}", self.name, self.name, self.name, self.name, self.name, 3, 5
+            )
+            for level in Level
+        ]
+
+
+class Page(HTMLParser):
+    """The text of each element of a page by its tag; no comment is expected."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.parts: dict[str, list[str]] = {}
+        self._open: list[str] = []
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self._open.append(tag)
+        self.parts.setdefault(tag, []).append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._open.pop()
+
+    def handle_comment(self, data: str) -> None:
+        raise AssertionError(f"a comment got in: {data}")
+
+    def handle_data(self, data: str) -> None:
+        if self._open:
+            self.parts[self._open[-1]][-1] += data
+
+
+BLOCKS = {"p", "ul", "li", "pre", "code", "table", "thead", "tbody", "tr", "th", "td"}
+
+
+def cells(page: Page) -> list[str]:
+    return [*page.parts["th"], *page.parts["td"]]
+
+
+# --- names -------------------------------------------------------------------------------------------
+
+
+@QUICK
+@given(NAMES)
+def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
+    text = Sample(name).written("text")
+    assert text.replace("\n", "").isprintable()
+    assert printable(name).split() == [] or printable(name).split()[0] in text
+
+
+@QUICK
+@given(NAMES)
+@example("&lt; a|b \\| ` <i>_x_</i> ~~s~~ http://x.y <http://x.y>")
+def test_markdown_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
+    written = Sample(name).written("markdown")
+    page = Page(MarkdownIt("commonmark").enable(["table", "strikethrough"]).render(written))
+    assert set(page.parts) <= BLOCKS | {"h1", "h2"}
+    shown = printable(name).strip()
+    assert cells(page) == [shown, "value", shown, "1", "b", shown]
+    assert page.parts["li"] == [shown] * 3
+    assert page.parts["h1"] == [shown]
+    assert page.parts["h2"] == [shown, "Notes"]
+
+
+@QUICK
+@given(NAMES)
+def test_html_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
+    page = Page(Sample(name).written("html"))
+    assert set(page.parts) == BLOCKS | {"h2", "h3", "caption"}
+    shown = printable(name)
+    assert cells(page) == [shown, "value", shown, "1", "b", shown]
+    assert page.parts["caption"] == page.parts["h2"] == page.parts["p"] == [shown]
+    assert page.parts["h3"] == [shown, "Notes"]
+
+
+@QUICK
+@given(NAMES)
+def test_latex_obeys_nothing(name: str) -> None:
+    head = next(line for line in Sample(name).written("latex").splitlines() if line.startswith(r"\section*"))
+    inside = head.removeprefix(r"\section*{").removesuffix("}")
+    bare = re.sub(r"\\text\w+\{\}|\\ensuremath\{\\[A-Za-z]+\}|\\[&%$#_{}]", "", inside)
+    assert not set(bare) & set("\\&%$#_{}~^"), head
+
+
+@QUICK
+@given(NAMES)
+@example("=1+1")
+@example("+1")
+def test_csv_holds_no_formula(name: str) -> None:
+    rows = list(csv.reader(io.StringIO(Sample(name).written("csv")), strict=True))
+    assert len({len(row) for row in rows}) == 1
+    for cell in (cell for row in rows for cell in row):
+        assert not cell.startswith(("=", "+", "-", "@")) or re.fullmatch(
+            r"[-+]?[\d.e+-]+|[-+]inf\w*|[-+]nan", cell.lower()
+        )
+
+
+@QUICK
+@given(NAMES)
+def test_json_reads_back(name: str) -> None:
+    found = json.loads(Sample(name).written("json"))
+    assert found["results"] == Sample(name).data()["results"]
+    assert found["schema"] == "lyapcheck/sample/1"
+    assert found["version"] == found["versions"]["lyapcheck"]
+
+
+@QUICK
+@given(NAMES)
+def test_sarif_keeps_texts_and_leaves_passed_cases_out(name: str) -> None:
+    (run,) = json.loads(Sample(name).written("sarif"))["runs"]
+    assert [result["level"] for result in run["results"]] == ["error", "warning", "note"]
+    for result in run["results"]:
+        assert result["message"]["text"] == f"{name}: {name}: {name}"
+        assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
+        (place,) = result["locations"]
+        assert re.fullmatch(r"[A-Za-z0-9._~/%-]+", place["physicalLocation"]["artifactLocation"]["uri"])
+        assert place["physicalLocation"]["region"] == {"startLine": 3, "startColumn": 5}
+    assert len({result["partialFingerprints"]["case/v1"] for result in run["results"]}) == 3
+
+
+@QUICK
+@given(NAMES)
+@example("\x00\ud7ff\ue000\uffff\t")
+def test_junit_shows_what_prints(name: str) -> None:
+    """XML 1.0 has no control characters: what does not print comes as an escape, line ends and tabs apart."""
+    shown = "".join(c if c in "\n\r\t" else document_text(c) for c in name)
+    (suite,) = ET.fromstring(Sample(name).written("junit"))
+    assert suite.get("name") == shown
+    assert [suite.get(count) for count in ("tests", "failures", "skipped")] == ["3", "1", "1"]
+    assert [case.get("name") for case in suite.iter("testcase")] == [
+        f"(rule-{level}) {shown}" for level in ("passed", "failed", "undecided")
+    ]
+    assert suite.findtext("system-out") == document_text(name)
+
+
+COMMAND = re.compile(r"::(error|warning|notice) ([^:]*)::(.*)")
+
+
+def decoded(text: str) -> str:
+    """As the runner of GitHub Actions reads a property or a message."""
+    for code, sign in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
+        text = text.replace(code, sign)
+    return text
+
+
+@QUICK
+@given(NAMES)
+@example("%0A\n%250A\r")
+def test_github_gets_one_command_a_line(name: str) -> None:
+    shown = "".join(c if c in "\r\n" else printable(c) for c in name)
+    lines = re.split(r"[\r\n]", Sample(name).written("github"))[:-1]
+    found = [COMMAND.fullmatch(line) for line in lines]
+    assert [match[1] for match in found if match] == ["error", "warning", "notice", "notice"]
+    for match in filter(None, found[:3]):
+        properties = dict(pair.split("=", 1) for pair in match[2].split(","))
+        assert properties.keys() == {"file", "line", "col", "title"}
+        assert decoded(properties["file"]) == shown
+        assert decoded(match[3]) == shown
+
+
+@pytest.mark.parametrize("format", JudgedFormat)
+def test_a_format_ends_its_last_line_and_is_the_same_twice(format: str) -> None:  # noqa: A002
+    once = Sample("a").written(format)
+    assert once == Sample("a").written(format)
+    assert once.endswith("\n")
+    assert not once.endswith("\n\n")
+
+
+def test_what_judges_has_the_formats_of_all_and_three_more() -> None:
+    assert {*Format} == {*JudgedFormat} - {"sarif", "junit", "github"}
+
+
+def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook() -> None:
+    assert f"{Sample('a')}\n" == Sample("a").written("text")
+    assert Sample("a")._repr_html_() == Sample("a").written("html")
+
+
+# --- the terminal ------------------------------------------------------------------------------------
+
+WORDS = st.text("abc λ", min_size=0, max_size=60).map(" ".join)
+LINES = st.lists(st.text("abcdef", min_size=1, max_size=14), max_size=40).map(" ".join)
+
+
+@st.composite
+def tables(draw: st.DrawFn) -> Table:
+    columns = draw(st.integers(2, 9))
+    align = "".join(draw(st.lists(st.sampled_from("lr"), min_size=columns, max_size=columns)))
+    row = st.tuples(*[LINES if side == "l" else st.text("0123.", min_size=1, max_size=9) for side in align])
+    heads = draw(st.tuples(*[st.text("abc", min_size=1, max_size=9)] * columns))
+    return Table(heads, tuple(draw(st.lists(row, min_size=1, max_size=4))), align=align)
+
+
+@QUICK
+@given(tables())
+def test_a_table_of_words_and_numbers_fits_in_a_terminal(table: Table) -> None:
+    """Words are wrapped and columns moved below each other; every number stands whole."""
+    text = render(Document("t", (table,)))
+    assert all(len(line) <= WIDTH for line in text.splitlines())
+    for row in table.rows:
+        for cell, side in zip(row, table.align, strict=True):
+            if side == "r":
+                assert cell in text
+
+
+def test_columns_are_straight_and_numbers_to_the_right() -> None:
+    table = Table(("joint", "value"), (("base", "1.5"), ("shoulder", "-22.25"), ("关节", "3")))
+    assert render(Document("t", (table,))).splitlines()[3:] == [
+        "joint      value",
+        "────────  ──────",
+        "base         1.5",
+        "shoulder  -22.25",
+        "关节           3",
+    ]
+
+
+def test_columns_that_do_not_fit_go_on_below_with_their_keys() -> None:
+    table = Table(("m", "a", "b"), (("1", "1" * 40, "2" * 40),))
+    text = render(Document("t", (table,)))
+    assert text.count("m  ") == 2
+    assert "1" * 40 in text
+    assert "2" * 40 in text
+
+
+def test_rows_of_other_lengths_are_refused() -> None:
+    with pytest.raises(ValueError, match="different lengths"):
+        Table(("a", "b"), (("1",),))
+
+
+def test_colour_adds_nothing_but_colour() -> None:
+    table = Table(("", "verdict"), (("✓", "proved"), ("✗", "refuted"), ("?", "undecided")), align="ll")
+    document = Document("✗ 1 refuted", (table, Bullets(("proved",))), ("a note",))
+    coloured = render(document, colour=True)
+    assert re.sub(r"\x1b\[\d+m", "", coloured) == render(document)
+    assert "\x1b[31mrefuted\x1b[0m" in coloured
+    assert "- proved" in coloured
+
+
+# --- JSON --------------------------------------------------------------------------------------------
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.text(max_size=30),
+    lambda inner: st.lists(inner, max_size=5) | st.dictionaries(st.text(max_size=9), inner, max_size=5),
+    max_leaves=30,
+)
+
+
+@QUICK
+@given(JSON)
+def test_a_layout_is_the_value(value: Any) -> None:
+    assert json.loads(laid_out(value)) == value
+
+
+def test_a_record_stands_on_a_line() -> None:
+    rows = [{"name": "a", "limit": {"lower": "1", "upper": "2"}}] * 2
+    assert laid_out({"rows": rows, "n": 1}).splitlines() == [
+        "{",
+        '  "rows": [',
+        '    {"name": "a", "limit": {"lower": "1", "upper": "2"}},',
+        '    {"name": "a", "limit": {"lower": "1", "upper": "2"}}',
+        "  ],",
+        '  "n": 1',
+        "}",
+    ]
+    assert max(map(len, laid_out([["x" * 30] * 40]).splitlines())) < LONGEST
