@@ -10,8 +10,11 @@ TYPE_CHECKING = False  # typing takes longer to import than a short command to r
 if TYPE_CHECKING:
     from typing import Any
 
-    from lyapcheck.admissible import EpsilonResult, epsilon
+    from lyapcheck.answers.epsilon import EpsilonResult, epsilon
     from lyapcheck.answers.table import Table, build_table
+    from lyapcheck.answers.tune.answer import Tuning
+    from lyapcheck.answers.tune.targets import Targets
+    from lyapcheck.answers.tune.tuning import tune as tune_gains
     from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
     from lyapcheck.check.numbers.enclosure import Enclosure
     from lyapcheck.check.recheck import recheck
@@ -42,9 +45,6 @@ if TYPE_CHECKING:
     from lyapcheck.tracking.reference.file import read_reference
     from lyapcheck.tracking.run import TrackingRun
     from lyapcheck.tracking.simulation import track as run_tracking
-    from lyapcheck.tune.results import Tuning
-    from lyapcheck.tune.targets import Targets
-    from lyapcheck.tune.tuning import tune as tune_gains
     from lyapcheck.verdicts import Exit, Grade, Verdict
 
     __version__: str
@@ -112,7 +112,7 @@ _HOMES = {
     "Constants": "check.numbers.constants",
     "Decision": "claims.decision",
     "Enclosure": "check.numbers.enclosure",
-    "EpsilonResult": "admissible",
+    "EpsilonResult": "answers.epsilon",
     "Exit": "verdicts",
     "Family": "family.base",
     "GainFile": "control.gains",
@@ -132,13 +132,13 @@ _HOMES = {
     "RobotModel": "robots.model",
     "Run": "simulate.run",
     "Table": "answers.table",
-    "Targets": "tune.targets",
+    "Targets": "answers.tune.targets",
     "TrackingRun": "tracking.run",
-    "Tuning": "tune.results",
+    "Tuning": "answers.tune.answer",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
     "build_table": "answers.table",
-    "epsilon": "admissible",
+    "epsilon": "answers.epsilon",
     "explain": "claims.explain",
     "gamma_less_than": "check.numbers.constants",
     "gate": "gating.gate",
@@ -157,7 +157,7 @@ _HOMES = {
     "run_proof": "claims.run",
     "run_simulation": "simulate.closed_loop:simulate",
     "run_tracking": "tracking.simulation:track",
-    "tune_gains": "tune.tuning:tune",
+    "tune_gains": "answers.tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""
 

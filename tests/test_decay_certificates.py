@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from lyapcheck.bounds.certificates import certificates
-from lyapcheck.bounds.compare import compare
+from lyapcheck.answers.bounds.certificates import certificates
+from lyapcheck.answers.bounds.compare import compare
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness

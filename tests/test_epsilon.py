@@ -10,14 +10,15 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from lyapcheck.admissible.compute import epsilon, round_down
-from lyapcheck.admissible.consistency import Contradiction, require_consistent
-from lyapcheck.admissible.formats import FORMATS, renderer
-from lyapcheck.admissible.result import EpsilonResult
+from lyapcheck.answers.epsilon.compute import epsilon, round_down
+from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
+from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
+from lyapcheck.output.annotations import Level
+from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
 from lyapcheck.search.setting import Setting
 
@@ -61,19 +62,70 @@ def test_a_planted_certificate_raises_the_alarm(case: tuple[GainSet, EpsilonResu
         require_consistent(setting, found.witness, {"scalar": found.falsified})
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", JudgedFormat)
 def test_formats_are_pure(case: tuple[GainSet, EpsilonResult], name: str) -> None:
     _, found = case
-    first = renderer(name)([found], None)
-    assert first == renderer(name)([found], None)
-    assert found.name in first
+    first = EpsilonResults((found,)).written(name)
+    assert first == EpsilonResults((found,)).written(name) == found.written(name)
+    assert (r"tau\_" if name == "latex" else "tau_") in first
     assert "seconds" not in first
-    assert "seconds" in renderer(name)([found], [1.5])
+
+
+@pytest.mark.parametrize("name", Format)
+def test_seconds_are_there_where_they_were_asked_for(case: tuple[GainSet, EpsilonResult], name: str) -> None:
+    timed = EpsilonResults((case[1],), seconds=(1.5,))
+    assert "seconds" in timed.written(name)
+    assert timed.data()["results"][0]["seconds"] == 1.5
+    assert "seconds" not in case[1].data()["results"][0]
+
+
+def test_the_first_line_says_what_is_certified(case: tuple[GainSet, EpsilonResult]) -> None:
+    _, found = case
+    none = replace(found, certified=None, proof=None, reasons={"certified": "budget spent"})
+    title, shown = found.document().title, found.data()["results"][0]["certified"]
+    assert title == f"✓ ε₀ = {shown} is certified for {found.name} on {ARM.name}"
+    assert none.document().title.startswith("? no ε₀ is certified")
+    both = EpsilonResults((found, none)).document().title
+    assert both == f"? 1 of 2 gain sets have a certified ε₀ on {ARM.name}"
+    assert str(found).startswith(title)
+
+
+def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
+    case: tuple[GainSet, EpsilonResult],
+) -> None:
+    _, found = case
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    none = replace(found, certified=None, reasons={"certified": "budget spent"})
+    passed, witness = EpsilonResults((found,), file).annotations()
+    undecided, *_ = EpsilonResults((none,), file).annotations()
+    assert (passed.level, passed.rule, passed.message) == (Level.PASSED, "certified", "")
+    assert (undecided.level, undecided.message) == (Level.UNDECIDED, "no ε₀ is certified: budget spent")
+    assert (witness.level, witness.rule) == (Level.REMARK, "falsified")
+    assert "dV/dt > " in witness.message
+    lines = Path(file.path).read_text(encoding="utf-8").splitlines()
+    for one in (passed, witness, undecided):
+        assert (one.path, one.group) == (file.path, found.name)
+        assert lines[one.line - 1] == "[[gains]]"
+        assert lines[one.line] == f'name = "{found.name}"'
+
+
+@pytest.mark.parametrize(
+    ("published", "certified", "rules"),
+    [(10**9, None, {"published-refuted"}), (F(1, 10**9), F(1, 10**8), {"published-certified"})],
+)
+def test_what_the_numbers_say_of_each_other_is_a_remark_of_its_own_rule(
+    case: tuple[GainSet, EpsilonResult], published: Fraction, certified: Fraction | None, rules: set[str]
+) -> None:
+    _, found = case
+    said = tuple(findings(F(published), certified, found.witness))
+    remarks = [one for one in replace(found, findings=said).annotations() if one.level is Level.REMARK]
+    assert {one.rule for one in remarks} == {"falsified", *rules}
+    assert f"- {said[0]}." in " ".join(str(replace(found, findings=said)).split())
 
 
 def test_json_numbers_are_exact_strings(case: tuple[GainSet, EpsilonResult]) -> None:
     _, found = case
-    document = json.loads(renderer("json")([found], None))
+    document = json.loads(found.written("json"))
     assert document["schema"] == "lyapcheck/epsilon/1"
     row = document["results"][0]
     for kind in ("published", "scalar", "certified", "falsified"):
@@ -91,11 +143,11 @@ def test_missing_numbers_are_shown_with_their_reason(case: tuple[GainSet, Epsilo
         found, certified=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
     )
     assert nothing.ratio is None
-    row = json.loads(renderer("json")([nothing], None))["results"][0]
+    row = nothing.data()["results"][0]
     assert row["certified"] is None
     assert row["ratio"] is None
     assert row["reasons"] == {"certified": "budget spent"}
-    assert "no certified ε₀: budget spent." in renderer("text")([nothing], None)
+    assert "no certified ε₀: budget spent." in str(nothing)
 
 
 def test_pd_has_no_published_number() -> None:

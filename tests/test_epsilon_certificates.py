@@ -12,9 +12,8 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from lyapcheck.admissible import epsilon
-from lyapcheck.admissible.certificates import certificates
-from lyapcheck.admissible.formats import renderer
+from lyapcheck.answers.epsilon import epsilon
+from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.refusal import Refused
 from lyapcheck.cli.main import build_app
@@ -154,9 +153,9 @@ def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: P
     assert made["tau_m2.certified.json"].statement.eps0 == found.certified  # type: ignore[attr-defined]
     assert judge(reread(made["tau_m2.certified.json"])).verdict == "proved"
     assert (found.scalar_grade == "no certificate") == ("tau_m2.scalar.json" not in made)
-    row = json.loads(renderer("json")([found], None))["results"][0]
+    row = found.data()["results"][0]
     assert row["scalar_grade"] == found.scalar_grade == "no certificate"
-    text = renderer("text")([found], None)
+    text = str(found)
     assert f"{row['scalar']}*" in text
     assert "without a certificate" in text
 

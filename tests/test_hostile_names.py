@@ -13,9 +13,11 @@ from xml.etree import ElementTree as ET
 import pytest
 from markdown_it import MarkdownIt
 
-from lyapcheck import escapes
 from lyapcheck.cli.main import main
+from lyapcheck.cli.tune import TuneFormat
+from lyapcheck.output import escapes
 from lyapcheck.output.escapes import document_text, printable
+from lyapcheck.output.formats import JudgedFormat
 
 NASTY = [
     "<script>alert(1)</script>",
@@ -135,9 +137,18 @@ def check_csv(text: str) -> None:
 
 
 def check_latex(text: str) -> None:
-    heads = next(line for line in text.splitlines() if "script" in line)
-    bare = re.sub(r"\\text\w+\{\}|\$m\$|\\[&%$#_{}]| & |\\\\$", "", heads)
-    assert not set(bare) & set("\\&%$#_{}~^"), heads
+    """No command and no special character but those of documents."""
+    for line in text.splitlines():
+        bare = re.sub(r"\\text\w+\{\}|\\[&%$#_{}]", "", line)
+        bare = re.sub(r"^\\(?:(?:sub)*section|paragraph)\*\{(.*)\}$", r"\1", bare)
+        bare = re.sub(r"^\\(begin|end)\{\w+\}(\{[lr]+\}|\\ttfamily)?$|^\\hline$|^  \\item \{\}", "", bare)
+        bare = re.sub(r" & |\\\\$", "", bare)
+        assert not set(bare) & set("\\&%$#_{}~^"), line
+
+
+def check_html(text: str) -> None:
+    """No tag but those of documents."""
+    assert not set(re.findall(r"<\s*/?\s*([^\s/>]+)", text)) - TAGS
 
 
 def check_github(text: str) -> None:
@@ -145,12 +156,15 @@ def check_github(text: str) -> None:
         assert re.fullmatch(r"::(error|warning|notice) [^:]*::.*", line)
 
 
+TAGS = {"h2", "h3", "h4", "p", "ul", "li", "pre", "code"}
+TAGS |= {"table", "caption", "thead", "tbody", "tr", "th", "td"}
 CHECKS = {
     "json": json.loads,
     "sarif": json.loads,
     "junit": ET.fromstring,
     "markdown": check_markdown,
     "csv": check_csv,
+    "html": check_html,
     "latex": check_latex,
     "toml": lambda text: None,
     "text": lambda text: None,
@@ -168,11 +182,11 @@ COMMANDS = [
     f"simulate gains.toml {SHORT} --csv -",
     f"simulate gains.toml {SHORT} --runs 2 --csv -",
     "simulate gains.toml --reference reference.toml --csv -",
-    *(f"epsilon gains.toml --max-boxes 20 --starts 1 --format {f}" for f in ("text", "json", "markdown")),
-    *(f"bounds one.toml {SHORT} --max-boxes 20 --format {form}" for form in ("text", "json")),
+    *(f"epsilon gains.toml --max-boxes 20 --starts 1 --format {form}" for form in JudgedFormat),
+    *(f"bounds one.toml {SHORT} --max-boxes 20 --format {form}" for form in JudgedFormat),
     *(f"robot arm.toml --max-boxes 20 --format {form}" for form in ("text", "json", "markdown")),
     *(f"robot arm.urdf --max-boxes 20 --format {form}" for form in ("text", "json", "markdown")),
-    *(f"tune arm.toml --compare gains.toml --format {f}" for f in ("text", "json", "markdown", "toml")),
+    *(f"tune arm.toml --compare gains.toml --format {form}" for form in TuneFormat),
     *(f"table --m 1 --robot arm.toml --format {f}" for f in ("text", "json", "csv", "markdown", "latex")),
     "check scalar.py --m 1 --robot arm.toml --gains one.toml --only S1 --format markdown",
 ]

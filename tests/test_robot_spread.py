@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from lyapcheck.admissible import epsilon
+from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.check.loop import proves
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file

@@ -15,20 +15,21 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Targets, tune
+from lyapcheck.answers.tune.damping import damping_of
+from lyapcheck.answers.tune.gain_file import gain_file_text
+from lyapcheck.answers.tune.program import propose
+from lyapcheck.answers.tune.room import Room
+from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms
 from lyapcheck.cli.decimals import parse_decimals
 from lyapcheck.cli.main import build_app
+from lyapcheck.cli.tune import TuneFormat
 from lyapcheck.control import Bounds, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files import decimal_text
-from lyapcheck.gating import gate
 from lyapcheck.robots import load
-from lyapcheck.tune import Targets, tune
-from lyapcheck.tune.damping import damping_of
-from lyapcheck.tune.gain_file import gain_file_text
-from lyapcheck.tune.program import propose
-from lyapcheck.tune.room import Room
-from lyapcheck.tune.rounding import best_units, binding
-from lyapcheck.tune.tuning import _for_each_joint, _limits, _rooms
 
 ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
@@ -242,7 +243,7 @@ def test_without_gains_it_says_why_and_what_to_change(arguments, code, words, tm
     out = tmp_path / "gains.toml"
     found = run(*arguments, "--out", str(out))
     assert found.exit_code == code
-    assert words in found.stdout
+    assert words in " ".join(found.stdout.split())
     assert not out.exists()
 
 
@@ -294,7 +295,7 @@ def test_an_arm_file_is_named_relative_to_the_gain_file(tmp_path, monkeypatch):
     assert [result.verdict for result in gate(read_gain_file("gains/mine.toml"))] == ["accepted"] * 3
 
 
-@pytest.mark.parametrize("form", ["text", "json", "markdown", "toml"])
+@pytest.mark.parametrize("form", TuneFormat)
 def test_formats_are_the_same_bytes_each_time(form):
     first, second = (run("buap3", "--format", form, "--damping", "0.05") for _ in range(2))
     assert first.exit_code == 0
@@ -329,7 +330,7 @@ def test_markdown_tables_have_as_many_cells_as_heads():
 
 def test_asking_for_help_or_importing_the_api_loads_no_solver():
     code = (
-        "import sys, lyapcheck.tune, lyapcheck.cli.tune\n"
+        "import sys, lyapcheck.answers.tune, lyapcheck.cli.tune\n"
         "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Targets, tune
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import Bounds, paper_gain_file, read_gain_file
-from lyapcheck.gating import gate
-from lyapcheck.tune import Targets, tune
-from lyapcheck.tune.formats import FORMATS, renderer
+from lyapcheck.cli.tune import TuneFormat
+from lyapcheck.control import paper_gain_file, read_gain_file
 
 UR5 = str(Path(__file__).parent / "arms" / "ur5.urdf")
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
@@ -61,7 +61,7 @@ def test_the_share_left_on_the_table_is_that_of_the_largest_gain(m, theirs):
     for joint, compared, kp in zip(item.joints, item.comparison.joints, theirs, strict=True):
         share = 1 - Fraction(kp) / joint.kp
         assert compared.kp_left_share <= share < compared.kp_left_share + Fraction(1, 10**6)
-        assert f"{float(compared.kp_left_share):.1%}" in renderer("text")(tune("buap3", [m], against=TABLE2))
+        assert f"{float(compared.kp_left_share):.1%}" in str(tune("buap3", [m], against=TABLE2))
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_a_notebook_shows_tables_and_no_markup_of_names():
     assert "img" not in seen.tags
     assert any("<img src=x onerror=alert(1)>\\u202e" in text for text in seen.text)
     assert {"63.112", "59.903", "16.5%"} <= set(seen.text)
-    assert "<img" not in renderer("markdown")(tuning)
+    assert "<img" not in tuning.written("markdown")
 
 
 def test_where_there_are_no_gains_a_notebook_says_why():
@@ -119,12 +119,31 @@ def test_where_there_are_no_gains_a_notebook_says_why():
 
 
 def test_printing_prints_what_the_command_prints():
-    assert str(tune("reyes-kelly2", [2, 5])) == run("reyes-kelly2", "--m", "2,5").stdout
+    assert f"{tune('reyes-kelly2', [2, 5])}\n" == run("reyes-kelly2", "--m", "2,5").stdout
 
 
-@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("form", TuneFormat)
 def test_every_format_holds_the_gains(form):
-    assert "63.112" in renderer(form)(tune("buap3", [1], bounds=Bounds(Fraction("0.406"))))
+    assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
+
+
+def test_the_first_line_says_whether_there_are_gains():
+    assert str(tune("buap3", [1])).startswith("✓ buap3: the largest gains within (10p) and (19)\n")
+    assert str(tune("pelican2", [1, 3])).startswith("? pelican2: its limits are not known")
+    assert "for m = 1, 3\n" in str(tune("pelican2", [1, 3]))
+    refused = tune("buap3", [2], Targets.of(kv_min=100)).document()
+    assert refused.title == "✗ buap3: no gains within (10p) and (19) for m = 2"
+    assert "lower --kv-min" in refused.blocks[1].blocks[0].items[0]
+
+
+def test_a_record_is_a_joint_beside_what_it_is_compared_with():
+    first, *others = tune("buap3", [1, 2], against=TABLE2).records()
+    assert (first["name"], first["joint"], first["kp"]) == ("tau_m1", "base", "28.633")
+    assert (first["compared"]["kp"], first["compared"]["broken"]) == ("28", "")
+    assert [row["compared"]["broken"] for row in others[2:]] == ["19"] * 3
+    (missing,) = tune("pelican2", [2]).records()
+    assert missing["status"] == "undecided"
+    assert "give --torque" in missing["reasons"]
 
 
 def test_targets_are_read_as_they_are_written():
@@ -146,7 +165,7 @@ def test_the_public_names_are_the_functions_themselves():
         "import lyapcheck\n"
         "assert lyapcheck.tune_gains('pendulum1', [2]).sets[0].gains is not None\n"
         "assert lyapcheck.build_table([2]).rows[0].m == 2\n"
-        "import lyapcheck.tune\n"
+        "import lyapcheck.answers.tune\n"
         "assert callable(lyapcheck.tune_gains)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

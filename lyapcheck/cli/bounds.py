@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,24 +11,18 @@ import typer
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.show import show
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.output.escapes import document_text
+from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import Comparison
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate import Task
 
 MOST_TORQUE = 1e6
-
-
-class BoundsFormat(StrEnum):
-    """How the bounds are written."""
-
-    TEXT = "text"
-    JSON = "json"
 
 
 def command(
@@ -60,7 +52,7 @@ def command(
     certificates: Annotated[
         Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
     ] = None,
-    format: Annotated[BoundsFormat, typer.Option(help="How to write it.")] = BoundsFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
 ) -> None:
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
 
@@ -87,15 +79,15 @@ def command(
         found = _run(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
     if folder is not None:
         _write_certificates(folder, found)
-    from lyapcheck.bounds import renderer
+    from lyapcheck.answers.bounds.answer import Comparisons
 
-    sys.stdout.write(document_text(renderer(format.value)(found)))
-    whole = all(one.settling.time is not None and one.disturbance.level is not None for one in found)
+    show(Comparisons(tuple(found), gain_file), format)
+    whole = all(one.certified for one in found)
     raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
 
 
 def _write_certificates(folder: Path, found: list[Comparison]) -> None:
-    from lyapcheck.bounds.certificates import certificates
+    from lyapcheck.answers.bounds.certificates import certificates
 
     for one in found:
         for name, certificate in certificates(one).items():
@@ -150,7 +142,7 @@ def _run(
     advance: Advance,
 ) -> list[Comparison]:
     """The bounds of every gain set."""
-    from lyapcheck.bounds.compare import compare
+    from lyapcheck.answers.bounds.compare import compare
 
     found = []
     for done, gain_set in enumerate(gains):

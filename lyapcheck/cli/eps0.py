@@ -30,7 +30,7 @@ class Eps0:
         """The ε₀ of one gain set, rounded down; 0 if nothing was asked for, ``None`` if none is certified."""
         if not self.certified:
             return self.number or 0.0
-        from lyapcheck.admissible import epsilon
+        from lyapcheck.answers.epsilon import epsilon
         from lyapcheck.check.numbers.enclosure import Enclosure
 
         advance(0.0, f"{gain_set.name}: what ε₀ is certified")

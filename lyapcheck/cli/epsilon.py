@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import asdict, dataclass
-from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
@@ -14,24 +12,17 @@ import typer
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
-from lyapcheck.output.escapes import document_text
+from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.admissible import EpsilonResult
+    from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.control import GainFile, GainSet
     from lyapcheck.robots import RobotModel
-
-
-class EpsilonFormat(StrEnum):
-    """How the results are written."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
 
 
 @dataclass(frozen=True)
@@ -74,7 +65,7 @@ def command(
     ] = False,
     starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
     seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
-    format: Annotated[EpsilonFormat, typer.Option(help="How to write it.")] = EpsilonFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
     certificates: Annotated[
         Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
     ] = None,
@@ -99,9 +90,9 @@ def command(
         results, times = _run(chosen, model, budget, advance)
     if folder is not None:
         _write_certificates(folder, results)
-    from lyapcheck.admissible.formats import renderer
+    from lyapcheck.answers.epsilon import EpsilonResults
 
-    sys.stdout.write(document_text(renderer(format.value)(results, times if timings else None)))
+    show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
     missing = any(result.certified is None for result in results)
     raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
 
@@ -118,7 +109,7 @@ def _share(spread: float | None) -> Fraction:
 
 
 def _write_certificates(folder: Path, results: list[EpsilonResult]) -> None:
-    from lyapcheck.admissible.certificates import certificates
+    from lyapcheck.answers.epsilon.certificates import certificates
 
     for result in results:
         for name, certificate in certificates(result).items():
@@ -145,7 +136,7 @@ def _run(
     gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
-    from lyapcheck.admissible import epsilon
+    from lyapcheck.answers.epsilon import epsilon
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []

@@ -14,13 +14,14 @@ from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.output import require_writable, write_whole
+from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.tune import Targets
     from lyapcheck.control.gains import Bounds, GainFile
-    from lyapcheck.tune import Targets
 
 ONE = (Fraction(1),)
 
@@ -28,11 +29,14 @@ PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 
 
 class TuneFormat(StrEnum):
-    """How the result is written."""
+    """What every answer can be written in, and the gain file alone."""
 
     TEXT = "text"
-    JSON = "json"
     MARKDOWN = "markdown"
+    HTML = "html"
+    LATEX = "latex"
+    CSV = "csv"
+    JSON = "json"
     TOML = "toml"
 
 
@@ -66,9 +70,8 @@ def command(
     the last digit: no gain can be one unit larger. Exit code 0: every m has gains, 2: unusable input or no
     gains exist, 3: the arm's limits are not known.
     """
-    from lyapcheck.tune import tune
-    from lyapcheck.tune.formats import renderer
-    from lyapcheck.tune.gain_file import gain_file_text
+    from lyapcheck.answers.tune import tune
+    from lyapcheck.answers.tune.gain_file import gain_file_text
 
     wrong = Complaints()
     if out is not None:
@@ -81,8 +84,10 @@ def command(
     tuning = tune(robot, members or (), targets, bounds, against)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
-    sys.stdout.write(document_text(renderer(format.value)(tuning)))
-    if format is TuneFormat.TOML:
+    if format is not TuneFormat.TOML:
+        show(tuning, format)
+    else:
+        sys.stdout.write(document_text(gain_file_text(tuning)))
         for item in tuning.sets:
             for reason in item.reasons:
                 print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
@@ -98,7 +103,7 @@ def _targets(
     damping: str | None,
 ) -> Targets:
     """The targets given on the command line; those that cannot be read are left at their defaults."""
-    from lyapcheck.tune import Targets
+    from lyapcheck.answers.tune import Targets
 
     shares = wrong.reading(parse_decimals, "--peak-share", peak_share)
     others = (("--kv-share", kv_share), ("--kv-min", kv_min), ("--damping", damping))
@@ -114,9 +119,9 @@ def _bounds(
     viscous_min: str | None,
 ) -> Bounds:
     """The limits given on the command line; these and the targets are held against the joints of the arm."""
+    from lyapcheck.answers.tune.targets import require_usable
     from lyapcheck.control.gains import Bounds
     from lyapcheck.robots import load
-    from lyapcheck.tune.targets import require_usable
 
     torques = wrong.reading(parse_decimals, "--torque", torque)
     gravities = wrong.reading(parse_decimals, "--gravity", gravity)

@@ -86,9 +86,9 @@ def sensitivity_job(sets: Sequence[tuple[str, str]], robot: str, seed: int) -> d
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
     """The four ε₀, and the states of largest dV/dt at the certified one."""
-    from lyapcheck.admissible import epsilon
-    from lyapcheck.admissible.formats.json import result_json
-    from lyapcheck.admissible.formats.words import reasons
+    from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.data import result_data
+    from lyapcheck.answers.epsilon.words import reasons
     from lyapcheck.search.falsify import worst_states
     from lyapcheck.search.setting import Setting
 
@@ -96,7 +96,7 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
     at = result.certified or result.scalar or result.falsified
     setting = Setting(gain_set, model)
     states = [asdict(state) for state in (worst_states(setting, float(at), seed=seed) if at else ())]
-    return {**result_json(result), "remarks": reasons(result), "worst_states": states}
+    return {**result_data(result), "remarks": reasons(result), "worst_states": states}
 
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:

@@ -30,7 +30,7 @@ Progress = Callable[[float, str], None]
 COARSE = 0.6
 FINE = 0.93
 """Ratio of neighbouring levels, to compare margins and for the answer."""
-NOT_FALLING = "V was not shown to fall at all levels between"
+NOT_FALLING = "V was not shown to fall at all levels from the start down to the errors asked for; raise --delta"
 TOO_LARGE = "the disturbance is too large beside k_pi and the friction: V is not shown to fall at any level"
 NO_MARGIN = "no margin of dV/dt < 0 was proved"
 

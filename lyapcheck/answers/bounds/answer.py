@@ -1,85 +1,165 @@
-"""Bounds in a terminal."""
+"""How long motions take and what disturbances leave of their errors, under each of several gain sets."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.answers.bounds.compare import Comparison
+from lyapcheck.answers.bounds.data import comparison_data
+from lyapcheck.answers.bounds.words import (
+    angle_text,
+    angle_up,
+    provenance_text,
+    seconds_up,
+    simulated_time,
+    title,
+)
+from lyapcheck.answers.gain_place import gain_place
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
-    from fractions import Fraction
+    from lyapcheck.control import GainFile
+    from lyapcheck.search.decay_results import MotionBound
 
-    from lyapcheck.bounds.compare import Comparison
-    from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
-
+RULES = {
+    "settling": "a time after which every |e_i| ≤ δ is certified",
+    "disturbed": "what torques and dry friction within bounds leave of the errors is certified",
+    "no-rate": "V falls exponentially near the goal",
+}
+FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
+NONE = "—"
 LEGEND = (
     "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
-    "farther than this one, joint by joint; simulated: one run."
+    "farther than this one, joint by joint.",
+    "simulated: one run.",
 )
+NOT_IN_RECORDS = ("envelope", "statement", "rest_statement")
 
 
-def render(results: Sequence[Comparison]) -> str:
-    """A block a gain set, and what is assumed about the arm."""
-    lines: list[str] = []
-    for found in results:
-        lines += [f"{found.settling.name} on {found.settling.robot}", *_settling(found.settling, found)]
-        lines += [*_disturbance(found.disturbance, found), ""]
-    assumed = dict.fromkeys(text for found in results for text in found.assumptions)
-    return "\n".join([*lines, LEGEND, *(f"Assumed: {text}." for text in assumed)]) + "\n"
+@dataclass(frozen=True)
+class Comparisons(Answer):
+    """Certified bounds beside simulated runs.
+
+    Args:
+        results: one a gain set.
+        file: where the gain sets stand.
+    """
+
+    schema = "lyapcheck/bounds/1"
+
+    results: tuple[Comparison, ...]
+    file: GainFile | None = None
+
+    def document(self) -> Document:
+        """The times of all gain sets, then the errors of each, joint by joint."""
+        behind = (Section(found.settling.name, tuple(_behind(found))) for found in self.results)
+        assumed = dict.fromkeys(text for found in self.results for text in found.assumptions)
+        notes = (*LEGEND, *(f"Assumed: {text}." for text in assumed))
+        return Document(title(self.results), (_times(self.results), *behind), notes)
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, robot, settling, disturbance, simulated, …}]``."""
+        return {"results": [comparison_data(found) for found in self.results]}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a gain set, without the envelopes and what the statements say."""
+        rows = []
+        for row in self.data()["results"]:
+            parts = {
+                part: {
+                    key: value
+                    for key, value in row[part].items()
+                    if key not in NOT_IN_RECORDS and not (key == "rests_on" and value is None)
+                }
+                for part in ("settling", "disturbance")
+            }
+            rows.append({key: value for key, value in (row | parts).items() if key != "assumptions"})
+        return rows
+
+    def annotations(self) -> list[Annotation]:
+        """Two cases a gain set: its settling time, and what disturbances leave."""
+        return [one for found in self.results for one in self._judged(found)]
+
+    def _judged(self, found: Comparison) -> list[Annotation]:
+        place = gain_place(self.file, found.gains)._asdict()
+        about = partial(Annotation, group=found.settling.name, **place)
+        judged: list[tuple[str, str, MotionBound]] = [
+            ("settling", "settling time", found.settling),
+            ("disturbed", "disturbed errors", found.disturbance),
+        ]
+        cases = [
+            about(
+                level=Level.UNDECIDED if bound.time is None else Level.PASSED,
+                rule=rule,
+                rule_text=RULES[rule],
+                case=case,
+                message=f"none is certified: {bound.reason}" if bound.time is None else "",
+            )
+            for rule, case, bound in judged
+        ]
+        if found.settling.time is not None and not found.settling.exponential:
+            rule, case = "no-rate", "settling time"
+            cases.append(about(level=Level.REMARK, rule=rule, rule_text=RULES[rule], case=case, message=FLAT))
+        return cases
 
 
-def _settling(bound: SettlingBound, found: Comparison) -> list[str]:
-    seen = (
-        f"not within {found.task.T:g} s" if found.simulated_time is None else f"{found.simulated_time:.3g} s"
-    )
-    lines = [f"  every |e_i| ≤ {math.degrees(bound.delta):g}° for good"]
-    if bound.time is None:
-        return [*lines, f"    certified: none; {bound.reason}", f"    simulated: {seen}"]
-    lines += [f"    certified: within {_up(float(bound.time))} s", f"    simulated: {seen}"]
-    lines.append(f"    on the way |e| ≤ {_angles(bound.largest_errors)}")
-    if not bound.exponential:
-        lines.append("    h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks")
-    return [*lines, *_rests_on(bound.rests_on)]
+def _times(results: Sequence[Comparison]) -> Table:
+    """When the errors are small for good, if nothing acts."""
+    angles = ", ".join(dict.fromkeys(angle_text(found.settling.delta) for found in results))
+    rows = [
+        (found.settling.name, seconds_up(found.settling.time), simulated_time(found)) for found in results
+    ]
+    return Table(("gains", "certified", "simulated"), tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
 
 
-def _disturbance(bound: DisturbanceBound, found: Comparison) -> list[str]:
-    acting = []
-    if any(bound.torque):
-        acting.append(f"torques up to {_numbers(map(float, bound.torque))} N·m of any sign")
-    if any(bound.dry):
-        acting.append(f"dry friction up to {_numbers(map(float, bound.dry))} N·m")
-    if not acting:
+def _behind(found: Comparison) -> list[Table | Bullets]:
+    """The errors of a gain set, and what its bounds rest on or why there are none."""
+    settling, left = found.settling, found.disturbance
+    said = []
+    for name, bound in (("settling time", settling), ("disturbed errors", left)):
+        if bound.time is None:
+            said.append(f"no certified {name}: {bound.reason}.")
+        elif bound.rests_on is not None and (bound is settling or _acting(found)):
+            said.append(f"{name} proved by {provenance_text(bound.rests_on)}.")
+    if settling.time is not None and not settling.exponential:
+        said.append(f"{FLAT}.")
+    return [*_errors(found), Bullets(tuple(said))]
+
+
+def _errors(found: Comparison) -> list[Table]:
+    """The largest error of each joint; no table where nothing is known."""
+    left, n = found.disturbance, len(found.joints)
+    columns: list[tuple[str, Sequence[str]]] = []
+    if found.settling.largest_errors:
+        columns.append(("on the way", list(map(angle_up, found.settling.largest_errors))))
+    if _acting(found):
+        columns += [
+            ("torque N·m", [f"{float(x):g}" for x in left.torque]),
+            ("dry friction N·m", [f"{float(x):g}" for x in left.dry]),
+            ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
+            ("disturbed, simulated", list(map(angle_up, found.simulated_errors))),
+        ]
+        if left.resting is not None:
+            columns.append(("at rest, certified", list(map(angle_up, left.rest))))
+    if not columns:
         return []
-    lines = [f"  under {' and '.join(acting)}"]
-    if bound.level is None or bound.time is None:
-        lines.append(f"    certified: none; {bound.reason}")
-    else:
-        lines.append(f"    certified: |e| ≤ {_angles(bound.errors)} from {_up(float(bound.time))} s on")
-    lines.append(f"    simulated: |e| ≤ {_angles(found.simulated_errors)} at the end")
-    if bound.resting is not None:
-        lines.append(f"    at rest, certified: |e| ≤ {_angles(bound.rest)}")
-    return [*lines, *_rests_on(bound.rests_on)]
+    rows = zip(found.joints, *(cells for _, cells in columns), strict=True)
+    return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(found))]
 
 
-def _rests_on(found: Provenance | None) -> list[str]:
-    if found is None:
-        return []
-    shares = f"{float(found.friction):.0%} of B and {float(found.stiffness):.0%} of K_p"
-    return [f"    rests on: {found.by} ({found.boxes} boxes), ε₀ = {float(found.eps0):g}, without {shares}"]
+def _caption(found: Comparison) -> str:
+    """What the errors are, and from when on."""
+    if not _acting(found):
+        return "Largest |e_i|:"
+    time = found.disturbance.time
+    since = "" if time is None else f", from {seconds_up(time)} on"
+    return f"Largest |e_i|; disturbed: under torques of any sign and dry friction{since}:"
 
 
-def _up(value: float) -> str:
-    """A number in four digits, never rounded down."""
-    if value <= 0:
-        return "0"
-    scale = 10.0 ** (3 - math.floor(math.log10(value)))
-    return f"{math.ceil(value * scale * (1 + 1e-12)) / scale:.4g}"
-
-
-def _angles(values: Sequence[Fraction | float | None]) -> str:
-    shown = ["∞" if x is None else f"{_up(math.degrees(x))}°" for x in values]
-    return f"({', '.join(shown)})"
-
-
-def _numbers(values: Iterable[float]) -> str:
-    return f"({', '.join(f'{x:g}' for x in values)})"
+def _acting(found: Comparison) -> bool:
+    return any(found.disturbance.torque) or any(found.disturbance.dry)

@@ -10,7 +10,7 @@ from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.search.decay_results import AT_REST
 
 if TYPE_CHECKING:
-    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import Comparison
     from lyapcheck.check.statement import Proof, Statement
 
 PROOF = "bounds"

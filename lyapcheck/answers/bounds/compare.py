@@ -29,6 +29,8 @@ class Comparison:
     """Bounds, certified, and what was seen in one run, in floating point.
 
     Args:
+        gains: the gain set.
+        joints: names of the arm's joints, base first.
         settling: the time bound.
         disturbance: what a disturbance leaves.
         task: the motion that was simulated.
@@ -37,12 +39,19 @@ class Comparison:
         assumptions: what is taken for granted about the arm.
     """
 
+    gains: GainSet
+    joints: tuple[str, ...]
     settling: SettlingBound
     disturbance: DisturbanceBound
     task: Task
     simulated_time: float | None
     simulated_errors: tuple[float, ...]
     assumptions: tuple[str, ...]
+
+    @property
+    def certified(self) -> bool:
+        """Whether both bounds are."""
+        return self.settling.time is not None and self.disturbance.level is not None
 
 
 def compare(
@@ -96,7 +105,14 @@ def compare(
     calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T)
     pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
     return Comparison(
-        settling, left, task, inside_from(calm.t, calm.e, delta), last_errors(pushed.e), model.assumptions
+        gains=gain_set,
+        joints=model.joints,
+        settling=settling,
+        disturbance=left,
+        task=task,
+        simulated_time=inside_from(calm.t, calm.e, delta),
+        simulated_errors=last_errors(pushed.e),
+        assumptions=model.assumptions,
     )
 
 

@@ -1,32 +1,22 @@
-"""Bounds as versioned JSON."""
+"""The bounds of one gain set as plain data."""
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Sequence
 from fractions import Fraction
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import Comparison
     from lyapcheck.check.statement import Statement
     from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
 
-SCHEMA = "lyapcheck/bounds/1"
 
-
-def render(results: Sequence[Comparison]) -> str:
-    """``results: [{name, robot, settling, disturbance, simulated, …}]``; angles in degrees, rounded up."""
-    document = {"schema": SCHEMA, "version": version("lyapcheck"), "results": [_result(x) for x in results]}
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
-
-
-def _result(found: Comparison) -> dict[str, Any]:
+def comparison_data(found: Comparison) -> dict[str, Any]:
+    """One gain set; angles in degrees, rounded up."""
     task = found.task
     return {
         "name": found.settling.name,
@@ -93,7 +83,7 @@ def _provenance(found: Provenance | None) -> dict[str, Any] | None:
 
 def above(value: Fraction | None) -> float | None:
     """The smallest double that is not below."""
-    return None if value is None else Enclosure(value, value).float_upper
+    return None if value is None else Enclosure(value, value).float_upper + 0.0  # −0.0 is written 0.0
 
 
 def below(value: Fraction | None) -> float | None:

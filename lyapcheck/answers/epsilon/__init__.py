@@ -3,8 +3,8 @@
 The searches propose, the checker disposes; this room asks them in turn and holds their answers together.
 """
 
-from lyapcheck.admissible.compute import epsilon
-from lyapcheck.admissible.consistency import Contradiction
-from lyapcheck.admissible.result import EpsilonResult
+from lyapcheck.answers.epsilon.compute import epsilon
+from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 
-__all__ = ["Contradiction", "EpsilonResult", "epsilon"]
+__all__ = ["Contradiction", "EpsilonResult", "EpsilonResults", "epsilon"]

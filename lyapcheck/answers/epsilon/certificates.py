@@ -12,7 +12,7 @@ from lyapcheck.check.statement import Proof
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.admissible import EpsilonResult
+    from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.check.loop import Closure
 
 PROOF = "epsilon"

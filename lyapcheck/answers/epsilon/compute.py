@@ -15,8 +15,8 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.admissible.consistency import findings, require_consistent
-from lyapcheck.admissible.result import EpsilonResult, Refutation
+from lyapcheck.answers.epsilon.consistency import findings, require_consistent
+from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
@@ -113,8 +113,7 @@ def epsilon(
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
     require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
     return EpsilonResult(
-        name=gain_set.name,
-        m=gain_set.m,
+        gains=gain_set,
         robot=model.name,
         published=published,
         scalar=scalar.eps0,

@@ -16,6 +16,18 @@ if TYPE_CHECKING:
     from lyapcheck.search.setting import Setting
 
 
+FINDINGS: Mapping[str, str] = {
+    "published-refuted": (
+        "(18) is refuted: it allows every ε₀ below its end, and the witness refutes a smaller one"
+    ),
+    "published-certified": "every ε₀ of (18) is below the certified one",
+    "no-interval": (
+        "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
+    ),
+}
+"""What the numbers may say about each other, by the id of the rule that an annotation names."""
+
+
 class Contradiction(RuntimeError):
     """A proved state refutes a proved ε₀: one of the two proofs is wrong, and nothing may be reported."""
 
@@ -39,13 +51,9 @@ def findings(published: Fraction | None, certified: Fraction | None, witness: Wi
     """What the numbers say about each other, one sentence each."""
     found = []
     if published is not None and witness is not None and witness.eps0 < published:
-        found.append(
-            "(18) is refuted: it allows every ε₀ below its end, and the witness refutes a smaller one"
-        )
+        found.append("published-refuted")
     if published is not None and certified is not None and published <= certified:
-        found.append("every ε₀ of (18) is below the certified one")
+        found.append("published-certified")
     if certified is not None and witness is not None and certified > witness.eps0:
-        found.append(
-            "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
-        )
-    return found
+        found.append("no-interval")
+    return [FINDINGS[rule] for rule in found]

@@ -1,37 +1,21 @@
-"""The four ε₀ as versioned JSON."""
+"""One gain set's four ε₀ as plain data."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.admissible.formats.words import KINDS, exact, ratio_text
+from lyapcheck.answers.epsilon.words import KINDS, exact, ratio_text
 
 if TYPE_CHECKING:
-    from lyapcheck.admissible import EpsilonResult
+    from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
 
-SCHEMA = "lyapcheck/epsilon/1"
 _DIGITS = 20
 
 
-def render(results: Sequence[EpsilonResult], seconds: Sequence[float] | None = None) -> str:
-    """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``.
-
-    Numbers are exact decimal strings, a missing one is null and has its reason under ``reasons``.
-    """
-    rows = [result_json(result) for result in results]
-    if seconds is not None:
-        rows = [{**row, "seconds": round(time, 3)} for row, time in zip(rows, seconds, strict=True)]
-    document = {"schema": SCHEMA, "version": version("lyapcheck"), "results": rows}
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
-
-
-def result_json(result: EpsilonResult) -> dict[str, Any]:
-    """One gain set as plain data."""
+def result_data(result: EpsilonResult) -> dict[str, Any]:
+    """Numbers as exact decimal strings; a missing one is ``None`` and has its reason under ``reasons``."""
     return {
         "name": result.name,
         "m": result.m,

@@ -1,17 +1,30 @@
-"""The four ε₀ of one gain set on one arm, with what stands behind each."""
+"""The four ε₀ of one gain set on one arm, with what stands behind each; and those of several gain sets."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.answers.epsilon.annotations import annotations_of
+from lyapcheck.answers.epsilon.data import result_data
+from lyapcheck.answers.epsilon.words import KINDS, notes, number_cell, ratio_text, remarks, title
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop import Closure
+    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.output.annotations import Annotation
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.proof import Proof
     from lyapcheck.search.weights import Weighted
+
+HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified", "boxes")
+NOT_IN_RECORDS = ("corner", "findings", "assumptions")
+PARTS = ("witness", "weighted")
+"""What takes several columns where there is any."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +37,11 @@ class Refutation:
 
 
 @dataclass(frozen=True)
-class EpsilonResult:
+class EpsilonResult(Answer):
     """The four ε₀; ``None`` where there is none, with the reason under the same name in ``reasons``.
 
     Args:
-        name: of the gain set.
-        m: member of the family, if it has members.
+        gains: the gain set.
         robot: name of the arm.
         published: the end of (18), rounded down.
         scalar: ε₀ of the scalar form, from norms.
@@ -50,8 +62,9 @@ class EpsilonResult:
         seed: of the sampled states.
     """
 
-    name: str
-    m: int | None
+    schema = "lyapcheck/epsilon/1"
+
+    gains: GainSet
     robot: str
     published: Fraction | None
     scalar: Fraction | None
@@ -72,6 +85,16 @@ class EpsilonResult:
     seed: int = 0
 
     @property
+    def name(self) -> str:
+        """Of the gain set."""
+        return self.gains.name
+
+    @property
+    def m(self) -> int | None:
+        """Member of the family, if it has members."""
+        return self.gains.m
+
+    @property
     def scalar_grade(self) -> str | None:
         """``enclosure`` where ``scalar`` has a certificate, else ``no certificate``; ``None`` without it."""
         if self.scalar is None:
@@ -84,3 +107,76 @@ class EpsilonResult:
         if self.certified is None or self.falsified is None:
             return None
         return self.certified / self.falsified
+
+    def document(self) -> Document:
+        """The numbers, and what stands behind each."""
+        return EpsilonResults((self,)).document()
+
+    def data(self) -> dict[str, Any]:
+        """As of several gain sets."""
+        return EpsilonResults((self,)).data()
+
+    def records(self) -> list[dict[str, Any]]:
+        """One row."""
+        return EpsilonResults((self,)).records()
+
+    def annotations(self) -> list[Annotation]:
+        """Whether an ε₀ is certified, without the place of the gain set."""
+        return EpsilonResults((self,)).annotations()
+
+
+@dataclass(frozen=True)
+class EpsilonResults(Answer):
+    """The four ε₀ of each of several gain sets.
+
+    Args:
+        results: one a gain set.
+        file: where the gain sets stand.
+        seconds: how long each took, where that was asked for.
+    """
+
+    schema = EpsilonResult.schema
+
+    results: tuple[EpsilonResult, ...]
+    file: GainFile | None = None
+    seconds: Sequence[float] | None = None
+
+    def document(self) -> Document:
+        """A row a gain set, and what stands behind its numbers."""
+        rows = tuple(self._row(result, time) for result, time in self._timed())
+        heads = HEADS if self.seconds is None else (*HEADS, "seconds")
+        behind = [Section(result.name, (Bullets(tuple(remarks(result))),)) for result in self.results]
+        return Document(title(self.results), (Table(heads, rows), *behind), tuple(notes(self.results)))
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``."""
+        rows = [
+            result_data(result) | ({} if time is None else {"seconds": round(time, 3)})
+            for result, time in self._timed()
+        ]
+        return {"results": rows}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a gain set, with the witness and the reasons."""
+        return [
+            {
+                key: value
+                for key, value in row.items()
+                if key not in NOT_IN_RECORDS and not (value is None and key in PARTS)
+            }
+            for row in self.data()["results"]
+        ]
+
+    def annotations(self) -> list[Annotation]:
+        """A case a gain set: whether an ε₀ is certified; what is falsified is a remark."""
+        return [one for result in self.results for one in annotations_of(result, self.file)]
+
+    def _row(self, result: EpsilonResult, seconds: float | None) -> tuple[str, ...]:
+        name = result.name, "—" if result.m is None else str(result.m)
+        numbers = (number_cell(result, kind) for kind in KINDS)
+        time = () if seconds is None else (f"{seconds:.2f}",)
+        return (*name, *numbers, ratio_text(result.ratio) or "—", str(result.boxes), *time)
+
+    def _timed(self) -> Iterator[tuple[EpsilonResult, float | None]]:
+        times = [None] * len(self.results) if self.seconds is None else self.seconds
+        return zip(self.results, times, strict=True)

@@ -1,4 +1,4 @@
-"""What the formats share: heads, cells and sentences."""
+"""The four ε₀ in words: cells of a table, and a sentence for everything that must be said."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from typing import TYPE_CHECKING
 from lyapcheck.files import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.admissible import EpsilonResult
+    from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
 
 KINDS = ("published", "scalar", "certified", "falsified")
-HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified/falsified", "boxes")
 LEGEND = (
-    "published: end of (18), a claim; scalar: from norms; certified: dV/dt < 0 proved at every "
-    "state but the origin; falsified: a state with dV/dt > 0 proved."
+    "published: the end of (18), which claims dV/dt < 0 for every smaller ε₀.",
+    "scalar: from norms alone.",
+    "certified: dV/dt < 0 is proved at every state but the origin.",
+    "falsified: a state with dV/dt > 0 is proved.",
 )
-NUMBER = "* a number from norms in floating point, without a certificate: the checker proves less from norms."
+NUMBER = "Marked *: a number in floating point without a certificate; the checker proves less from norms."
 
 
 def ratio_text(value: Fraction | None) -> str | None:
@@ -36,34 +37,38 @@ def exact(value: Fraction | None) -> str | None:
     return None if value is None else decimal_text(value)
 
 
-def row(result: EpsilonResult, seconds: float | None) -> tuple[str, ...]:
-    """The cells under `HEADS`, a dash where there is no number, and the seconds if they are wanted."""
-    cells = [_cell(result, kind) for kind in KINDS]
-    name = result.name, "—" if result.m is None else str(result.m)
-    shown = () if seconds is None else (f"{seconds:.2f}",)
-    return (*name, *cells, ratio_text(result.ratio) or "—", str(result.boxes), *shown)
-
-
-def _cell(result: EpsilonResult, kind: str) -> str:
-    """A number, with a star where it has no certificate."""
+def number_cell(result: EpsilonResult, kind: str) -> str:
+    """One of the four; a star where it has no certificate, a dash where there is none."""
     star = "*" if kind == "scalar" and result.scalar_grade == "no certificate" else ""
     return f"{exact(getattr(result, kind)) or '—'}{star}"
 
 
-def heads(seconds: Sequence[float] | None) -> tuple[str, ...]:
-    """The heads of the table."""
-    return HEADS if seconds is None else (*HEADS, "seconds")
+def title(results: Sequence[EpsilonResult]) -> str:
+    """Whether every gain set has a certified ε₀."""
+    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    found = sum(result.certified is not None for result in results)
+    if len(results) == 1:
+        return f"{_one(results[0])} on {robots}"
+    if found == len(results) > 0:
+        return f"✓ all {found} gain sets have a certified ε₀ on {robots}"
+    return f"? {found} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
+
+
+def _one(result: EpsilonResult) -> str:
+    if result.certified is None:
+        return f"? no ε₀ is certified for {result.name}"
+    return f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}"
 
 
 def remarks(result: EpsilonResult) -> list[str]:
-    """Findings, reasons for missing numbers, and the witness, a sentence each."""
+    """How the certified number was proved, findings, reasons for missing numbers and the witness."""
     said = [] if result.certified is None else [_way(result)]
     said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
     if result.weighted is not None:
-        said.append(weighted_text(result.weighted))
+        said.append(_weighted_text(result.weighted))
     if result.witness is not None:
-        said.append(witness_text(result.witness))
+        said.append(f"falsified {witness_text(result.witness)}.")
     if result.witness is not None and result.corner:
         values = ", ".join(f"{name} = {decimal_text(value)}" for name, value in result.corner.items())
         said.append(f"that state is one of the arm with {values}.")
@@ -84,7 +89,7 @@ def reasons(result: EpsilonResult) -> list[str]:
     ]
 
 
-def weighted_text(weighted: Weighted) -> str:
+def _weighted_text(weighted: Weighted) -> str:
     """What a proof with weights shows, in one line."""
     products = ", ".join(map(decimal_text, weighted.products))
     return (
@@ -101,25 +106,23 @@ def witness_text(witness: Witness) -> str:
         for name, unit in parts
     )
     low, _ = witness.rate.decimals(6)
-    return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W."
+    return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W"
+
+
+def notes(results: Sequence[EpsilonResult]) -> list[str]:
+    """What holds for all results: what the columns say, the arm, the seed, assumptions."""
+    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
+    assumed = dict.fromkeys(text for result in results for text in result.assumptions)
+    return [
+        *LEGEND,
+        *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
+        *([f"Arm: {robots}, {_extent(results)}. Seed: {seeds}."] if results else []),
+        *(f"Assumed: {text}." for text in assumed),
+    ]
 
 
 def _extent(results: Sequence[EpsilonResult]) -> str:
     if all(result.ranges for result in results):
         return "certified for all values in its ranges"
     return "at its nominal parameters"
-
-
-def notes(results: Sequence[EpsilonResult]) -> list[str]:
-    """What holds for all results: robot, seed, assumptions."""
-    if not results:
-        return []
-    robots = ", ".join(dict.fromkeys(result.robot for result in results))
-    seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
-    assumed = dict.fromkeys(text for result in results for text in result.assumptions)
-    return [
-        LEGEND,
-        *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
-        f"Arm: {robots}, {_extent(results)}. Seed: {seeds}.",
-        *(f"Assumed: {text}." for text in assumed),
-    ]

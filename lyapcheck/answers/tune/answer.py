@@ -1,22 +1,109 @@
-"""The cells that the text and the Markdown format share."""
+"""Which gains an arm admits: the largest of each member of the family, and what forbids larger ones."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from lyapcheck.answers.tune.data import joint_records, tuning_data
+from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, Comparison, TunedSet
+from lyapcheck.answers.tune.targets import Targets
+from lyapcheck.control.gains import Bounds
+from lyapcheck.control.limits import Limits
 from lyapcheck.files import decimal_text
-from lyapcheck.tune.results import Comparison, TunedSet, Tuning
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.verdicts import Exit
 
 HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
 DAMPING_HEAD = "ζ"
 COMPARED_HEADS = ("joint", "k_p", "k_v", "k_p left", "of the largest", "share of (10p)", "breaks")
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
+MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
+NONE_FOUND = {
+    INFEASIBLE: "no gains within (10p) and (19)",
+    UNDECIDED: "its limits are not known, so no gains",
+}
+LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
+ENDS = "One unit more in the last place of a gain breaks what it ends at."
+LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
 
 
-def tuned_rows(item: TunedSet, digits: int) -> list[tuple[str, ...]]:
-    """The heads and a row a joint."""
+@dataclass(frozen=True)
+class Tuning(Answer):
+    """Tuned gains of one arm for several members of the family.
+
+    Args:
+        robot: the arm as the user named it.
+        title: what it is.
+        targets: what was asked for, one value a joint.
+        limits: what the gains were tuned to, the share of the torque taken off.
+        bounds: the limits that the gain file has to repeat, as the arm alone says otherwise.
+        sets: one a member.
+    """
+
+    schema = "lyapcheck/tune/1"
+
+    robot: str
+    title: str
+    targets: Targets
+    limits: Limits
+    bounds: Bounds
+    sets: tuple[TunedSet, ...]
+
+    @property
+    def exit(self) -> Exit:
+        """0 if every member has gains, else 2 if one provably has none, else 3."""
+        found = {item.status for item in self.sets}
+        if INFEASIBLE in found:
+            return Exit.USAGE
+        return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
+
+    def document(self) -> Document:
+        """A table a member, one for what it is compared with, and what it all rests on."""
+        blocks = (_section(item, self.targets.digits) for item in self.sets)
+        return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
+        return tuning_data(self)
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a joint of each member."""
+        return joint_records(self)
+
+    def _verdict(self) -> str:
+        """The worst of the members decides."""
+        for status, words in NONE_FOUND.items():
+            failed = [str(item.m) for item in self.sets if item.status == status]
+            if failed:
+                return f"{MARKS[status]} {self.robot}: {words} for m = {', '.join(failed)}"
+        return f"✓ {self.robot}: the largest gains within (10p) and (19)"
+
+    def _notes(self) -> tuple[str, ...]:
+        tuned = [item for item in self.sets if item.status == TUNED]
+        return (
+            *LIMITS,
+            *([ENDS] if tuned else []),
+            *([LEFT] if any(item.comparison is not None for item in tuned) else []),
+            *(f"Assumed: {text}." for text in self.limits.assumptions),
+        )
+
+
+def _section(item: TunedSet, digits: int) -> Section:
+    """The gains of a member, or why there are none."""
+    title = f"{MARKS[item.status]} {item.name} (m = {item.m})"
+    if item.status != TUNED:
+        return Section(f"{title}: {item.status}", (Bullets(item.reasons),))
+    compared = () if item.comparison is None else (_compared(item.comparison),)
+    return Section(title, (_tuned(item, digits), *compared))
+
+
+def _tuned(item: TunedSet, digits: int) -> Table:
     damped = any(joint.damping is not None for joint in item.joints)
-    rows: list[tuple[str, ...]] = [(*HEADS, DAMPING_HEAD) if damped else HEADS]
-    for joint in item.joints:
-        cells = (
+    rows: list[Sequence[str]] = [
+        (
             joint.name,
             decimal_text(joint.kp, digits),
             decimal_text(joint.kv, digits),
@@ -24,22 +111,26 @@ def tuned_rows(item: TunedSet, digits: int) -> list[tuple[str, ...]]:
             joint.kv_limit.correct_digits(8),
             BOUNDS[joint.kp_bound],
             BOUNDS[joint.kv_bound],
+            *([] if joint.damping is None else [f"{float(joint.damping):.4g}"]),
         )
-        rows.append(cells if joint.damping is None else (*cells, f"{float(joint.damping):.4g}"))
-    return rows
+        for joint in item.joints
+    ]
+    heads = (*HEADS, DAMPING_HEAD) if damped else HEADS
+    return Table(heads, tuple(map(tuple, rows)), align="lrrrrllr"[: len(heads)])
 
 
-def compared_rows(comparison: Comparison) -> list[tuple[str, ...]]:
-    """The heads and a row a joint."""
-    rows: list[tuple[str, ...]] = [COMPARED_HEADS]
-    for joint in comparison.joints:
-        broken = ", ".join(BOUNDS[name] for name in joint.broken) or "nothing"
-        gains = (decimal_text(joint.kp), decimal_text(joint.kv), decimal_text(joint.kp_left))
-        shares = (f"{float(joint.kp_left_share):.1%}", f"{float(joint.used):.1%}")
-        rows.append((joint.name, *gains, *shares, broken))
-    return rows
-
-
-def notes(tuning: Tuning) -> list[str]:
-    """What the gains rest on."""
-    return [f"assumed: {text}" for text in tuning.limits.assumptions]
+def _compared(comparison: Comparison) -> Table:
+    rows = tuple(
+        (
+            joint.name,
+            decimal_text(joint.kp),
+            decimal_text(joint.kv),
+            decimal_text(joint.kp_left),
+            f"{float(joint.kp_left_share):.1%}",
+            f"{float(joint.used):.1%}",
+            ", ".join(BOUNDS[name] for name in joint.broken) or "nothing",
+        )
+        for joint in comparison.joints
+    )
+    beside = f"Beside {comparison.name} of {comparison.source}:"
+    return Table(COMPARED_HEADS, rows, beside, "lrrrrrl")

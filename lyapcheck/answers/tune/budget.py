@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from lyapcheck.answers.table import Budget, Table
+from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import Constants
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.limits import Limits
 from lyapcheck.robots import load
-from lyapcheck.tune.arm import arm_limits
 
 _GUARD_BITS = 32
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from math import floor
 
-from lyapcheck.control.bound import gamma_of
-from lyapcheck.control.conditions import REJECTED, check_10p, check_19
+from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedSet
+from lyapcheck.control.conditions import REJECTED, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.tune.results import ComparedJoint, Comparison, TunedSet
 
 
 def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> Comparison | None:

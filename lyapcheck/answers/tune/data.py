@@ -1,25 +1,25 @@
-"""Tuned gains as versioned JSON."""
+"""Tuned gains as plain data."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files import decimal_text
-from lyapcheck.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet, Tuning
 
-SCHEMA = "lyapcheck/tune/1"
 DIGITS = 20
 
 
-def render(tuning: Tuning) -> str:
-    """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as decimal strings."""
+def tuning_data(tuning: Tuning) -> dict[str, Any]:
+    """Everything about tuned gains; numbers as decimal strings."""
     targets, limits = tuning.targets, tuning.limits
-    document = {
-        "schema": SCHEMA,
+    return {
         "robot": tuning.robot,
         "targets": {
             "digits": targets.digits,
@@ -36,7 +36,21 @@ def render(tuning: Tuning) -> str:
         "assumptions": list(limits.assumptions),
         "results": [_set(item, targets.digits) for item in tuning.sets],
     }
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def joint_records(tuning: Tuning) -> list[dict[str, Any]]:
+    """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
+    rows = []
+    for item in tuning_data(tuning)["results"]:
+        head = {key: item[key] for key in ("name", "m", "status")}
+        beside = {joint["joint"]: joint for joint in (item["comparison"] or {}).get("joints", ())}
+        for joint in item["joints"]:
+            compared = {key: value for key, value in beside.get(joint["joint"], {}).items() if key != "joint"}
+            broken = {"broken": ", ".join(compared["broken"])} if compared else {}
+            rows.append(head | joint | ({"compared": compared | broken} if compared else {}))
+        if not item["joints"]:
+            rows.append(head | {"reasons": "; ".join(item["reasons"])})
+    return rows
 
 
 def _set(item: TunedSet, digits: int) -> dict[str, Any]:

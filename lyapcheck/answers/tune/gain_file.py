@@ -7,10 +7,14 @@ import os
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from lyapcheck.answers.tune.results import TUNED, TunedSet
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.control.gains import Bounds
 from lyapcheck.files import decimal_text
-from lyapcheck.tune.results import TUNED, TunedSet, Tuning
 
 HEAD = """\
 # The largest gains that meet (10p) and (19), with {targets}.
@@ -25,31 +29,13 @@ def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
         tuning: what ``tune`` returned.
         folder: where the file will stand, as a path of an arm file is meant relative to the gain file.
     """
-    blocks = [HEAD.format(targets=targets_text(tuning)) + f"robot = {_quoted(_beside(tuning.robot, folder))}"]
+    blocks = [
+        HEAD.format(targets=tuning.targets.text()) + f"robot = {_quoted(_beside(tuning.robot, folder))}"
+    ]
     blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
     if tuning.bounds != Bounds():
         blocks.append(_bounds(tuning.bounds))
     return "\n\n".join(blocks) + "\n"
-
-
-def targets_text(tuning: Tuning) -> str:
-    """What was asked for, in one line."""
-    targets = tuning.targets
-    parts = [f"{targets.digits} decimal places"]
-    for words, values in (
-        ("at most {} of each torque limit", targets.peak_share),
-        ("k_v at least {} of what (19) admits", targets.kv_share),
-        ("k_v at least {} N·m", targets.kv_min),
-        ("damping ratio at least {}", targets.damping),
-    ):
-        if values is not None and (values is not targets.peak_share or min(values) < 1):
-            parts.append(words.format(_each(values)))
-    return "; ".join(parts)
-
-
-def _each(values: Sequence[Fraction]) -> str:
-    """One value if it is the same for all joints."""
-    return ", ".join(map(decimal_text, values if len(set(values)) > 1 else values[:1]))
 
 
 def _set(item: TunedSet, digits: int) -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from lyapcheck.answers.tune.room import Room
+from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.limits import Limits
 from lyapcheck.files import decimal_text, round_down
-from lyapcheck.tune.room import Room
-from lyapcheck.tune.targets import Targets
 
 
 def unknown(limits: Limits) -> list[str]:

@@ -6,7 +6,7 @@
                 2 ζ_i √(J_i L) s_i ≤ b_i + L k_vi      the damping ratio, where one is asked for
 
 The joints are coupled by nothing, but one program serves all. Its answer is a proposal in floating point;
-``lyapcheck.tune.rounding`` makes exact gains of it.
+``lyapcheck.answers.tune.rounding`` makes exact gains of it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
 
-from lyapcheck.tune.room import Room
+from lyapcheck.answers.tune.room import Room
 
 
 @dataclass(frozen=True)

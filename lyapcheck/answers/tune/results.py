@@ -6,10 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.gains import Bounds, GainSet
-from lyapcheck.control.limits import Limits
-from lyapcheck.tune.targets import Targets
-from lyapcheck.verdicts import Exit
+from lyapcheck.control.gains import GainSet
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
 
@@ -90,44 +87,3 @@ class TunedSet:
             return None
         kp, kv = tuple(j.kp for j in self.joints), tuple(j.kv for j in self.joints)
         return GainSet(self.name, self.m, kp, kv)
-
-
-@dataclass(frozen=True)
-class Tuning:
-    """Tuned gains of one arm for several members of the family.
-
-    Args:
-        robot: the arm as the user named it.
-        title: what it is.
-        targets: what was asked for, one value a joint.
-        limits: what the gains were tuned to, the share of the torque taken off.
-        bounds: the limits that the gain file has to repeat, as the arm alone says otherwise.
-        sets: one a member.
-    """
-
-    robot: str
-    title: str
-    targets: Targets
-    limits: Limits
-    bounds: Bounds
-    sets: tuple[TunedSet, ...]
-
-    @property
-    def exit(self) -> Exit:
-        """0 if every member has gains, else 2 if one provably has none, else 3."""
-        found = {item.status for item in self.sets}
-        if INFEASIBLE in found:
-            return Exit.USAGE
-        return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
-
-    def __str__(self) -> str:
-        """As ``lyapcheck tune`` prints it."""
-        from lyapcheck.tune.formats import renderer
-
-        return renderer("text")(self)
-
-    def _repr_html_(self) -> str:
-        """The tables, for a notebook."""
-        from lyapcheck.tune.formats import renderer
-
-        return renderer("html")(self)

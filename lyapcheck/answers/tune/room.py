@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
+from lyapcheck.answers.tune.damping import Damping
+from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import Threshold, scaled
-from lyapcheck.tune.damping import Damping
-from lyapcheck.tune.targets import Targets
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck.tune.room import Room
+from lyapcheck.answers.tune.room import Room
 
 
 def best_units(room: Room, proposal: float | None = None) -> tuple[int, int]:

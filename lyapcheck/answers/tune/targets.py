@@ -29,7 +29,7 @@ class Targets:
         kv_share: the share that k_v takes, at least, of the largest k_v that (19) admits, in (0, 1]; ``None``
             is 1 where no ``kv_min`` is given, and otherwise leaves the matter to ``kv_min``.
         kv_min: a lower bound of k_v, N·m.
-        damping: a lower bound of the damping ratio ζ_i of each joint; see ``lyapcheck.tune.damping``.
+        damping: a lower bound of the damping ratio ζ_i of each joint; see ``lyapcheck.answers.tune.damping``.
     """
 
     digits: int = 3
@@ -73,6 +73,24 @@ class Targets:
         if self.kv_share is None:
             return Fraction(1 if self.kv_min is None else 0)
         return self.kv_share[joint]
+
+    def text(self) -> str:
+        """What is asked for, in one line."""
+        parts = [f"{self.digits} decimal places"]
+        for words, values in (
+            ("at most {} of each torque limit", self.peak_share),
+            ("k_v at least {} of what (19) admits", self.kv_share),
+            ("k_v at least {} N·m", self.kv_min),
+            ("damping ratio at least {}", self.damping),
+        ):
+            if values is not None and (values is not self.peak_share or min(values) < 1):
+                parts.append(words.format(_each(values)))
+        return "; ".join(parts)
+
+
+def _each(values: Sequence[Fraction]) -> str:
+    """One value if it is the same for all joints."""
+    return ", ".join(map(decimal_text, values if len(set(values)) > 1 else values[:1]))
 
 
 def _exact(numbers: Numbers) -> tuple[Fraction, ...]:

@@ -6,21 +6,22 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from lyapcheck.control.bound import gamma_of
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune.answer import Tuning
+from lyapcheck.answers.tune.arm import arm_limits
+from lyapcheck.answers.tune.compare import compare
+from lyapcheck.answers.tune.damping import damping_of
+from lyapcheck.answers.tune.obstacles import impossible, obstacle, unknown
+from lyapcheck.answers.tune.program import propose
+from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet
+from lyapcheck.answers.tune.room import Room, room_of
+from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
+from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files import round_down
-from lyapcheck.gating.gate import gate
 from lyapcheck.robots import RobotModel, load
-from lyapcheck.tune.arm import arm_limits
-from lyapcheck.tune.compare import compare
-from lyapcheck.tune.damping import damping_of
-from lyapcheck.tune.obstacles import impossible, obstacle, unknown
-from lyapcheck.tune.program import propose
-from lyapcheck.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet, Tuning
-from lyapcheck.tune.room import Room, room_of
-from lyapcheck.tune.rounding import best_units, binding
-from lyapcheck.tune.targets import Targets, joint_values, require_usable
 
 WRITTEN_PLACES = 12
 
@@ -39,7 +40,7 @@ def tune(
         members: m of each gain set.
         targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
         bounds: limits to take instead of the arm's.
-        against: gains to compare with; see ``lyapcheck.tune.compare``.
+        against: gains to compare with; see ``lyapcheck.answers.tune.compare``.
 
     Raises:
         InputError: the arm or a target cannot be used.
@@ -57,7 +58,7 @@ def tune(
         >>> stiff.sets[0].gains.kp
         (Fraction(10443, 200), Fraction(2773, 500))
         >>> print(stiff)  # doctest: +ELLIPSIS
-        reyes-kelly2: the largest gains within (10p) and (19)
+        ✓ reyes-kelly2: the largest gains within (10p) and (19)
         ...
     """
     model = load(robot)

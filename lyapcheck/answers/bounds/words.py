@@ -1,0 +1,74 @@
+"""Times, angles and sentences about bounds; nothing certified is rounded down."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.numbers.enclosure import Enclosure
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.search.decay_results import Provenance
+
+
+def title(results: Sequence[Comparison]) -> str:
+    """Whether all bounds are certified."""
+    robots = ", ".join(dict.fromkeys(found.settling.robot for found in results))
+    whole = sum(found.certified for found in results)
+    if len(results) == 1:
+        return _one(results[0])
+    if whole == len(results) > 0:
+        return f"✓ the bounds of all {whole} gain sets are certified on {robots}"
+    return f"? the bounds of {whole} of {len(results)} gain sets are certified on {robots or 'no arm'}"
+
+
+def _one(found: Comparison) -> str:
+    bound = found.settling
+    mark = "✓" if found.certified else "?"
+    about = f"{mark} {bound.name} on {bound.robot}:"
+    if bound.time is None:
+        return f"{about} no settling time is certified"
+    within = f"every |e_i| ≤ {angle_text(bound.delta)} for good within {seconds_up(bound.time)}"
+    if found.certified:
+        return f"{about} {within}, certified"
+    return f"{about} {within} is certified, what disturbances leave is not"
+
+
+def seconds_up(value: Fraction | None) -> str:
+    """A time in four digits, never rounded down; a dash where there is none."""
+    return "—" if value is None else f"{_up(Enclosure(value, value).float_upper)} s"
+
+
+def simulated_time(found: Comparison) -> str:
+    """When the run came to stay within δ."""
+    if found.simulated_time is None:
+        return f"not within {found.task.T:g} s"
+    return f"{found.simulated_time:.3g} s"
+
+
+def angle_text(value: Fraction | float) -> str:
+    """An angle in degrees, rounded."""
+    return f"{math.degrees(value):g}°"
+
+
+def angle_up(value: Fraction | float | None) -> str:
+    """An angle in degrees, in four digits and never rounded down; ``None`` is without a bound."""
+    return "∞" if value is None else f"{_up(math.degrees(value))}°"
+
+
+def provenance_text(found: Provenance) -> str:
+    """What a bound rests on."""
+    shares = f"{float(found.friction):.0%} of B and {float(found.stiffness):.0%} of K_p"
+    return f"{found.by} ({found.boxes} boxes), ε₀ = {float(found.eps0):g}, doing without {shares}"
+
+
+def _up(value: float) -> str:
+    if value <= 0:
+        return "0"
+    if math.isinf(value):
+        return "more than 1e308"
+    scale = 10.0 ** (3 - math.floor(math.log10(value)))
+    return f"{math.ceil(value * scale * (1 + 1e-12)) / scale:.4g}"

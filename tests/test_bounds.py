@@ -1,0 +1,89 @@
+"""What ``lyapcheck bounds`` says of certified bounds beside a run."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.answers.bounds.answer import Comparisons
+from lyapcheck.answers.bounds.compare import compare
+from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.output.document import Section, Table
+from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.robots import load
+from lyapcheck.simulate.task import Task
+
+F = Fraction
+FILE = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+TASK = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
+
+
+@pytest.fixture(scope="module")
+def compared() -> Comparisons:
+    """A gain set with both bounds, and one whose h is too flat for a time to be found."""
+    first, second, _ = FILE.gains
+    flat = GainSet(second.name, 60, second.kp, second.kv, index=second.index)
+    asked = (load("reyes-kelly2"), TASK, math.radians(10), (0.1, 0.05), (0.0, 0.0))
+    return Comparisons(tuple(compare(gains, *asked, max_boxes=2_000) for gains in (first, flat)), FILE)
+
+
+def test_the_first_line_says_whether_all_is_certified(compared: Comparisons) -> None:
+    sound, flat = compared.results
+    assert (sound.certified, flat.certified) == (True, False)
+    assert compared.document().title == "? the bounds of 1 of 2 gain sets are certified on reyes-kelly2"
+    alone, without = str(Comparisons((sound,))), str(Comparisons((flat,)))
+    assert alone.startswith("✓ tau_m1 on reyes-kelly2: every |e_i| ≤ 10° for good within ")
+    assert without.startswith("? tau_m2 on reyes-kelly2: no settling time is certified")
+    assert Comparisons((sound, sound)).document().title.startswith("✓ the bounds of all 2 gain sets")
+
+
+def test_what_is_shown_is_never_below_what_is_certified(compared: Comparisons) -> None:
+    settling = compared.results[0].settling
+    times, errors = compared.document().blocks[:2]
+    assert isinstance(times, Table)
+    assert isinstance(errors, Section)
+    assert settling.time is not None
+    assert settling.time <= F(times.rows[0][1].removesuffix(" s")) <= settling.time * F(1001, 1000)
+    (table,) = (block for block in errors.blocks if isinstance(block, Table))
+    assert table.heads[:2] == ("joint", "on the way")
+    assert [row[0] for row in table.rows] == ["shoulder", "elbow"]
+    for row, angle in zip(table.rows, settling.largest_errors, strict=True):
+        assert math.degrees(angle) <= float(row[1].removesuffix("°")) <= 1.001 * math.degrees(angle)
+
+
+def test_bounds_are_judged_one_by_one_at_the_line_of_the_gain_set(compared: Comparisons) -> None:
+    settling, disturbed, missing, *_ = compared.annotations()
+    assert [one.level for one in (settling, disturbed, missing)] == ["passed", "passed", "undecided"]
+    assert [one.rule for one in (settling, disturbed, missing)] == ["settling", "disturbed", "settling"]
+    reason = compared.results[1].settling.reason
+    assert reason in missing.message
+    assert reason in " ".join(str(compared).split())
+    lines = Path(FILE.path).read_text(encoding="utf-8").splitlines()
+    for one in (settling, missing):
+        assert lines[one.line - 1 : one.line + 1] == ["[[gains]]", f'name = "{one.group}"']
+
+
+def test_without_a_rate_at_the_goal_it_says_so() -> None:
+    asked = (load("reyes-kelly2"), TASK, math.radians(10), (), (0.0, 0.0))
+    found = Comparisons((compare(FILE.gains[1], *asked, max_boxes=4_000),))
+    assert found.results[0].certified
+    assert [one.rule for one in found.annotations()] == ["settling", "disturbed", "no-rate"]
+    assert "no exponential rate" in str(found)
+    assert "disturbed:" not in str(found)
+
+
+@pytest.mark.parametrize("name", JudgedFormat)
+def test_every_format_is_the_same_bytes_each_time(compared: Comparisons, name: str) -> None:
+    assert compared.written(name) == compared.written(name)
+    assert (r"tau\_m2" if name == "latex" else "tau_m2") in compared.written(name)
+
+
+def test_a_record_is_a_gain_set(compared: Comparisons) -> None:
+    sound, flat = compared.records()
+    assert (sound["name"], flat["name"]) == ("tau_m1", "tau_m2")
+    assert sound["settling"]["time"] >= float(compared.results[0].settling.time or 0)
+    assert flat["settling"]["time"] is None
+    assert "-0.0" not in compared.written("csv")
