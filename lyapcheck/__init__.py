@@ -10,7 +10,10 @@ TYPE_CHECKING = False  # typing takes longer to import than a short command to r
 if TYPE_CHECKING:
     from typing import Any
 
+    from lyapcheck.answers.check import ClaimResult, ProofResult
     from lyapcheck.answers.epsilon import EpsilonResult, epsilon
+    from lyapcheck.answers.explain import explain
+    from lyapcheck.answers.gate import GateResult, gate
     from lyapcheck.answers.table import Table, build_table
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.targets import Targets
@@ -20,8 +23,6 @@ if TYPE_CHECKING:
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
-    from lyapcheck.claims.explain import explain
-    from lyapcheck.claims.result import ClaimResult, ProofResult
     from lyapcheck.claims.run import run_proof
     from lyapcheck.constants.bounds import RobotConstants, robot_constants
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.family.base import Family
     from lyapcheck.family.registry import named as named_family
-    from lyapcheck.gating.gate import GateResult, gate
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
@@ -108,7 +108,7 @@ __all__ = [
 _HOMES = {
     "Bounds": "control.gains",
     "Claim": "claims.claim",
-    "ClaimResult": "claims.result",
+    "ClaimResult": "answers.check",
     "Constants": "check.numbers.constants",
     "Decision": "claims.decision",
     "Enclosure": "check.numbers.enclosure",
@@ -117,7 +117,7 @@ _HOMES = {
     "Family": "family.base",
     "GainFile": "control.gains",
     "GainSet": "control.gains",
-    "GateResult": "gating.gate",
+    "GateResult": "answers.gate",
     "Grade": "verdicts",
     "InputError": "errors",
     "Limits": "control.limits",
@@ -127,7 +127,7 @@ _HOMES = {
     "NumericModel": "robots.numeric",
     "Problem": "errors",
     "Proof": "claims.claim",
-    "ProofResult": "claims.result",
+    "ProofResult": "answers.check",
     "RobotConstants": "constants.bounds",
     "RobotModel": "robots.model",
     "Run": "simulate.run",
@@ -139,9 +139,9 @@ _HOMES = {
     "build_report": "report.build:build",
     "build_table": "answers.table",
     "epsilon": "answers.epsilon",
-    "explain": "claims.explain",
+    "explain": "answers.explain",
     "gamma_less_than": "check.numbers.constants",
-    "gate": "gating.gate",
+    "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.constants",
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",

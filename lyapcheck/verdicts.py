@@ -14,6 +14,11 @@ class Verdict(StrEnum):
     UNDECIDED = "undecided"
     ERROR = "error"
 
+    @property
+    def sign(self) -> str:
+        """The verdict in one character."""
+        return {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!"}[self.value]
+
 
 class Grade(IntEnum):
     """How good the evidence is; a chain is as good as its smallest grade."""

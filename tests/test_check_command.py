@@ -6,11 +6,12 @@ import sys
 
 import pytest
 
+from lyapcheck.output.formats import Format, JudgedFormat
+
 
 def lyapcheck(*arguments, folder=None):
-    code = (
-        f"import sys; sys.argv = {['lyapcheck', *arguments]!r}; from lyapcheck.cli.main import main; main()"
-    )
+    words = ["lyapcheck", *map(str, arguments)]
+    code = f"import sys; sys.argv = {words!r}; from lyapcheck.cli.main import main; main()"
     command = [sys.executable, "-c", code]
     return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=120, check=False)
 
@@ -62,5 +63,24 @@ def test_markdown_is_one_table_a_section(tmp_path):
     run = lyapcheck(
         "check", "published.py", "--only", "17a", "--format", "markdown", "--timings", folder=tmp_path
     )
-    assert run.stdout.count("| claim |") == 1
-    assert " s) |" in run.stdout
+    assert run.stdout.startswith("# ✗ 1 refuted: A family of hyperbolic-type control schemes")
+    assert run.stdout.count("|  | claim | grade | seconds | statement |") == 1
+
+
+@pytest.mark.parametrize("name", JudgedFormat)
+def test_every_format_names_the_claim(name, tmp_path):
+    run = lyapcheck("check", "published.py", "--only", "17a", "--format", name, folder=tmp_path)
+    assert run.returncode == 1, run.stderr
+    assert "17a" in run.stdout
+
+
+@pytest.mark.parametrize("name", Format)
+def test_explain_has_every_format(name, tmp_path):
+    run = lyapcheck("explain", "17a", "--format", name, folder=tmp_path)
+    assert run.returncode == 0, run.stderr
+    assert "17a" in run.stdout
+
+
+def test_lines_fit_a_terminal(tmp_path):
+    run = lyapcheck("check", "published.py", "--m", "2", "--only", "2.1", "--only", "16.6", folder=tmp_path)
+    assert max(map(len, run.stdout.splitlines())) <= 82, "combining accents take no column"

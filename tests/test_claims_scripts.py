@@ -1,15 +1,19 @@
 """Proof scripts of users: what they may write, what is refused, and how claims lean on each other."""
 
+import csv
+import io
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from json_schema import faults
 
+from lyapcheck.answers.explain import explain
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.explain import explain
-from lyapcheck.claims.render import renderer
 from lyapcheck.errors import InputError
+from lyapcheck.output.document import Section, Table
+from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit, Verdict
 
 HEAD = """
@@ -147,19 +151,20 @@ def test_a_claim_about_a_robot_is_undecided_without_one(write):
     assert verdicts(path, n=None, robot="reyes-kelly2")["r"].verdict is Verdict.PROVED
 
 
-@pytest.mark.parametrize("name", ["text", "json", "markdown"])
-def test_output_is_the_same_every_time_and_has_no_clock(write, name):
+def test_output_is_the_same_every_time_and_has_no_clock(write):
     path = write(CHAIN.replace("{slope}", "1"))
-    first, second = (renderer(name)(run_proof(path, ms=(1,), n=2), False) for _ in range(2))
-    assert first == second
-    assert "seconds" not in first
-    assert str(path) not in first
+    one, two = (run_proof(path, ms=(1,), n=2) for _ in range(2))
+    for name in JudgedFormat:
+        first, second = one.written(name), two.written(name)
+        assert first == second
+        assert "seconds" not in first
+        assert (str(path) in first) == (name in ("sarif", "junit", "github"))
 
 
 @pytest.mark.parametrize("timings", [False, True])
 def test_json_has_the_fields_of_its_schema(write, timings):
     result = run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2)
-    data = json.loads(renderer("json")(result, timings))
+    data = json.loads(replace(result, timings=timings).written("json"))
     schema = json.loads((Path(__file__).parent / "schemas" / "check-2.json").read_text(encoding="utf-8"))
     assert list(faults(data, schema, schema)) == []
     assert all(("seconds" in row) == timings for row in data["claims"])
@@ -170,18 +175,114 @@ def test_json_has_the_fields_of_its_schema(write, timings):
 def test_the_statement_is_what_was_decided_and_the_comment_the_authors_words(write):
     """Whatever an author says about 3 ≤ 1, it is 3 ≤ 1 that stands in every format."""
     result = run_proof(write('proof.add("d", "All is stable.", Constant(expr(3) <= 1))'), ms=(1,), n=2)
-    (row,) = json.loads(renderer("json")(result, False))["claims"]
+    (row,) = result.data()["claims"]
     assert (row["statement"], row["comment"], row["verdict"]) == ("3 ≤ 1", "All is stable.", "refuted")
-    assert "3 ≤ 1\n             the author's words: “All is stable.”" in renderer("text")(result, False)
-    table = renderer("markdown")(result, False)
-    assert "| exact | 3 ≤ 1 |" in table
-    assert "the author's words: “All is stable.”" in table
+    assert "✗  d      exact  3 ≤ 1\n" in str(result)
+    table = result.written("markdown")
+    assert "| ✗ | d | exact | 3 ≤ 1 |" in table
+    assert "| the author's words: “All is stable.” |" in table
+    (case,) = result.annotations()
+    assert case.message.startswith("d refuted: 3 ≤ 1; ")
+    for name in JudgedFormat:
+        shown = result.written(name)
+        assert "3 ≤ 1" in shown
+        assert shown.count("All is stable.") == (2 if name == "sarif" else 1)
+
+
+MEMBERS = """
+@proof.claim("m", "h_m is below 1.06", section="Bounds")
+def _(case):
+    return for_all(h(case.m, x) <= "1.06")
+
+proof.add("d", "3 ≤ 1", Constant(expr(3) <= 1), section="Numbers")
+proof.add("above", "1 ≤ 2", Constant(expr(1) <= 2), uses=["m"], section="Numbers")
+"""
+
+
+def tables(block):
+    """The tables of a document by the titles above them."""
+    if isinstance(block, Table):
+        yield (), block
+    for inner in getattr(block, "blocks", ()):
+        for titles, table in tables(inner):
+            yield ((block.title, *titles) if isinstance(block, Section) else titles), table
+
+
+def test_what_is_not_proved_comes_first_and_the_tally_is_the_title(write):
+    document = run_proof(write(MEMBERS), ms=(1, 2, 3), n=1).document()
+    assert document.title == "✗ 2 refuted, 1 undecided, 4 proved: My proof"
+    found = dict(tables(document))
+    assert found.pop(()).rows == (("refuted", "2", "m (m = 3), d"), ("undecided", "1", "above (m = 3)"))
+    assert list(found) == [
+        ("Refuted (2)", "Bounds"),
+        ("Refuted (2)", "Numbers"),
+        ("Undecided (1)", "Numbers"),
+        ("Proved (4)", "Bounds"),
+        ("Proved (4)", "Numbers"),
+    ]
+
+
+def test_every_claim_shows_verdict_m_grade_statement_words_and_what_supports_it(write):
+    found = dict(tables(run_proof(write(MEMBERS), ms=(1, 2, 3), n=1).document()))
+    refuted = found["Refuted (2)", "Bounds"]
+    assert refuted.heads == ("", "claim", "m", "grade", "statement")
+    head, *below = refuted.rows
+    assert head == ("✗", "m", "3", "enclosure", "h_3(x) ≤ 1.06 for all x in (−∞, ∞)")
+    said = [row[-1] for row in below]
+    assert said[0].startswith("witness: at x = ")
+    assert " is not ≤ right 1.06" in said[0].replace("[1.05999999999, 1.06000000001]", "1.06")
+    assert said[1] == "the author's words: “h_m is below 1.06”"
+    assert said[2].startswith("method: ")
+    assert all(row[:-1] == ("",) * 4 for row in below)
+    (head, reason, _, _) = found["Undecided (1)", "Numbers"].rows
+    assert head == ("?", "above", "3", "numeric", "1 ≤ 2")
+    assert "rests on m" in reason[-1]
+
+
+def test_the_words_for_several_m_stand_once(write):
+    proved = dict(tables(run_proof(write(MEMBERS), ms=(1, 2), n=1).document()))["Proved (4)", "Bounds"]
+    assert [row[:3] for row in proved.rows if row[0]] == [("✓", "m", "1"), ("✓", "m", "2")]
+    assert sum(row[-1].startswith("the author's words") for row in proved.rows) == 1
+
+
+def test_timings_are_shown_where_they_are_wanted(write):
+    result = replace(run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2), timings=True)
+    assert all("seconds" in table.heads for _, table in tables(result.document()) if "claim" in table.heads)
+    assert "seconds" in result.written("csv").splitlines()[0]
+
+
+def test_systems_that_run_checks_get_a_case_a_claim(write):
+    path = write(MEMBERS)
+    cases = run_proof(path, ms=(1, 3), n=1).annotations()
+    assert [(case.rule, case.case, case.level.value) for case in cases] == [
+        ("m", "m = 1", "passed"),
+        ("m", "m = 3", "failed"),
+        ("d", "", "failed"),
+        ("above", "m = 1", "passed"),
+        ("above", "m = 3", "undecided"),
+    ]
+    assert {case.path for case in cases} == {str(path)}
+    assert {case.group for case in cases} == {"My proof"}
+    assert all(bool(case.message) == (case.level.value != "passed") for case in cases)
+
+
+def test_a_row_of_the_csv_is_a_claim_and_an_m(write):
+    rows = list(csv.DictReader(io.StringIO(run_proof(write(MEMBERS), ms=(1, 3), n=1).written("csv"))))
+    assert [(row["id"], row["m"], row["verdict"]) for row in rows] == [
+        ("m", "1", "proved"),
+        ("m", "3", "refuted"),
+        ("d", "", "refuted"),
+        ("above", "1", "proved"),
+        ("above", "3", "undecided"),
+    ]
+    assert rows[1]["witness"].startswith("at x = ")
+    assert rows[4]["uses"] == rows[4]["broken"] == "m"
 
 
 def test_explain_names_place_use_and_procedure():
-    text = str(explain("16.6"))
-    assert "term 6" in text
-    assert "used by   16" in text
-    assert "Implies" in text
+    found = explain("16.6")
+    assert "term 6" in found.place
+    assert [known for known, _ in found.used_by] == ["16"]
+    assert [part.kind for part in found.parts] == ["Implies"]
     with pytest.raises(InputError, match=r"did you mean 16\.6"):
         explain("16_6")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import re
 from fractions import Fraction
@@ -12,17 +14,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from lyapcheck.answers.explain import explain
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
 from lyapcheck.claims.case import Lacking
-from lyapcheck.claims.explain import explain
-from lyapcheck.claims.explain_formats import renderer
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.cli.main import build_app
 from lyapcheck.errors import InputError
+from lyapcheck.output.document import Bullets
 
 KNOWN = {
     "gamma_1": "1",
@@ -46,8 +48,8 @@ def test_claims_of_every_proof_are_explained():
         assert found.says
         assert found.lacking or (found.parts and found.procedures)
         lines = str(found).splitlines()
-        assert lines[0].startswith(f"{known} ")
-        assert max(map(len, lines)) <= 130
+        assert lines[0].startswith(f"{known}: “")
+        assert max(map(len, lines)) <= 85, "combining accents take no column"
         assert not any(line != line.rstrip() for line in lines)
 
 
@@ -79,16 +81,41 @@ def test_an_unknown_id_is_refused_with_the_likely_ones(written, words):
 
 def test_what_is_printed_answers_the_five_questions():
     out = run("16.9").stdout
-    for line in (
-        "16.9      “½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖” (the author's words)",
-        "where     (16), term 9 of reyes2019family; claimed in published.py",
-        "uses      2.6: a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖",
-        "used by   16",
-        "asks      for m = 2, n = 3:",
-        "decided   Upper bounds for every n by norms",
-        "run       lyapcheck check published.py --only 16.9",
-    ):
-        assert line in out
+    places = [
+        out.index(text)
+        for text in (
+            "16.9: “½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖” (the author's words)\n",
+            "(16), term 9 of reyes2019family; claimed in published.py.\n",
+            "What is decided, for m = 2, n = 3\n",
+            "How it is decided\n",
+            "Upper bounds for every n by norms",
+            "What it uses\n",
+            "\n2.6    a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖\n",
+            "What uses it\n",
+            "\n16     dV/dt ≤ ",
+            "\n    lyapcheck check published.py --only 16.9\n",
+        )
+    ]
+    assert places == sorted(places)
+
+
+def test_lists_of_how_it_is_decided_stay_lists():
+    (section,) = [
+        block for block in explain("7b").document().blocks[1:] if block.title == "How it is decided"
+    ]
+    first, rules, last = section.blocks
+    assert isinstance(rules, Bullets)
+    assert [item[:5] for item in rules.items] == ["k = 0", "k = 1"]
+    assert first.text.startswith("Bounds ‖")
+    assert last.text.startswith("A bound by a certified supremum")
+
+
+def test_what_cannot_be_decided_says_why():
+    found = explain("18.gains")
+    assert (found.parts, found.procedures) == ((), ())
+    assert "take a smaller K_v" in str(found)
+    (row,) = csv.DictReader(io.StringIO(found.written("csv")))
+    assert (row["id"], row["statement"]) == ("18.gains", found.lacking)
 
 
 @pytest.mark.parametrize(
@@ -117,16 +144,17 @@ def test_json_and_markdown_hold_the_same():
     assert data["schema"] == "lyapcheck/explain/1"
     assert data["uses"] == [{"id": "8", "says": explain("8").says}]
     assert [part["name"] for part in data["parts"]] == [part.name for part in explain("12d").parts]
+    assert data["run"] == "lyapcheck check published.py --only 12d"
     shown = run("12d", "--format", "markdown").stdout
-    assert shown.startswith("## 12d: ")
-    assert "- **run** lyapcheck check published.py" in shown
+    assert shown.startswith("# 12d: ")
+    assert "| 8 | the printed derivative is the derivative of h_m |" in shown
+    assert data["run"] in shown
 
 
-def test_a_notebook_gets_a_table():
+def test_a_notebook_gets_the_statement_and_what_it_uses():
     shown = explain("7a")._repr_html_()
-    assert shown.count("<tr>") == 8
-    assert "‖(h_2(x))ᵢ‖ ≤ √3·γ_2" in shown
-    assert renderer("text")(explain("7a")) == str(explain("7a"))
+    assert "<p>‖(h_2(x))ᵢ‖ ≤ √3·γ_2" in shown
+    assert shown.count("<tr>") == 2 + len(explain("7a").uses) + len(explain("7a").used_by)
 
 
 x, y = var("x"), var("y")

@@ -15,16 +15,20 @@ import pytest
 from json_schema import faults
 
 import lyapcheck
+from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.files import Document, Unreadable, gather
 from lyapcheck.check.finding import Finding
+from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.guard import Guard
 from lyapcheck.check.judging import judged
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
 from lyapcheck.check.render import as_json, text
+from lyapcheck.check.trusted import lines
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import file_name
+from lyapcheck.output.formats import JudgedFormat
 
 SCRIPT = """
 from lyapcheck.claims import *
@@ -236,6 +240,54 @@ def test_json_is_versioned_and_complete(folder):
     assert "ForAll by pieces of the domain" in rows["f.m2.json"]["rules"]
 
 
+def blocks(document, title):
+    """What stands under a heading."""
+    return next(block.blocks for block in document.blocks if getattr(block, "title", "") == title)
+
+
+def test_the_other_formats_say_what_the_checker_says(folder):
+    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
+    (folder / "a.json").unlink()
+    found = recheck(gather([folder]))
+    document = Recheck(found, trusted=True).document()
+    assert document.title == "✗ 1 refused, 4 undecided, 1 accepted (1 refuted)"
+    (refused,) = blocks(document, "Refused (1)")
+    assert refused.rows == (("✗", "d.json", "verdict = proved: the proof gives refuted"),)
+    (undecided,) = blocks(document, "Undecided (4)")
+    reasons = {row[1]: row[2] for row in undecided.rows if row[1]}
+    assert reasons == {one.file: one.reason for one in found.checked if one.status == "undecided"}
+    (accepted,) = blocks(document, "Accepted (1)")
+    ((sign, file, *verdict, statement), below) = accepted.rows
+    assert (sign, file, *verdict) == ("✓", "f.m3.json", "refuted", "enclosure")
+    assert statement == "h_3(x) ≤ 1.06 for all x in (−∞, ∞)"
+    assert below[-1].endswith("the author's words: f (m = 3): “h_m ≤ 1.06”")
+    rules, modules = blocks(document, "Trusted for all that is refuted")
+    assert "ForAll" in rules.text
+    assert ("lyapcheck.check.verify", str(lines("lyapcheck.check.verify"))) in modules.rows
+    assert blocks(document, "Taken for granted")[1].items == GENERAL
+
+
+def test_systems_that_run_checks_get_a_case_a_certificate(folder):
+    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
+    (folder / "a.json").unlink()
+    cases = {one.group: one for one in Recheck(recheck(gather([folder]))).annotations()}
+    levels = {name: case.level.value for name, case in cases.items()}
+    assert levels.pop("d.json") == "failed"
+    assert levels.pop("f.m3.json") == "passed"
+    assert set(levels.values()) == {"undecided"}
+    assert cases["d.json"].message == "verdict = proved: the proof gives refuted"
+    assert cases["b.json"].path == str(folder / "b.json")
+
+
+@pytest.mark.parametrize("name", JudgedFormat)
+def test_every_format_has_the_exit_code_and_names_the_file(folder, name):
+    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
+    done = run("recheck", folder / "a.json", "--format", name.value)
+    assert done.returncode == 1, done.stderr
+    assert "a.json" in done.stdout
+    assert run("recheck", folder / "x.json", "--format", name.value).returncode == 2
+
+
 def test_a_genuine_certificate_under_other_words_is_shown_by_what_it_states(folder):
     def boast(data):
         data["claim"].update(id="Riemann", says="All zeros lie on the line.")
@@ -308,6 +360,11 @@ def test_proved_and_refuted_is_an_alarm_that_names_both(monkeypatch):
         ["two.json (part 2)"],
         ["two.json"],
     ]
+    shown = Recheck(made)
+    assert shown.document().title.startswith("✗ ALARM: the checker is wrong; trust none of these verdicts")
+    (said,) = blocks(shown.document(), "Alarms")
+    assert ["one.json (part 1)" in item for item in said.items] == [True, False]
+    assert [case.level.value for case in shown.annotations() if case.rule == "alarm"] == ["failed"] * 2
     assert summed((one, three), {}, ()).code == 0
     refused = replace(two, status="refused", reason="rests on x, which is refuted")
     assert summed((one, refused), {}, ()).code == 4, "its own proof was accepted"

@@ -13,11 +13,11 @@ import pytest
 
 import lyapcheck.claims.fresh_check
 import lyapcheck.claims.run
+from lyapcheck.answers.explain import explain
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.case import Case, Lacking
-from lyapcheck.claims.explain import explain
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit, Grade, Verdict
 
@@ -83,7 +83,7 @@ def test_a_false_claim_stays_false_whatever_its_script_patches(write, name, tmp_
 
 
 def test_a_script_cannot_alter_what_explain_prints(write):
-    body = "import lyapcheck.claims.explain_formats as f\nf.text = lambda found: 'all is well'\n"
+    body = "from lyapcheck.output.answer import Answer\nAnswer.__str__ = lambda self: 'all is well'\n"
     body += "from lyapcheck.check.kinds.constant import Constant\nConstant.text = lambda self: '1 ≤ 2'\n"
     text = str(explain("false", str(write(body + FALSE))))
     assert "2 ≤ 1" in text

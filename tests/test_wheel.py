@@ -128,7 +128,7 @@ def test_gate_on_the_papers_gains(installed, elsewhere):
 def test_check_finds_the_papers_proof(installed, elsewhere):
     done = same(installed, elsewhere, "check", "published.py", "--only", "7b")
     assert done.returncode == 0
-    assert done.stdout.count("proved     7b") == 3
+    assert done.stdout.count("✓  7b ") == 3
 
 
 def test_explain(installed, elsewhere):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import Given, Request, Told
@@ -13,6 +14,8 @@ from lyapcheck.claims.procedures import PROCEDURES
 from lyapcheck.claims.run import paper_given
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
 from lyapcheck.claims.statements import AllOf, Missing, Statement, Theorem
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
@@ -30,7 +33,7 @@ class Part:
     Args:
         name: of the part; empty where the claim is one statement.
         kind: of the statement.
-        says: the statement as it is decided; empty where it is too long to read.
+        says: the statement as it is decided.
     """
 
     name: str
@@ -39,8 +42,8 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Explanation:
-    """A claim explained; ``str`` of it is what ``lyapcheck explain`` prints.
+class Explanation(Answer):
+    """A claim explained.
 
     Args:
         id: of the claim.
@@ -57,6 +60,8 @@ class Explanation:
         procedures: how it is decided, one paragraph a procedure.
     """
 
+    schema = "lyapcheck/explain/1"
+
     id: str
     says: str
     script: str
@@ -70,17 +75,47 @@ class Explanation:
     lacking: str
     procedures: tuple[str, ...]
 
-    def __str__(self) -> str:
-        """Plain text, a paragraph a question."""
-        from lyapcheck.claims.explain_formats import text
+    def document(self) -> Document:
+        """Where it stands, what is decided and how, what it uses and what uses it, how to decide it."""
+        how = tuple(block for text in self.procedures for block in _blocks(text))
+        blocks = (
+            Paragraph(self._where()),
+            Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(self._decided())),
+            Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
+            Section("What it uses", (_claims(self.uses),)),
+            Section("What uses it", (_claims(self.used_by),)),
+            Section("To decide it", (Code(self._command()),)),
+        )
+        return Document(f"{self.id}: “{_one_line(self.says)}” (the author's words)", blocks)
 
-        return text(self)
+    def data(self) -> dict[str, Any]:
+        """The fields by their names, and the command that decides the claim."""
+        found = asdict(self)
+        for key in ("uses", "used_by"):
+            found[key] = [{"id": known, "says": says} for known, says in found[key]]
+        return found | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
 
-    def _repr_html_(self) -> str:
-        """For a notebook."""
-        from lyapcheck.claims.explain_formats import html
+    def records(self) -> list[dict[str, Any]]:
+        """A row a part, or one that says why there is none."""
+        about = {"id": self.id, "script": self.script, "place": self.place, "case": self.case}
+        rows = [asdict(part) for part in self.parts] or [{"name": "", "kind": "", "says": self.lacking}]
+        return [{**about, "part": row["name"], "kind": row["kind"], "statement": row["says"]} for row in rows]
 
-        return html(self)
+    def _where(self) -> str:
+        source = f" of {self.reference}" if self.reference else ""
+        place = f"{self.place}{source}" if self.place else "Not in the paper's text"
+        return f"{place}; claimed in {self.script}."
+
+    def _decided(self) -> Iterator[Block]:
+        """The statement; those of the parts one by one."""
+        if self.lacking:
+            yield Paragraph(self.lacking)
+        for part in self.parts:
+            name = f"{part.name}: " if part.name else ""
+            yield Paragraph(f"{name}{part.says} [{part.kind}]")
+
+    def _command(self) -> str:
+        return f"lyapcheck check {self.script} --only {self.id}"
 
 
 def explain(claim_id: str, script: str | None = None) -> Explanation:
@@ -146,6 +181,26 @@ def _meant(claim_id: str, ids: Collection[str]) -> str | None:
             return wanted
     near = [known for known in ids if known.casefold() == bare.casefold()]
     return near[0] if len(near) == 1 else None
+
+
+def _claims(claims: tuple[tuple[str, str], ...]) -> Block:
+    if not claims:
+        return Paragraph("No other claim.")
+    rows = tuple((known, _one_line(says)) for known, says in claims)
+    return Table(("claim", "the author's words"), rows, align="ll")
+
+
+def _blocks(text: str) -> Iterator[Block]:
+    """Paragraphs and lists of a documentation."""
+    for block in text.split("\n\n"):
+        if block.startswith("- "):
+            yield Bullets(tuple(map(_one_line, block[2:].split("\n- "))))
+        else:
+            yield Paragraph(_one_line(block))
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def _named(claim: Told) -> tuple[str, str]:

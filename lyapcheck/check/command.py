@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import CannotStart
 from lyapcheck.check.limits import Limits
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import Outcome, recheck
 from lyapcheck.check.render import as_json, text
 
 UNUSABLE = 2
-FORMATS = {"text": text, "json": as_json}
+Writer = Callable[[Outcome, bool], str]
+FORMATS: Mapping[str, Writer] = {"text": text, "json": as_json}
 HELP = {
     "format": "How to write it.",
     "full": "Write long statements, and what their authors say of them, whole.",
@@ -30,6 +31,7 @@ def run(
     trusted: bool,
     seconds: int,
     memory: int,
+    formats: Mapping[str, Writer] = FORMATS,
 ) -> int:
     """Print the outcome; 0: all accepted, 1: some refused, 2: unusable, 3: some undecided, 4: an alarm."""
     try:
@@ -41,5 +43,5 @@ def run(
     except CannotStart as error:
         print(f"error: --memory = {memory}: {error}; allow more", file=sys.stderr)
         return UNUSABLE
-    sys.stdout.write(FORMATS[format](outcome, trusted))
+    sys.stdout.write(formats[format](outcome, trusted))
     return outcome.code

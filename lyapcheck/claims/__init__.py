@@ -76,7 +76,6 @@ from lyapcheck.claims.products import (
     transpose,
     vector,
 )
-from lyapcheck.claims.result import ClaimResult, ProofResult
 from lyapcheck.claims.run import run_proof
 from lyapcheck.claims.state_statements import DampingBelow, Decreasing, damping_below, decreasing
 from lyapcheck.claims.statements import (
@@ -117,7 +116,6 @@ __all__ = [
     "BoundEveryN",
     "Case",
     "Claim",
-    "ClaimResult",
     "ClosedLoop",
     "Constant",
     "DampingBelow",
@@ -133,7 +131,6 @@ __all__ = [
     "Lacking",
     "NormBound",
     "Proof",
-    "ProofResult",
     "Relation",
     "Statement",
     "Theorem",

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
@@ -17,7 +18,6 @@ from lyapcheck.claims.handover import Given, Handover, Key, Request
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
-from lyapcheck.claims.result import ClaimResult, ProofResult
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.statements import Missing, Statement
 from lyapcheck.search.inertia import remember
@@ -82,6 +82,7 @@ def run_proof(
         tuple(results[key] for key in every if not only or key[0] in only),
         model.assumptions if model else (),
         {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
+        str(path),
     )
 
 

@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import sys
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-
-class CheckFormat(StrEnum):
-    """How the result is written."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
+from lyapcheck.output.formats import JudgedFormat
 
 
 def command(
@@ -27,7 +20,7 @@ def command(
     n: Annotated[int | None, typer.Option("--n", help="Number of joints, in place of a robot.")] = None,
     gains: Annotated[str | None, typer.Option(help="A gain file. Default: the paper's Table 2.")] = None,
     only: Annotated[list[str] | None, typer.Option(help="Report this claim only; may be repeated.")] = None,
-    format: Annotated[CheckFormat, typer.Option(help="How to write it.")] = CheckFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
     certificates: Annotated[
         str | None, typer.Option(help="Write a certificate per decided claim there; see recheck.")
     ] = None,
@@ -41,12 +34,14 @@ def command(
     Exit code 0: all proved, 1: something refuted, 2: the script or an input cannot be used, 3: something
     undecided and nothing refuted.
     """
+    from dataclasses import replace
+
     from lyapcheck.claims import run_proof
     from lyapcheck.claims.fresh_check import Alarm
-    from lyapcheck.claims.render import renderer
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.cli.progress import progress
+    from lyapcheck.cli.show import show
     from lyapcheck.errors import argument_error
     from lyapcheck.verdicts import Exit
 
@@ -66,5 +61,5 @@ def command(
     if folder is not None:
         for name, certificate in result.certificates.items():
             write_whole(folder / name, certificate.text())
-    sys.stdout.write(renderer(format.value)(result, timings))
+    show(replace(result, timings=timings), format)
     raise typer.Exit(int(result.exit_code))

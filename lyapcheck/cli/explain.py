@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from lyapcheck.output.escapes import document_text
+from lyapcheck.cli.show import show
+from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
-
-
-class ExplainFormat(StrEnum):
-    """How the explanation is written."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
 
 
 def command(
@@ -26,11 +17,10 @@ def command(
         str | None,
         typer.Option(help="The proof script that makes the claim. Default: the first of lyapcheck's own."),
     ] = None,
-    format: Annotated[ExplainFormat, typer.Option(help="How to write it.")] = ExplainFormat.TEXT,  # noqa: A002
+    format: Annotated[Format, typer.Option(help="How to write it.")] = Format.TEXT,  # noqa: A002
 ) -> None:
     """Say what a claim states, where the paper makes it, what it uses and how it is decided."""
-    from lyapcheck.claims.explain import explain
-    from lyapcheck.claims.explain_formats import renderer
+    from lyapcheck.answers.explain import explain
 
-    sys.stdout.write(document_text(renderer(format.value)(explain(id, proof))))
+    show(explain(id, proof), format)
     raise typer.Exit(int(Exit.PROVED))

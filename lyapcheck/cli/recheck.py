@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from lyapcheck.check.command import HELP, run
+from lyapcheck.check.command import FORMATS, HELP, run
 from lyapcheck.check.limits import MOST, Limits
-
-
-class RecheckFormat(StrEnum):
-    """How the outcome is written."""
-
-    TEXT = "text"
-    JSON = "json"
+from lyapcheck.check.recheck import Outcome
+from lyapcheck.output.formats import JudgedFormat
 
 
 def command(
     certificates: Annotated[
         list[str], typer.Argument(help="Certificate files, or directories of them.", metavar="CERTIFICATE…")
     ],
-    format: Annotated[RecheckFormat, typer.Option(help=HELP["format"])] = RecheckFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help=HELP["format"])] = JudgedFormat.TEXT,  # noqa: A002
     full: Annotated[bool, typer.Option("--full", help=HELP["full"])] = False,
     trusted: Annotated[bool, typer.Option("--trusted", help=HELP["trusted"])] = False,
     seconds: Annotated[int, typer.Option(min=1, max=MOST, help=HELP["seconds"])] = Limits.seconds,
@@ -35,4 +29,11 @@ def command(
     refused, 2: a file cannot be read, 3: some undecided and none refused, 4: one statement both proved and
     refuted.
     """
-    raise typer.Exit(run(certificates, format.value, full, trusted, seconds, memory))
+
+    def written(outcome: Outcome, with_trusted: bool) -> str:
+        from lyapcheck.answers.recheck import Recheck
+
+        return Recheck(outcome, with_trusted).written(format)
+
+    formats = {format.value: written} | dict(FORMATS)  # text and JSON are the checker's own
+    raise typer.Exit(run(certificates, format.value, full, trusted, seconds, memory, formats))

@@ -46,11 +46,10 @@ class GainData:
 def claims_job(proof: str, m: int, robot: str, gains: str) -> list[dict[str, Any]]:
     """Every claim of a proof for one m, as rows with their details in words."""
     from lyapcheck.claims import run_proof
-    from lyapcheck.claims.render import details
 
     result = run_proof(proof, (m,), robot, None, gains)
     about = {"proof": result.name, "title": result.title}
-    return [{**row.to_json(), **about, "details": details(row)} for row in result.claims]
+    return [{**row.data(), **about, "details": [row.words, *row.support]} for row in result.claims]
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
@@ -110,6 +109,7 @@ def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
 
 
 def _run_data(run: Run) -> RunData:
-    from lyapcheck.simulate.render import result_json
+    from lyapcheck.answers.simulate.runs import SetPointRuns
 
-    return RunData(result_json(run), run.t, run.e, run.tau, run.V, run.dV)
+    (facts,) = SetPointRuns((run,)).data()["results"]
+    return RunData(facts, run.t, run.e, run.tau, run.V, run.dV)

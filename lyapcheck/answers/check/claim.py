@@ -1,21 +1,27 @@
-"""The result of a proof: one row a claim and m, ready to be printed or compared."""
+"""What was found out about one claim for one m, and how that is said."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from lyapcheck.check.certificate import Certificate, digest_of
+from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import to_json
 from lyapcheck.check.finding import shortened
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.decision import Decision
-from lyapcheck.claims.statements import Missing
-from lyapcheck.verdicts import Exit, Verdict, exit_code
 
-SCHEMA = "lyapcheck/check/2"
+if TYPE_CHECKING:
+    from lyapcheck.claims.decision import Decision
+    from lyapcheck.claims.statements import Missing
+    from lyapcheck.verdicts import Verdict
+
+SHOWN_COORDINATES = 12
+"""Of a witness; the rest of them are counted."""
+SIDES = ("point", "left", "operator", "right")
+"""What every witness says; whatever else is in one is said after it."""
+RELATIONS = {"<=": "≤"}
 
 
 @dataclass(frozen=True)
@@ -42,7 +48,7 @@ class ClaimResult:
     @cached_property
     def statement(self) -> str:
         """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
-        if isinstance(self.stated, Missing):
+        if not isinstance(self.stated, Statement):
             return "no statement"
         text = self.stated.text()
         short = shortened(text, full=False)
@@ -54,7 +60,17 @@ class ClaimResult:
         """The verdict, with what the claim uses taken into account."""
         return self.decision.verdict
 
-    def to_json(self, timings: bool = False) -> dict[str, Any]:
+    @property
+    def words(self) -> str:
+        """What the author calls it, marked as such."""
+        return f"the author's words: “{one_line(self.comment)}”"
+
+    @property
+    def support(self) -> tuple[str, ...]:
+        """What supports the verdict: the witness, the reason, the claims that broke it."""
+        return tuple(self._support())
+
+    def data(self, timings: bool = False) -> dict[str, Any]:
         """The row as plain data; ``seconds`` only when asked for."""
         row: dict[str, Any] = {
             "id": self.id,
@@ -76,43 +92,42 @@ class ClaimResult:
         }
         return {**row, "seconds": round(self.seconds, 3)} if timings else row
 
+    def record(self, timings: bool = False) -> dict[str, Any]:
+        """The row with a single value under each name, without what was found on the way."""
+        row, witness = self.data(timings), self.decision.witness
+        del row["evidence"]
+        row |= {key: " ".join(row[key]) for key in ("uses", "broken")}
+        return row | {"witness": None if witness is None else witness_text(witness)}
 
-@dataclass(frozen=True)
-class ProofResult:
-    """All rows of a proof, in the order of the text.
+    def _support(self) -> Iterator[str]:
+        witness, reason = self.decision.witness, one_line(self.decision.reason)
+        if witness is not None:
+            yield f"witness: {witness_text(witness)}"
+        if reason:
+            yield f"{'reason' if witness is None else 'where it fails'}: {reason}"
+        if self.broken and "rests on" not in reason:
+            yield f"rests on {', '.join(self.broken)}, not proved"
 
-    ``claims`` are the rows that were asked for; ``certificates``, by file name, are those that the checker
-    has accepted, also of what these rows use.
-    """
 
-    name: str
-    title: str
-    ms: tuple[int, ...]
-    n: int
-    robot: str | None
-    claims: tuple[ClaimResult, ...]
-    assumptions: tuple[str, ...] = ()
-    certificates: Mapping[str, Certificate] = field(default_factory=dict)
+def one_line(text: str) -> str:
+    """The text with all white space as single spaces."""
+    return " ".join(text.split())
 
-    @property
-    def exit_code(self) -> Exit:
-        """0 all proved, 1 something refuted, 3 something undecided, 4 an internal error."""
-        return exit_code(row.verdict for row in self.claims)
 
-    def counts(self) -> dict[str, int]:
-        """How many rows have each verdict."""
-        return {v.value: sum(row.verdict is v for row in self.claims) for v in Verdict}
+def witness_text(witness: Mapping[str, Any]) -> str:
+    """A point at which a relation fails, and both of its sides there."""
+    point = [f"{name} = {value}" for name, value in witness["point"].items()]
+    shown, more = point[:SHOWN_COORDINATES], len(point) - SHOWN_COORDINATES
+    place = f"at {', '.join([*shown, *([f'and {more} more'] if more > 0 else [])])}, " if shown else ""
+    relation = RELATIONS.get(witness["operator"], witness["operator"])
+    sides = f"left {_span(witness['left'])} is not {relation} right {_span(witness['right'])}"
+    extra = [f"{name}: {_span(value)}" for name, value in witness.items() if name not in SIDES]
+    return "; ".join([place + sides, *extra])
 
-    def to_json(self, timings: bool = False) -> dict[str, Any]:
-        """The result as plain data of a versioned form."""
-        return {
-            "schema": SCHEMA,
-            "proof": self.name,
-            "title": self.title,
-            "m": list(self.ms),
-            "n": self.n,
-            "robot": self.robot,
-            "assumptions": list(self.assumptions),
-            "counts": self.counts(),
-            "claims": [row.to_json(timings) for row in self.claims],
-        }
+
+def _span(value: Any) -> str:
+    """A number, or the two between which it lies."""
+    if not isinstance(value, list):
+        return str(value)
+    low, high = value
+    return str(low) if low == high else f"[{low}, {high}]"

@@ -1,121 +1,199 @@
-"""A proof result as text, Markdown or JSON."""
+"""The answer of ``check``: all claims of a proof, what is not proved first."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
-from lyapcheck.claims.result import ClaimResult, ProofResult
-from lyapcheck.markdown import markdown_table
-from lyapcheck.output.escapes import document_text, markdown_text
+from lyapcheck.answers.check.claim import ClaimResult
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code
 
-Renderer = Callable[[ProofResult, bool], str]
-SHOWN_COORDINATES = 12
+if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
 
-
-def renderer(name: str) -> Renderer:
-    """The function that writes a proof result in a format."""
-    return {"text": text, "json": as_json, "markdown": markdown}[name]
-
-
-def as_json(result: ProofResult, timings: bool = False) -> str:
-    """JSON of the schema ``lyapcheck/check/2``."""
-    return document_text(json.dumps(result.to_json(timings), indent=2, ensure_ascii=False) + "\n")
-
-
-def text(result: ProofResult, timings: bool = False) -> str:
-    """Plain text: grouped by section, the verdict first, then what supports it."""
-    lines = [headline(result), ""]
-    for section, rows in groupby(result.claims, key=lambda row: row.section):
-        lines += [section or "Claims", ""]
-        for row in rows:
-            lines += [_line(row, timings), *(f"             {detail}" for detail in details(row))]
-        lines.append("")
-    return document_text("\n".join([*lines, *assumed(result), tally(result)]) + "\n")
+ORDER = (Verdict.ERROR, Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED)
+"""What must be seen first."""
+LEVELS = {
+    Verdict.PROVED: Level.PASSED,
+    Verdict.REFUTED: Level.FAILED,
+    Verdict.ERROR: Level.FAILED,
+    Verdict.UNDECIDED: Level.UNDECIDED,
+}
+GRADES = {
+    Grade.EXACT: "exact: rational numbers and symbolic normal forms.",
+    Grade.ENCLOSURE: "enclosure: balls that enclose the exact numbers.",
+    Grade.NUMERIC: "numeric: nothing that could decide the claim.",
+}
+WHOSE = "Statements and verdicts are the checker's; what the author calls them stands in quotation marks."
 
 
-def markdown(result: ProofResult, timings: bool = False) -> str:
-    """Markdown: one table a section."""
-    lines = [f"# {_shown(result.title)}", "", _shown(headline(result)), ""]
-    for section, rows in groupby(result.claims, key=lambda row: row.section):
-        cells = [[" ".join(cell.split()) for cell in _cells(row, timings)] for row in rows]
-        lines += [f"## {_shown(section or 'Claims')}", "", *markdown_table(_HEADS, cells, words=5), ""]
-    return "\n".join([*lines, *map(markdown_text, assumed(result)), tally(result)]) + "\n"
+@dataclass(frozen=True)
+class ProofResult(Answer):
+    """All rows of a proof, in the order of the text.
+
+    Args:
+        name: of the proof.
+        title: of the proof.
+        ms: the members of the family that were asked for.
+        n: the number of joints.
+        robot: the arm, if there is one.
+        claims: the rows that were asked for.
+        assumptions: about the arm.
+        certificates: by file name those that the checker has accepted, also of what these rows use.
+        script: the path of the script, as it was given.
+        timings: whether to say how many seconds each claim took.
+    """
+
+    schema = "lyapcheck/check/2"
+
+    name: str
+    title: str
+    ms: tuple[int, ...]
+    n: int
+    robot: str | None
+    claims: tuple[ClaimResult, ...]
+    assumptions: tuple[str, ...] = ()
+    certificates: Mapping[str, Certificate] = field(default_factory=dict)
+    script: str = ""
+    timings: bool = False
+
+    @property
+    def exit_code(self) -> Exit:
+        """0 all proved, 1 something refuted, 3 something undecided, 4 an internal error."""
+        return exit_code(row.verdict for row in self.claims)
+
+    def counts(self) -> dict[str, int]:
+        """How many rows have each verdict."""
+        return {v.value: sum(row.verdict is v for row in self.claims) for v in Verdict}
+
+    def document(self) -> Document:
+        """The tally, a list of what is not proved, then every claim, those that are not proved first."""
+        blocks: tuple[Block, ...] = (Paragraph(self._run()), *self._index(), *self._sections(), *self._assumed())
+        return Document(self._title(), blocks, tuple(self._notes()))
+
+    def data(self) -> dict[str, Any]:
+        """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""
+        return {
+            "proof": self.name,
+            "title": self.title,
+            "m": list(self.ms),
+            "n": self.n,
+            "robot": self.robot,
+            "assumptions": list(self.assumptions),
+            "counts": self.counts(),
+            "claims": [row.data(self.timings) for row in self.claims],
+        }
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a claim and m; the witness in words, what was found on the way left to the JSON."""
+        return [row.record(self.timings) for row in self.claims]
+
+    def annotations(self) -> list[Annotation]:
+        """A case a claim and m; no line, since a claim has none of its own."""
+        return [self._annotation(row) for row in self.claims]
+
+    def _annotation(self, row: ClaimResult) -> Annotation:
+        level = LEVELS[row.verdict]
+        said = [row.statement, *row.support, row.words]
+        message = "" if level is Level.PASSED else f"{row.id} {row.verdict}: {'; '.join(said)}"
+        case = "" if row.m is None else f"m = {row.m}"
+        return Annotation(level, row.id, row.words, self.title or self.name, case, message, self.script)
+
+    def _title(self) -> str:
+        """The sign of the worst verdict, and how many claims have which."""
+        found = {verdict: self.counts()[verdict] for verdict in ORDER}
+        worst = next((verdict for verdict in ORDER if found[verdict]), Verdict.UNDECIDED)
+        tally = ", ".join(f"{count} {verdict}" for verdict, count in found.items() if count)
+        return f"{worst.sign} {tally or 'no claims'}: {self.title or self.name}"
+
+    def _run(self) -> str:
+        arm = f", robot {self.robot}" if self.robot else ""
+        return f"For m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}."
+
+    def _index(self) -> Iterator[Table]:
+        """What is not proved, in a few lines; nothing where that is one claim at most."""
+        rows = [
+            (verdict.value, str(len(found)), _ids(found))
+            for verdict in ORDER
+            if verdict is not Verdict.PROVED and (found := self._with(verdict))
+        ]
+        if sum(int(count) for _, count, _ in rows) > 1:
+            yield Table(("verdict", "count", "claims"), tuple(rows), align="lrl")
+
+    def _sections(self) -> Iterator[Section]:
+        """A section a verdict, in it one for each part of the text; the claims of each as a table."""
+        for verdict in ORDER:
+            rows = self._with(verdict)
+            if rows:
+                yield Section(f"{verdict.value.capitalize()} ({len(rows)})", tuple(self._parts(rows)))
+
+    def _assumed(self) -> Iterator[Section]:
+        if self.assumptions:
+            yield Section(f"Assumed about {self.robot}", (Bullets(self.assumptions),))
+
+    def _parts(self, rows: Sequence[ClaimResult]) -> Iterator[Block]:
+        for name in dict.fromkeys(row.section for row in rows):
+            table = _table([row for row in rows if row.section == name], self.timings)
+            yield Section(name, (table,)) if name else table
+
+    def _with(self, verdict: Verdict) -> list[ClaimResult]:
+        return [row for row in self.claims if row.verdict is verdict]
+
+    def _notes(self) -> Iterator[str]:
+        """Whose words are whose, and what the grades mean."""
+        yield WHOSE
+        yield from (
+            text for grade, text in GRADES.items() if any(r.decision.grade is grade for r in self.claims)
+        )
 
 
-_HEADS = ("claim", "m", "verdict", "grade", "statement", "evidence")
+def _ids(rows: Sequence[ClaimResult]) -> str:
+    """The claims by their ids, each with all its m."""
+    found: dict[str, list[str]] = {}
+    for row in rows:
+        found.setdefault(row.id, []).extend([] if row.m is None else [str(row.m)])
+    return ", ".join(f"{name} (m = {', '.join(ms)})" if ms else name for name, ms in found.items())
 
 
-def _cells(row: ClaimResult, timings: bool) -> list[str]:
-    evidence = "; ".join([row.decision.method, *details(row)])
-    seconds = f" ({row.seconds:.2f} s)" if timings else ""
-    member = "" if row.m is None else str(row.m)
-    cells = [row.id, member, row.verdict.value, row.decision.grade.label, row.statement]
-    return [*cells, evidence + seconds]
+def _table(rows: Sequence[ClaimResult], timings: bool) -> Table:
+    """Claims of one verdict: each with its statement, and below what supports the verdict.
 
-
-def _shown(text: str) -> str:
-    """Text on one line, as Markdown."""
-    return markdown_text(" ".join(text.split()))
-
-
-def headline(result: ProofResult) -> str:
-    """What was run: the proof, m, n and the robot."""
-    arm = f", robot {result.robot}" if result.robot else ""
-    return f"{result.title}: m = {', '.join(map(str, result.ms))}, n = {result.n}{arm}"
-
-
-def assumed(result: ProofResult) -> list[str]:
-    """What is taken for granted about the robot, if anything."""
-    if not result.assumptions:
-        return []
-    return [f"Assumed about {result.robot}:", "", *(f"- {line}" for line in result.assumptions), ""]
-
-
-def tally(result: ProofResult) -> str:
-    """How many rows have each verdict."""
-    return ", ".join(f"{count} {verdict}" for verdict, count in result.counts().items() if count)
-
-
-def details(row: ClaimResult) -> list[str]:
-    """What supports the verdict: the witness, the reason, the claims that broke it."""
-    found = [f"the author's words: “{row.comment}”"]
-    witness = row.decision.witness
-    if witness is not None:
-        found.append(_witness(witness))
-    if row.decision.reason:
-        found.append(row.decision.reason)
-    if row.broken and "rests on" not in row.decision.reason:
-        found.append(f"rests on {', '.join(row.broken)}, not proved")
-    return found
-
-
-def _witness(witness: dict[str, object]) -> str:
-    point = witness["point"]
-    assert isinstance(point, dict)
-    shown = [f"{name} = {value}" for name, value in list(point.items())[:SHOWN_COORDINATES]]
-    more = [f"and {len(point) - SHOWN_COORDINATES} more"] if len(point) > SHOWN_COORDINATES else []
-    sides = f"left {_span(witness['left'])}, not {witness['operator']} right {_span(witness['right'])}"
-    extra = [
-        f"{name}: {_span(value) if isinstance(value, list) else value}"
-        for name, value in witness.items()
-        if name not in SIDES
+    What holds for all m of a claim, such as the author's words, is said once, below the last.
+    """
+    heads = {"": "l", "claim": "l", "m": "r", "grade": "l", "seconds": "r", "statement": "l"}
+    if not timings:
+        del heads["seconds"]
+    if all(row.m is None for row in rows):
+        del heads["m"]
+    cells = [
+        tuple(line.get(head, "") for head in heads)
+        for _, group in groupby(rows, key=lambda row: (row.id, row.comment))
+        for line in _lines(list(group))
     ]
-    return "; ".join(([f"at {', '.join([*shown, *more])}"] if shown else []) + [sides, *extra])
+    return Table(tuple(heads), tuple(cells), align="".join(heads.values()), keys=len(heads) - 1)
 
 
-SIDES = ("point", "left", "operator", "right")
-
-
-def _span(bounds: object) -> str:
-    assert isinstance(bounds, list)
-    low, high = bounds
-    return str(low) if low == high else f"[{low}, {high}]"
-
-
-def _line(row: ClaimResult, timings: bool) -> str:
-    member = f" (m = {row.m})" if row.m is not None else ""
-    seconds = f"  {row.seconds:.2f} s" if timings else ""
-    grade = f" [{row.decision.grade.label}]" if row.verdict.value != "undecided" else ""
-    return f"  {row.verdict.value:<9}  {row.id}{member}{grade}{seconds}  {row.statement}"
+def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
+    """The cells of one claim by their heads, line by line."""
+    support = [row.support for row in rows]
+    methods = [f"method: {row.decision.method}" for row in rows]
+    same = len(set(methods)) == 1
+    common = [text for text in support[0] if all(text in found for found in support)]
+    for row, found, method in zip(rows, support, methods, strict=True):
+        yield {
+            "": row.verdict.sign,
+            "claim": row.id,
+            "m": "" if row.m is None else str(row.m),
+            "grade": row.decision.grade.label,
+            "seconds": f"{row.seconds:.2f}",
+            "statement": row.statement,
+        }
+        own = [*(text for text in found if text not in common), *([] if same else [method])]
+        yield from ({"statement": text} for text in own)
+    last = [*common, rows[0].words, *(methods[:1] if same else [])]
+    yield from ({"statement": text} for text in last)
