@@ -11,6 +11,7 @@ import pytest
 from test_arm_files import PRINTED
 from typer.testing import CliRunner
 
+from lyapcheck.answers.robot import build
 from lyapcheck.check.kinds.compared import Compared, MovingPosture, SameHarmonics
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
@@ -26,7 +27,6 @@ from lyapcheck.check.statement import Monomials, Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.cli.main import build_app
-from lyapcheck.robot_report import build
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Exit, Verdict

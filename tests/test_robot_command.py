@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -15,6 +19,7 @@ from typer.testing import CliRunner
 from urdf_texts import ARMS, TWO, generic
 
 from lyapcheck import robots
+from lyapcheck.answers.robot import build
 from lyapcheck.cli.main import build_app
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.arm_waves import ArmWaves
@@ -22,6 +27,8 @@ from lyapcheck.constants.basis import Products, Sums, basis_of
 from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
 from lyapcheck.constants.waves import derivative, waves
 from lyapcheck.errors import InputError
+from lyapcheck.output.annotations import Level
+from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
 
@@ -220,8 +227,8 @@ def test_friction_that_a_file_does_not_tell_is_not_refuted(tmp_path: Path) -> No
     file.write_text(TWO.replace('<dynamics damping="0.25"/>', ""))
     code, out = run(str(file), "--max-boxes", "300")
     assert code == 3
-    assert "undecided  2.7" in out
-    assert "no viscous friction is known of elbow; state it in an arm file" in out
+    assert out.startswith("? two: property 2.7 undecided\n")
+    assert "no viscous friction is known of elbow; state it in an arm file" in " ".join(out.split())
 
 
 @pytest.mark.slow
@@ -243,6 +250,37 @@ def test_formats_say_the_same_twice() -> None:
         assert first == second
         assert "shoulder" in first[1]
         assert ("| λmin(M) |" in first[1]) == (form == "markdown")
+
+
+def test_what_was_not_proved_is_seen_first_and_fails_at_its_file() -> None:
+    file = str(ARMS / "ur5.urdf")
+    model = robots.load(file)
+    report = replace(build(model, 20), path=file)
+    lines = str(report).splitlines()
+    assert lines[0] == "✗ ur5: property 2.7 refuted"
+    assert any(line.startswith("- property 2.7: refuted") for line in lines[:6])
+    cases = {case.rule: case for case in report.annotations()}
+    assert [case.level for case in cases.values()].count(Level.FAILED) == 1
+    assert (cases["2.7"].level, cases["2.7"].path) == (Level.FAILED, file)
+    assert cases["2.1"].level is Level.PASSED
+    suite = ET.fromstring(report.written("junit"))[0]
+    assert (suite.get("name"), suite.get("tests"), suite.get("failures")) == ("ur5", "8", "1")
+    for form in JudgedFormat:
+        assert report.written(form) == report.written(form)
+    rows = list(csv.DictReader(io.StringIO(report.written("csv")), strict=True))
+    assert [row["id"] for row in rows if row["kind"] == "property"] == [f"2.{k}" for k in range(1, 9)]
+    for row, constant in zip(rows[8:], report.data()["constants"], strict=True):
+        assert (row["kind"], row["id"], row["gap"]) == ("constant", constant["name"], constant["gap"])
+        assert row["numeric_lower"] == constant["lower"]
+    assert max(map(len, lines)) <= 80
+
+
+def test_a_refuted_print_is_a_remark_and_no_failure() -> None:
+    report = build(robots.load("reyes-kelly2"), 40)
+    assert report.document().title == "✓ reyes-kelly2: properties 2.1–2.8 proved"
+    (remark,) = [case for case in report.annotations() if case.level is not Level.PASSED]
+    assert (remark.level, remark.rule) == (Level.REMARK, "print-C-rates")
+    assert remark.message.startswith("refuted: ")
 
 
 @pytest.mark.parametrize(

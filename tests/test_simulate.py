@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
+from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.simulate import PAPER_TASK, SimulationFailed, simulate
 from lyapcheck.simulate.closed_loop import _imbalance
-from lyapcheck.simulate.csv import run_csv
 from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.integrate import integrate
@@ -173,12 +173,12 @@ def test_large_m_and_gains_are_integrated():
 
 def test_the_same_request_gives_the_same_bytes():
     first, second = paper_run(TABLE2[1], 0.01), paper_run(TABLE2[1], 0.01)
-    assert run_csv(first) == run_csv(second)
+    assert runs_csv([first]) == runs_csv([second])
 
 
 def test_csv_reads_back_exactly():
     run = simulate(gains(1), robots.load("pendulum1"), [1.0], T=1.0, points=11)
-    lines = run_csv(run).splitlines()
+    lines = runs_csv([run]).splitlines()
     assert lines[0] == "gains,complete,t [s],q1 [rad],w1 [rad/s],e1 [rad],tau1 [N.m],V [J],dV [W]"
     values = np.array([[float(x) for x in line.split(",")[2:]] for line in lines[1:]])
     expected = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
@@ -193,7 +193,7 @@ def test_a_spent_budget_keeps_what_was_reached_and_marks_it():
     assert 1 < partial.t.size < 2001
     assert partial.t[-1] < 5.0
     assert math.isnan(partial.accuracy)
-    assert ",no," in run_csv(partial)
+    assert ",no," in runs_csv([partial])
 
 
 def test_a_solution_that_ends_in_finite_time_is_cut_short():

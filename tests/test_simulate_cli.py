@@ -44,7 +44,8 @@ def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     assert done.returncode == 0
     for name in ("tau_m1 (m = 1)", "tau_m2 (m = 2)", "tau_m3 (m = 3)"):
         assert name in done.stdout
-    assert done.stdout.count("\n  shoulder ") == 3
+    assert done.stdout.startswith("✓ buap3: no promise broken by 3 gain sets\n")
+    assert done.stdout.count("\nshoulder ") == 3
     assert "is assumed" in done.stdout
     assert "simulate:" not in done.stdout
 
@@ -71,7 +72,8 @@ def test_joints_that_do_not_settle_have_no_settling_time(lyapcheck):
 def test_experiment_and_markdown(lyapcheck):
     done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
     assert done.returncode == 0
-    assert "## tau_pd on buap3, experiment" in done.stdout
+    assert done.stdout.startswith("# buap3: 1 gain set, as on the bench\n")
+    assert "## tau_pd: (0, 0, 0)° to (45, 45, 90)° in 0.5 s" in done.stdout
     assert "| shoulder |" in done.stdout
 
 

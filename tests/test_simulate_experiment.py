@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
+from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import Number
 from lyapcheck.simulate import PAPER_TASK, Bench, SimulationFailed, experiment, simulate
 from lyapcheck.simulate.bench import enough_substeps, read_encoders
-from lyapcheck.simulate.csv import run_csv
 
 TABLE2 = (
     *read_gain_file(paper_gain_file("table2")).gains,
@@ -112,7 +112,7 @@ def test_the_substeps_resolve_the_friction():
 
 def test_the_same_request_gives_the_same_bytes():
     first, second = table_run(TABLE2[2]), table_run(TABLE2[2])
-    assert run_csv(first) == run_csv(second)
+    assert runs_csv([first]) == runs_csv([second])
 
 
 def test_an_unstable_hold_is_cut_short_and_marked():

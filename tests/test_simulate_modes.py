@@ -84,11 +84,12 @@ def test_a_reference_is_followed_and_its_promises_stand_beside_what_was_seen(lya
 
 def test_tracking_in_words(lyapcheck, single, wave):
     text = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5).stdout
-    assert "tracking (21)" in text
-    assert "within 5° from [s]" in text
+    assert text.startswith("✓ reyes-kelly2: no promise broken by 1 gain set, tracking (21)\n")
     assert "dV/dt ≤ −zᵀΘ'z at all 2001 samples" in text
-    page = lyapcheck(single, "--reference", wave, "--time", 1, "--format", "markdown").stdout
-    assert "## s (m = 2) on reyes-kelly2, tracking (21)" in page
+    page = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5, "--format", "markdown").stdout
+    assert "## ✓ s (m = 2): from (0, 0)° in 1 s" in page
+    assert "Reference: sine of (20, 30)°" in page
+    assert "| within 5° from \\[s\\] |" in page
     assert "| shoulder |" in page
 
 
@@ -142,7 +143,9 @@ def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
     done = lyapcheck(strong, "--format", "json")
     assert done.returncode == 1
     assert "|τ| of base within the motor's limit" in done.stderr
-    assert "CUT SHORT at 0 s" in lyapcheck(strong).stdout
+    text = lyapcheck(strong).stdout
+    assert text.startswith("✗ buap3: promises broken by 1 of 1 gain set\n")
+    assert "CUT SHORT at 0 s" in text
     assert lyapcheck(strong, "--experiment", "--time", 0.5).returncode == 0
 
 
@@ -171,7 +174,8 @@ def test_random_starts_tell_how_the_indices_spread(lyapcheck):
 def test_random_starts_in_words_and_rows(lyapcheck):
     text = lyapcheck(TABLE2, "--runs", 12).stdout
     assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text
-    assert "finished 12 of 12, V rose in 0" in text
+    assert text.startswith("✓ buap3: no promise broken by 3 gain sets, 12 random starts each\n")
+    assert text.count("12 of 12") == 3
     assert r"| L2 \[°\] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
     rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()
     assert len(rows) == 1 + 3 * 12

@@ -10,17 +10,19 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
+from lyapcheck.answers.simulate.runs import SetPointRuns
+from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.states import State, confirms_positive
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.output.annotations import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.falsify import falsify
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate import PAPER_TASK, PromiseBroken, SimulationFailed, simulate
 from lyapcheck.simulate.breach import Watched, bound_monitor, fall_monitor, first_breach
 from lyapcheck.simulate.confirm import Sample, torques
-from lyapcheck.simulate.csv import run_csv
-from lyapcheck.simulate.render import as_text, result_json
+from lyapcheck.verdicts import Exit
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
 TWO_JOINTS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
@@ -69,9 +71,14 @@ def test_a_stopped_run_ends_with_the_breach_and_is_marked():
     assert partial.t[-1] == found.t < 5.0
     assert partial.t.size == found.index + 1
     assert tuple(partial.q[-1]) == found.at.q
-    assert ",no," in run_csv(partial)
-    assert "BROKEN" in as_text([partial])
-    assert result_json(partial)["breach"]["q"] == list(found.at.q)
+    assert ",no," in runs_csv([partial])
+    answer = SetPointRuns((partial,))
+    assert answer.document().title == "✗ buap3: promises broken by 1 of 1 gain set"
+    assert f"promise broken: {TABLE2[0].name}: {found.sentence}" in answer.complaints()
+    assert answer.data()["results"][0]["breach"]["q"] == list(found.at.q)
+    (case,) = answer.annotations()
+    assert (case.level, case.rule, case.message) == (Level.FAILED, "promises", found.sentence)
+    assert answer.exit_code is Exit.REFUTED
 
 
 def test_without_stopping_the_whole_run_names_the_same_breach():

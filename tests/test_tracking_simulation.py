@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
+from lyapcheck.answers.simulate.samples import tracking_csv
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
@@ -21,7 +22,6 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.tracking import TrackingFailed, TrackingRun, track
-from lyapcheck.tracking.csv import tracking_csv
 from lyapcheck.tracking.form import TrackingForm, tracking_form
 from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
 from lyapcheck.tracking.results import bound_of, broken, energies

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.cli.eps0 import Eps0
 from lyapcheck.cli.output import write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
 from lyapcheck.cli.progress import Advance
+from lyapcheck.cli.show import show
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
+    from lyapcheck.control import GainFile, GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate import Run, Task
-    from lyapcheck.simulate.breach import Breach
     from lyapcheck.simulate.starts import Starts, Sweep
     from lyapcheck.tracking import Reference, Request, TrackingRun
 
@@ -33,149 +34,115 @@ class Output:
     plot: Path | None
     form: str
 
-    def write(self, samples: Callable[[], str], summary: Callable[[], str]) -> None:
-        """Samples to their file or to standard output, else the summary to standard output."""
+    def write(self, answer: Simulation[Any], samples: Callable[[], str]) -> Exit:
+        """Samples to their file or to standard output, else the answer there; what went wrong to the other.
+
+        Returns:
+            The exit code of the answer.
+        """
         if self.csv is not None and self.csv != "-":
             write_whole(Path(self.csv), samples())
-        sys.stdout.write(document_text(samples() if self.csv == "-" else summary()))
+        if self.csv == "-":
+            sys.stdout.write(document_text(samples()))
+        else:
+            show(answer, self.form)
+        for sentence in answer.complaints():
+            print(sentence, file=sys.stderr)
+        return answer.exit_code
 
 
-@dataclass
-class Ending:
-    """What went wrong on the way, and the exit code that follows."""
+@dataclass(frozen=True)
+class Job:
+    """The gain sets of a file on an arm, and whom to tell how far they have come."""
 
-    unfinished: list[str] = field(default_factory=list)
-    breaches: list[tuple[str, Breach]] = field(default_factory=list)
+    file: GainFile
+    model: RobotModel
+    output: Output
+    advance: Advance
+    unfinished: list[Unfinished] = field(default_factory=list)
 
-    def note(self, name: str, breach: Breach | None) -> None:
-        """A promise that a run broke, if it did."""
-        if breach is not None:
-            self.breaches.append((name, breach))
+    def each(self) -> list[tuple[GainSet, Advance]]:
+        """Each gain set with what tells its share of the progress of all."""
+        gains = self.file.gains
 
-    def watching(self, eps0: Eps0, gain_set: GainSet, model: RobotModel, advance: Advance) -> float:
+        def telling(done: int, name: str) -> Advance:
+            return lambda fraction, note: self.advance((done + fraction) / len(gains), note or name)
+
+        return [(gain_set, telling(done, gain_set.name)) for done, gain_set in enumerate(gains)]
+
+    def fail(self, gain_set: GainSet, reason: str) -> None:
+        """Keep why not all that was asked of a gain set could be found out."""
+        from lyapcheck.answers.simulate.simulation import Unfinished
+
+        self.unfinished.append(Unfinished(gain_set.name, reason))
+
+    def watching(self, eps0: Eps0, gain_set: GainSet, tell: Advance) -> float:
         """The ε₀ to watch V with; 0 where none is certified, which is noted."""
-        number = eps0.of(gain_set, model, advance)
+        number = eps0.of(gain_set, self.model, tell)
         if number is None:
-            name = f"{gain_set.name} on {model.name}"
-            self.unfinished.append(f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
+            name = f"{gain_set.name} on {self.model.name}"
+            self.fail(gain_set, f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
         return number or 0.0
 
-    def tell(self) -> Exit:
-        """Say it all on standard error.
 
-        A promise that balls prove broken is refuted; what was only seen in doubles decides nothing.
-        """
-        for name, breach in self.breaches:
-            print(f"promise broken: {name}: {breach.sentence}", file=sys.stderr)
-        for reason in self.unfinished:
-            print(f"not finished: {reason}", file=sys.stderr)
-        if any(breach.confirmed for _, breach in self.breaches):
-            return Exit.REFUTED
-        return Exit.UNDECIDED if self.unfinished or self.breaches else Exit.PROVED
-
-
-def regulate(
-    gains: Sequence[GainSet],
-    model: RobotModel,
-    task: Task,
-    *,
-    eps0: Eps0,
-    bench: bool,
-    stop: bool,
-    output: Output,
-    advance: Advance,
-) -> Ending:
+def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
     """The set-point task, by the equations or on the bench."""
+    from lyapcheck.answers.simulate.runs import SetPointRuns
+    from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.simulate import PromiseBroken, SimulationFailed, experiment, simulate
-    from lyapcheck.simulate.csv import runs_csv
-    from lyapcheck.simulate.render import RENDERERS
 
     runs: list[Run] = []
-    ending = Ending()
     mover = experiment if bench else partial(simulate, stop=stop)
-    for gain_set, tell in _each(gains, advance):
-        number = ending.watching(eps0, gain_set, model, tell)
+    for gain_set, tell in job.each():
+        number = job.watching(eps0, gain_set, tell)
+        way = (task.q_d, task.q0, task.w0, task.T)
         try:
-            found = mover(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=number, on_progress=tell)
+            runs.append(mover(gain_set, job.model, *way, eps0=number, on_progress=tell))
         except SimulationFailed as failure:
             if not isinstance(failure, PromiseBroken):
-                ending.unfinished.append(failure.reason)
-            if failure.partial is None:
-                continue
-            found = failure.partial
-        ending.note(found.name, found.breach)
-        runs.append(found)
-    if output.plot is not None:
+                job.fail(gain_set, failure.reason)
+            runs += [] if failure.partial is None else [failure.partial]
+    if job.output.plot is not None:
         for number, run in enumerate(runs, start=1):
-            plot_run(run, number, output.plot)
-    output.write(lambda: runs_csv(runs), lambda: RENDERERS[output.form](runs))
-    return ending
+            plot_run(run, number, job.output.plot)
+    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: runs_csv(runs))
 
 
-def follow(
-    gains: Sequence[GainSet],
-    model: RobotModel,
-    reference: Reference,
-    request: Request,
-    *,
-    stop: bool,
-    output: Output,
-    advance: Advance,
-) -> Ending:
+def follow(job: Job, reference: Reference, request: Request, *, stop: bool) -> Exit:
     """The tracking scheme (21) along a reference."""
+    from lyapcheck.answers.simulate.samples import tracking_csv
+    from lyapcheck.answers.simulate.tracking import TrackingRuns
     from lyapcheck.tracking import TrackingFailed, track_as_asked
-    from lyapcheck.tracking.csv import tracking_csv
-    from lyapcheck.tracking.render import RENDERERS
 
     runs: list[TrackingRun] = []
-    ending = Ending()
-    for gain_set, tell in _each(gains, advance):
+    for gain_set, tell in job.each():
         try:
-            run = track_as_asked(gain_set, model, reference, request, stop=stop, on_progress=tell)
+            run = track_as_asked(gain_set, job.model, reference, request, stop=stop, on_progress=tell)
         except TrackingFailed as failure:
             run = failure.partial
             if run.breach is None:
-                ending.unfinished.append(failure.reason)
-        ending.note(run.name, run.breach)
+                job.fail(gain_set, failure.reason)
         runs.append(run)
-    if output.plot is not None:
+    if job.output.plot is not None:
         for number, run in enumerate(runs, start=1):
-            plot_tracking(run, number, output.plot)
-    output.write(lambda: tracking_csv(runs), lambda: RENDERERS[output.form](runs))
-    return ending
+            plot_tracking(run, number, job.output.plot)
+    answer = TrackingRuns(tuple(runs), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: tracking_csv(runs))
 
 
-def spread_out(
-    gains: Sequence[GainSet],
-    model: RobotModel,
-    task: Task,
-    starts: Starts,
-    *,
-    eps0: Eps0,
-    output: Output,
-    advance: Advance,
-) -> Ending:
+def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
     """The set-point task from many random starts."""
+    from lyapcheck.answers.simulate.samples import starts_csv
+    from lyapcheck.answers.simulate.starts import RandomStarts
     from lyapcheck.simulate.starts import sweep
-    from lyapcheck.simulate.starts_render import RENDERERS, sweeps_csv
 
     found: list[Sweep] = []
-    ending = Ending()
-    for gain_set, tell in _each(gains, advance):
-        number = ending.watching(eps0, gain_set, model, tell)
-        found.append(sweep(gain_set, model, task, starts, eps0=number, on_progress=tell))
+    for gain_set, tell in job.each():
+        number = job.watching(eps0, gain_set, tell)
+        found.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=tell))
         left = starts.count - found[-1].finished
         if left:
-            ending.unfinished.append(f"{gain_set.name} on {model.name}: {left} of {starts.count} runs")
-        ending.note(gain_set.name, found[-1].breach)
-    output.write(lambda: sweeps_csv(found), lambda: RENDERERS[output.form](found))
-    return ending
-
-
-def _each(gains: Sequence[GainSet], advance: Advance) -> list[tuple[GainSet, Advance]]:
-    """Each gain set with what tells its share of the progress of all."""
-
-    def telling(done: int, name: str) -> Advance:
-        return lambda fraction, note: advance((done + fraction) / len(gains), note or name)
-
-    return [(gain_set, telling(done, gain_set.name)) for done, gain_set in enumerate(gains)]
+            job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")
+    answer = RandomStarts(tuple(found), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: starts_csv(found))

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 def plot_run(run: Run, number: int, place: Path) -> None:
     """Errors, torques and V of one run, as in Figs. 3 to 10 of the paper; ``number`` counts from 1."""
+    from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.report.figures import motion
     from lyapcheck.report.figures.lyapunov import draw_lyapunov
-    from lyapcheck.simulate.csv import run_csv
 
     stem = file_stem(run.name, number)
-    write_whole(place / f"{stem}.csv", run_csv(run))
+    write_whole(place / f"{stem}.csv", runs_csv([run]))
     if run.t.size < 2:
         return
     title = f"{run.name} on {run.robot}, {run.kind}"
@@ -34,9 +34,9 @@ def plot_run(run: Run, number: int, place: Path) -> None:
 
 def plot_tracking(run: TrackingRun, number: int, place: Path) -> None:
     """Angles beside the reference, errors, torques and V of one tracking run."""
+    from lyapcheck.answers.simulate.samples import tracking_csv
     from lyapcheck.report.figures import motion
     from lyapcheck.report.figures.lyapunov import draw_lyapunov
-    from lyapcheck.tracking.csv import tracking_csv
 
     stem = file_stem(run.name, number)
     write_whole(place / f"{stem}.csv", tracking_csv([run]))

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import sys
-from enum import StrEnum
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from lyapcheck.cli.progress import progress
-from lyapcheck.output.escapes import document_text
-
-
-class RobotFormat(StrEnum):
-    """How the report is written."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
+from lyapcheck.cli.show import show
+from lyapcheck.output.escapes import printable
+from lyapcheck.output.formats import JudgedFormat
 
 
 def command(
@@ -35,7 +28,7 @@ def command(
     certificates: Annotated[
         str | None, typer.Option(help="Write the certificates of what is decided there; see recheck.")
     ] = None,
-    format: Annotated[RobotFormat, typer.Option(help="How to write it.")] = RobotFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
 ) -> None:
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
 
@@ -47,11 +40,10 @@ def command(
     Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
     """
     from lyapcheck.cli.output import open_folder, write_whole
-    from lyapcheck.robots import load
+    from lyapcheck.robots import load, names
 
     model = load(robot, tip)
-    from lyapcheck.robot_report import build
-    from lyapcheck.robot_report.formats import renderer
+    from lyapcheck.answers.robot import build
 
     folder = None if certificates is None else open_folder("--certificates", Path(certificates))
     with progress("robot") as advance:
@@ -59,5 +51,5 @@ def command(
     if folder is not None:
         for name, certificate in report.certificates.items():
             write_whole(folder / name, certificate.text())
-    sys.stdout.write(document_text(renderer(format.value)(report)))
+    show(replace(report, path="" if robot in names() else printable(robot)), format)
     raise typer.Exit(int(report.exit_code))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -11,17 +10,10 @@ import typer
 from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.eps0 import Eps0, eps0_of
-from lyapcheck.cli.motions import Output, follow, regulate, spread_out
+from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
-
-
-class SimulateFormat(StrEnum):
-    """How the results are written."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
+from lyapcheck.output.formats import JudgedFormat
 
 
 def command(
@@ -78,7 +70,7 @@ def command(
     plot: Annotated[
         Path | None, typer.Option(help="Draw figures into this directory: SVG, PNG, their data as CSV.")
     ] = None,
-    format: Annotated[SimulateFormat, typer.Option(help="How to write it.")] = SimulateFormat.TEXT,  # noqa: A002
+    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
 ) -> None:
     """Simulate the closed loop of every gain set in FILE and report its performance.
 
@@ -118,22 +110,13 @@ def command(
         path = wrong.reading(read_reference, reference, model.n)
         request = wrong.reading(asked.request, model, path, band)
     wrong.tell()
-    output, gains = Output(csv, plot, format.value), gain_file.gains
     with progress("simulate") as advance:
+        job = Job(gain_file, model, Output(csv, plot, format.value), advance)
         stop = not keep_going
         if path is not None and request is not None:
-            ending = follow(gains, model, path, request, stop=stop, output=output, advance=advance)
+            code = follow(job, path, request, stop=stop)
         elif task is not None and starts is not None:
-            ending = spread_out(gains, model, task, starts, eps0=watched, output=output, advance=advance)
+            code = spread_out(job, task, starts, eps0=watched)
         elif task is not None:
-            ending = regulate(
-                gains,
-                model,
-                task,
-                bench=experiment,
-                eps0=watched,
-                stop=stop,
-                output=output,
-                advance=advance,
-            )
-    raise typer.Exit(int(ending.tell()))
+            code = regulate(job, task, eps0=watched, bench=experiment, stop=stop)
+    raise typer.Exit(int(code))

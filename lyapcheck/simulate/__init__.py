@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.batch_runs import Runs
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate
-    from lyapcheck.simulate.csv import run_csv
     from lyapcheck.simulate.printed import Printed, printed_for
     from lyapcheck.simulate.run import Indices, PromiseBroken, Promises, Run, SimulationFailed
     from lyapcheck.simulate.task import PAPER_TASK, Task
@@ -29,7 +28,6 @@ _HOME = {
     "Task": "task",
     "experiment": "trial",
     "printed_for": "printed",
-    "run_csv": "csv",
     "simulate": "closed_loop",
     "simulate_many": "batch",
 }
@@ -47,7 +45,6 @@ __all__ = [
     "Task",
     "experiment",
     "printed_for",
-    "run_csv",
     "simulate",
     "simulate_many",
 ]

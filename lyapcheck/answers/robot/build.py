@@ -2,50 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
 
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.answers.robot import certified as ends
+from lyapcheck.answers.robot import print_claims
+from lyapcheck.answers.robot.judged import judged
+from lyapcheck.answers.robot.properties import properties
+from lyapcheck.answers.robot.report import RobotReport
 from lyapcheck.claims.certificates import file_name
-from lyapcheck.constants import Constant, arm_constants
-from lyapcheck.robot_report import certified as ends
-from lyapcheck.robot_report import print_claims
-from lyapcheck.robot_report.certified import Certified
-from lyapcheck.robot_report.judged import judged
-from lyapcheck.robot_report.properties import Property, properties
+from lyapcheck.constants import arm_constants
 from lyapcheck.robots import RobotModel
-from lyapcheck.verdicts import Exit, Verdict, exit_code
+from lyapcheck.verdicts import Verdict
 
 Progress = Callable[[float, str], None]
 MAX_BOXES = 200_000
 """Over the square of the number of joints: the budget that takes a minute or so."""
-
-
-@dataclass(frozen=True)
-class RobotReport:
-    """An arm with what was decided and certified about it, at its nominal parameters.
-
-    Args:
-        model: the arm.
-        properties: 2.1 to 2.8.
-        constants: from both sides, in floating point.
-        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
-            follow from M and the potential.
-        certified: by the name of a constant its ends that a certificate shows.
-        certificates: of all that is decided, by file name.
-    """
-
-    model: RobotModel
-    properties: tuple[Property, ...]
-    constants: tuple[Constant, ...]
-    prints: tuple[Property, ...] = ()
-    certified: Mapping[str, Certified] = field(default_factory=dict)
-    certificates: Mapping[str, Certificate] = field(default_factory=dict)
-
-    @property
-    def exit_code(self) -> Exit:
-        """0 all properties proved, 1 one refuted, 3 one undecided."""
-        return exit_code(row.verdict for row in self.properties)
 
 
 def build(

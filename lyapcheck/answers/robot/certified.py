@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck.answers.robot.judged import Answered, Question
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
@@ -30,7 +31,6 @@ from lyapcheck.claims.finding import Finding, broken, shown
 from lyapcheck.constants import SEED, Constant
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.files import decimal_text
-from lyapcheck.robot_report.judged import Answer, Question
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade
@@ -101,7 +101,7 @@ def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Ques
             yield _question(constant.name, sides[1], sign, bound, inner, found)
 
 
-def certified(answers: Sequence[Answer], positive: bool) -> dict[str, Certified]:
+def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certified]:
     """The ends that the checker has accepted, by the name of the constant.
 
     Args:

@@ -26,7 +26,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answer:
+class Answered:
     """The decision, and the certificate if the checker has accepted one."""
 
     question: Question
@@ -34,7 +34,7 @@ class Answer:
     certificate: Certificate | None
 
 
-def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answer]:
+def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answered]:
     """The decisions, in order."""
     rows = list(questions)
     made: dict[Key, Certificate] = {
@@ -55,5 +55,5 @@ def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answer]:
     for row in rows:
         decision = decided(row.finding, told.get((row.id, None)))
         accepted = None if decision.certificate is None else made[row.id, None]
-        answers.append(Answer(row, decision, accepted))
+        answers.append(Answered(row, decision, accepted))
     return answers

@@ -7,6 +7,8 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
+from lyapcheck.answers.robot.judged import Answered, Question, judged
+from lyapcheck.answers.robot.properties import Property
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
@@ -14,8 +16,6 @@ from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.moving_arm import ranges_of
 from lyapcheck.claims.procedures import propose
 from lyapcheck.files import decimal_text
-from lyapcheck.robot_report.judged import Answer, Question, judged
-from lyapcheck.robot_report.properties import Property
 from lyapcheck.robots import RobotModel, trig
 from lyapcheck.search.inertia import mass_of
 
@@ -31,7 +31,7 @@ def print_claims(model: RobotModel) -> tuple[Property, ...]:
     return tuple(map(as_property, judged(model, questions(model))))
 
 
-def as_property(answer: Answer) -> Property:
+def as_property(answer: Answered) -> Property:
     """A claim about the print with its decision."""
     name = answer.question.id.removeprefix("printed ")
     return Property(name, answer.question.says, answer.decision)

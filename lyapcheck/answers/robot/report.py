@@ -1,86 +1,83 @@
-"""Rows and words that the text and the Markdown have in common."""
+"""What is known of an arm, as one answer."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
-from lyapcheck.files import decimal_text
-from lyapcheck.robot_report.certified import Certified
-from lyapcheck.robots.number import with_unit
+from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.answers.robot.data import constant_data, property_data, report_data
+from lyapcheck.answers.robot.page import evidence, page
+from lyapcheck.answers.robot.properties import Property
+from lyapcheck.check.certificate import Certificate
+from lyapcheck.constants import Constant
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Document
+from lyapcheck.robots import RobotModel
+from lyapcheck.verdicts import Exit, Verdict, exit_code
 
-if TYPE_CHECKING:
-    from lyapcheck.constants import Constant
-    from lyapcheck.robot_report.build import RobotReport
-    from lyapcheck.robot_report.properties import Property
-    from lyapcheck.robots import Number
-
-SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
-_DIGITS = 6
-CONSTANT_HEADS = (
-    "constant",
-    "certified: above",
-    "at most",
-    "numeric: at least",
-    "at most",
-    "unit",
-    "gap",
-    "shown at q (rad)",
-)
-JOINT_HEADS = ("joint", "viscous (N·m·s/rad)", "Coulomb (N·m)", "torque limit (N·m)", "encoder (counts/turn)")
+LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
+ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
 
 
-def headline(report: RobotReport) -> str:
-    """What arm this is."""
-    model = report.model
-    return f"{model.title}: {model.name}, {model.n} joint{'s' if model.n > 1 else ''}"
+@dataclass(frozen=True)
+class RobotReport(Answer):
+    """An arm with what was decided and certified about it, at its nominal parameters.
 
+    Args:
+        model: the arm.
+        properties: 2.1 to 2.8.
+        constants: from both sides, in floating point.
+        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
+            follow from M and the potential.
+        certified: by the name of a constant its ends that a certificate shows.
+        certificates: of all that is decided, by file name.
+        path: of the file that describes the arm; empty for a built-in one.
+    """
 
-def constant_row(report: RobotReport, constant: Constant) -> tuple[str, ...]:
-    """One constant: the ends that certificates show, and those of floating point, rounded outward."""
-    shown = report.certified.get(constant.name, Certified())
-    known = ["–" if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
-    low, high = constant.enclosure.decimals(_DIGITS)
-    state = ", ".join(f"{x:.4f}" for x in constant.state)
-    gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
-    return (SYMBOLS.get(constant.name, constant.name), *known, low, high, constant.unit, gap, state)
+    schema = "lyapcheck/robot/1"
 
+    model: RobotModel
+    properties: tuple[Property, ...]
+    constants: tuple[Constant, ...]
+    prints: tuple[Property, ...] = ()
+    certified: Mapping[str, Certified] = field(default_factory=dict)
+    certificates: Mapping[str, Certificate] = field(default_factory=dict)
+    path: str = ""
 
-def joint_rows(report: RobotReport) -> list[tuple[str, ...]]:
-    """One row a joint."""
-    model = report.model
-    return [
-        (
-            joint,
-            _value(model.viscous[i]),
-            _value(model.coulomb[i]),
-            _value(model.torque_limit[i]),
-            "–" if model.encoder[i] is None else str(model.encoder[i]),
-        )
-        for i, joint in enumerate(model.joints)
-    ]
+    @property
+    def exit_code(self) -> Exit:
+        """0 all properties proved, 1 one refuted, 3 one undecided."""
+        return exit_code(row.verdict for row in self.properties)
 
+    def document(self) -> Document:
+        """Properties, constants, joints, every number with its source, and what is assumed."""
+        return page(self)
 
-def number_line(name: str, number: Number) -> str:
-    """A number with where it comes from."""
-    low, high = number.bounds
-    between = f" (between {decimal_text(low)} and {decimal_text(high)})" if number.ranged else ""
-    origin = "assumed" if number.assumed else number.source
-    return f"{name} = {with_unit(number.value, number.unit)}{between}{f', {origin}' if origin else ''}"
+    def data(self) -> dict[str, Any]:
+        """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
+        return report_data(self)
 
+    def records(self) -> list[dict[str, Any]]:
+        """A row a property, a claim about the print, and a constant; ``kind`` tells which."""
+        judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
+        told = [(kind, property_data(row)) for kind, row in judged]
+        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in told]
+        for constant in self.constants:
+            found = constant_data(self, constant)
+            kept = {key: found[key] for key in ("unit", "certified", "numeric", "gap", "q")}
+            rows.append({"kind": "constant", "id": found["name"], **kept, "x": found["x"] or []})
+        return rows
 
-def evidence(row: Property) -> str:
-    """What supports the verdict."""
-    finding = row.finding
-    parts = [finding.method, finding.reason]
-    if finding.witness is not None:
-        point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
-        left, right = (finding.witness[side][0] for side in ("left", "right"))
-        at = f"at {point}: " if point else ""
-        parts.append(f"{at}not {left} {finding.witness['operator']} {right}")
-    return "; ".join(part for part in parts if part)
+    def annotations(self) -> list[Annotation]:
+        """A case a property; a refuted claim about the print is a remark."""
+        found = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
+        wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
+        return [*found, *(self._annotation(row, Level.REMARK) for row in wrong)]
 
-
-def _value(number: Number | None) -> str:
-    if number is None:
-        return "–"
-    return decimal_text(number.value) + (" (assumed)" if number.assumed else "")
+    def _annotation(self, row: Property, level: Level) -> Annotation:
+        said = "" if level is Level.PASSED else f"{row.verdict.value}: {row.statement}; {evidence(row)}"
+        rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
+        return Annotation(level, rule, row.statement, self.model.name, "", said, self.path)

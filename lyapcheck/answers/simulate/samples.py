@@ -1,37 +1,97 @@
-"""Runs as comma-separated values, full precision, one row a sample."""
+"""The samples of runs as comma-separated values in full precision, units in the header."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lyapcheck.answers.simulate.quantities import quantities
 from lyapcheck.output.escapes import csv_text
-from lyapcheck.simulate.run import Run
+
+if TYPE_CHECKING:
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.starts import Sweep
+    from lyapcheck.tracking.run import TrackingRun
 
 SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
-
-
-def run_csv(run: Run) -> str:
-    """The samples of one run as CSV text, see `runs_csv`."""
-    return runs_csv([run])
+"""Angles, rates, errors, torques."""
+TRACKING_SIGNALS = (
+    ("q", "rad"),
+    ("qd", "rad"),
+    ("e", "rad"),
+    ("v", "rad/s"),
+    ("vd", "rad/s"),
+    ("tau", "N.m"),
+)
+"""Angles, reference, errors, rates, rates of the reference, torques."""
 
 
 def runs_csv(runs: Sequence[Run]) -> str:
     """The samples of runs on one arm: gain set, whether its run is complete, t, q, w, e, tau, V, dV.
 
-    Units are in the header. Every number is the shortest decimal that reads back as the same double. A run
-    that was cut short says ``no`` under ``complete`` and ends with the last sample it reached.
+    Every number is the shortest decimal that reads back as the same double. A run that was cut short says
+    ``no`` under ``complete`` and ends with the last sample it reached.
     """
+    n = runs[0].q.shape[1] if runs else 0
+    head = ["gains", "complete", "t [s]", *_per_joint(SIGNALS, n), "V [J]", "dV [W]"]
+    return _text(head, (row for run in runs for row in _run_rows(run)))
+
+
+def tracking_csv(runs: Sequence[TrackingRun]) -> str:
+    """The same of tracking runs, see `TRACKING_SIGNALS`, then V, dV and the bound that dV must not exceed.
+
+    Without a bound its column is empty.
+    """
+    n = len(runs[0].joints) if runs else 0
+    head = ["gains", "complete", "t [s]", *_per_joint(TRACKING_SIGNALS, n), "V [J]", "dV [W]", "bound [W]"]
+    return _text(head, (row for run in runs for row in _tracking_rows(run)))
+
+
+def starts_csv(sweeps: Sequence[Sweep]) -> str:
+    """One row a run from a random start: its start, whether it is complete, and its indices."""
+    if not sweeps:
+        return _text(["gains", "run", "complete"], ())
+    starts = [f"q{i + 1}(0) [rad]" for i in range(len(sweeps[0].joints))]
+    indices = [csv_text(one.name) for one in quantities(sweeps[0])]
+    rows = (row for found in sweeps for row in _start_rows(found))
+    return _text(["gains", "run", "complete", *starts, *indices], rows)
+
+
+def _run_rows(run: Run) -> Iterable[list[object]]:
+    table = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
+    for row in table.tolist():
+        yield [csv_text(run.name), _yes(run.complete), *map(repr, row)]
+
+
+def _tracking_rows(run: TrackingRun) -> Iterable[list[object]]:
+    m = run.motion
+    table = np.column_stack((m.t, m.q, m.goal, m.e, m.velocity, m.speed, m.tau, run.V, run.dV))
+    bound = [""] * m.t.size if run.bound is None else [repr(x) for x in run.bound.tolist()]
+    for row, last in zip(table.tolist(), bound, strict=True):
+        yield [csv_text(run.name), _yes(run.complete), *map(repr, row), last]
+
+
+def _start_rows(found: Sweep) -> Iterable[list[object]]:
+    table = np.column_stack((found.q0, *(one.values for one in quantities(found))))
+    for number, (row, whole) in enumerate(zip(table.tolist(), found.runs.complete, strict=True), start=1):
+        yield [csv_text(found.name), number, _yes(bool(whole)), *map(repr, row)]
+
+
+def _per_joint(signals: Sequence[tuple[str, str]], n: int) -> list[str]:
+    return [f"{signal}{i} [{unit}]" for signal, unit in signals for i in range(1, n + 1)]
+
+
+def _yes(whole: bool) -> str:
+    return "yes" if whole else "no"
+
+
+def _text(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    joints = range(1, runs[0].q.shape[1] + 1) if runs else range(0)
-    per_joint = [f"{signal}{i} [{unit}]" for signal, unit in SIGNALS for i in joints]
-    writer.writerow(["gains", "complete", "t [s]", *per_joint, "V [J]", "dV [W]"])
-    for run in runs:
-        table = np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV))
-        complete = "yes" if run.complete else "no"
-        writer.writerows([csv_text(run.name), complete, *map(repr, row)] for row in table.tolist())
+    writer.writerow(head)
+    writer.writerows(rows)
     return text.getvalue()

@@ -1,112 +1,212 @@
-"""What tracking runs found, as text or Markdown: pure functions of runs."""
+"""Tracking: one run a gain set along a reference under (21), beside what is promised of it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
-from lyapcheck.output.escapes import markdown_text
-from lyapcheck.simulate.render import broken, bullets, cell, in_columns, section
+from lyapcheck.answers.simulate.numbers import NONE, cell, plain, plains, row
+from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.files import decimal_text
+from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 
-LEGEND = (
-    "promised: certified at the arm's nominal numbers, for every time and every motion from this start; "
-    "seen: one run in floating point."
+OVERVIEW = ("gains", "L2 [°]", "ε₀", "Θ′ ≻ 0 up to", "V must fall", "V(0) [J]", "V at end [J]", "promises")
+PROMISED = (
+    "Promised: certified at the arm's nominal numbers, for every time and every motion from this start; "
+    "seen: in one run."
 )
+PER_JOINT = ("start", "rms", "peak_error", "entered", "final_error", "peak_torque", "torque_limit")
+PER_RUN = ("L2", "band", "V_start", "V_end", "accuracy", "work_balance", "seen")
 
 
-def as_text(runs: Sequence[TrackingRun]) -> str:
-    """For each run a headline, its facts and a row a joint; then what is assumed."""
-    return "\n\n".join([*map(_block, runs), "\n".join([LEGEND, *bullets(_shared_notes(runs))])]) + "\n"
+class TrackingRuns(Simulation[TrackingRun]):
+    """Runs along a reference, with their indices beside what theory promises."""
+
+    promised = "dV/dt stays below −zᵀΘ'z, each |τ_i| within its bound for (21), every motor within its limit"
+
+    def about(self) -> str:
+        """That there was a reference."""
+        return ", tracking (21)"
+
+    def opening(self) -> Sequence[Block]:
+        """The reference."""
+        return [Paragraph(f"Reference: {text}.") for text in dict.fromkeys(map(_reference, self.results))]
+
+    def legend(self) -> Sequence[str]:
+        """What a promise is."""
+        return (PROMISED,)
+
+    def overview(self) -> Table:
+        """L2, ε₀ and V of each run."""
+        rows = []
+        for one in self.results:
+            largest = None if one.promise.largest is None else float(one.promise.largest)
+            eps0 = f"{one.promise.eps0:.4g}", cell(largest, ".4g"), "yes" if one.promise.falls else "no"
+            ends = f"{one.V[0]:.5g}", f"{one.V[-1]:.3g}"
+            rows.append((one.name, cell(one.indices.L2, ".4f"), *eps0, *ends, self.mark(one.name)))
+        return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
+
+    def section(self, one: TrackingRun) -> Section:
+        """A row a joint, and what was promised beside what was seen."""
+        table = Table(_heads(one), tuple(_rows(one)), align="lrrrrrrrl")
+        return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), (table, Bullets(_facts(one))))
+
+    def plain_data(self, one: TrackingRun) -> dict[str, Any]:
+        """Rates in rad/s; what is promised is rounded outward."""
+        found, motion = one.indices, one.motion
+        return {
+            "name": one.name,
+            "m": one.gains.family.m,
+            "robot": one.robot,
+            "kind": "tracking",
+            "reference": one.reference.sentence,
+            "complete": one.complete,
+            "time": one.T,
+            "reached": plain(motion.t[-1]),
+            "start": plains(np.degrees(motion.q[0])),
+            "joints": list(one.joints),
+            "L2": plain(found.L2),
+            "rms": plains(found.rms),
+            "peak_error": plains(found.peak_error),
+            "final_error": plains(found.final_error),
+            "band": plain(math.degrees(one.band)),
+            "entered": plains(found.entered),
+            "peak_torque": plains(found.peak_torque),
+            "torque_limit": list(one.torque_limit),
+            "V_start": plain(one.V[0]),
+            "V_end": plain(one.V[-1]),
+            "accuracy": plain(one.accuracy),
+            "work_balance": plain(one.work_balance),
+            "seen": {
+                "reference_speed": plain(one.seen_speed),
+                "error_rate": plain(_error_rate(one)),
+                "tightness": plain(one.tightness),
+            },
+            "promised": _promise(one),
+            "breach": None if one.breach is None else one.breach.data,
+        }
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a run and joint; names and units as in `data`."""
+        return [record for one in self.results for record in self._joint_records(one)]
+
+    def _joint_records(self, one: TrackingRun) -> list[dict[str, Any]]:
+        told = self.plain_data(one)
+        keys = ("name", "m", "robot", "kind", "reference", "complete", "time", "reached")
+        promised = told["promised"]
+        bounds = promised.pop("torque_bound")
+        return [
+            {
+                **{key: told[key] for key in keys},
+                "joint": joint,
+                **{key: told[key][i] for key in PER_JOINT},
+                "promised_torque": None if bounds is None else bounds[i],
+                **{key: told[key] for key in PER_RUN},
+                "promised": promised,
+                "breach": breach_record(one.breach),
+            }
+            for i, joint in enumerate(one.joints)
+        ]
 
 
-def as_markdown(runs: Sequence[TrackingRun]) -> str:
-    """The same as Markdown."""
-    legend, notes = markdown_text(LEGEND), bullets(_shared_notes(runs), markdown_text)
-    return "\n\n".join([*map(_section, runs), legend, "\n".join(notes)]).rstrip() + "\n"
+def _reference(one: TrackingRun) -> str:
+    return one.reference.sentence
 
 
-def _block(run: TrackingRun) -> str:
-    return "\n  ".join([_headline(run), *_facts(run), *in_columns([_heads(run), *_rows(run)])])
+def _headline(one: TrackingRun) -> str:
+    member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
+    start = row(np.round(np.degrees(one.motion.q[0]), 9))
+    cut = "" if one.complete else f", CUT SHORT at {one.motion.t[-1]:.4g} s"
+    return f"{one.name}{member}: from {start}° in {one.T:g} s{cut}"
 
 
-def _section(run: TrackingRun) -> str:
-    return section(_headline(run), _facts(run), _heads(run), _rows(run), words=1)
+def _facts(one: TrackingRun) -> tuple[str, ...]:
+    speed = up(one.promise.suprema.speed)
+    checks = f"accuracy {one.accuracy:.0e} (rad, rad/s) by a second, tighter run"
+    if math.isnan(one.accuracy):
+        checks = "accuracy unknown: the run was cut short"
+    return (
+        f"‖q̇_d‖ promised at most v_d = {speed} rad/s, seen {one.seen_speed:.4g}",
+        *_promised(one),
+        f"{checks}; work balance {one.work_balance:.0e}",
+    )
 
 
-def _headline(run: TrackingRun) -> str:
-    member = "" if run.gains.family.m is None else f" (m = {run.gains.family.m})"
-    start = ", ".join(f"{x:g}" for x in np.round(np.degrees(run.motion.q[0]), 9))
-    cut = "" if run.complete else f", CUT SHORT at {run.motion.t[-1]:.4g} s"
-    return f"{run.name}{member} on {run.robot}, tracking (21) from ({start})° in {run.T:g} s{cut}"
-
-
-def _facts(run: TrackingRun) -> list[str]:
-    speed = up(run.promise.suprema.speed)
-    return [
-        f"reference: {run.reference.sentence}",
-        f"‖q̇_d‖ promised at most v_d = {speed} rad/s, seen {run.seen_speed:.4g}",
-        *_promised(run),
-        f"L2 {cell(run.indices.L2, '.4f')}°, {_accuracy(run)}work balance {run.work_balance:.0e}",
-        *broken(run.breach),
-    ]
-
-
-def _promised(run: TrackingRun) -> list[str]:
-    promise = run.promise
-    if run.bound is None:
-        return [f"no bound of dV/dt or of the torque: {promise.reason}; V with ε₀ = {promise.eps0:g}"]
-    admissible = promise.reason or f"Θ' is positive definite up to ε₀ = {float(promise.largest or 0):.4g}"
-    kept = run.breach is None or not run.breach.promise.startswith("dV/dt")
-    falls = "V must fall" if promise.falls else "V need not fall"
-    share = "" if math.isnan(run.tightness) else f"; at most {run.tightness:.1%} of the fall was promised"
-    lines = [
-        f"ε₀ = {promise.eps0:.4g}: {falls} ({admissible}), V(0) = {run.V[0]:.5g} J, end {run.V[-1]:.3g} J",
-        f"dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {run.motion.t.size} samples{share}",
-    ]
+def _promised(one: TrackingRun) -> list[str]:
+    promise = one.promise
+    if one.bound is None:
+        return [f"no bound of dV/dt or of the torque: {promise.reason}"]
+    kept = one.breach is None or not one.breach.promise.startswith("dV/dt")
+    share = "" if math.isnan(one.tightness) else f"; at most {one.tightness:.1%} of the fall was promised"
+    lines = [f"V need not fall: {promise.reason}"] if promise.reason else []
+    lines.append(f"dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}")
     if promise.torque is not None:
-        seen = float(np.max(np.linalg.norm(run.motion.w, axis=1)))
-        lines.append(f"‖q̇ − q̇_d‖ promised at most {up(promise.torque.error_rate)} rad/s, seen {seen:.4g}")
+        most, seen = up(promise.torque.error_rate), _error_rate(one)
+        lines.append(f"‖q̇ − q̇_d‖ promised at most {most} rad/s, seen {seen:.4g}")
     return lines
 
 
-def _accuracy(run: TrackingRun) -> str:
-    if math.isnan(run.accuracy):
-        return "accuracy unknown: the run was cut short, "
-    return f"accuracy {run.accuracy:.0e} (rad, rad/s) by a second, tighter run, "
+def _error_rate(one: TrackingRun) -> float:
+    return float(np.max(np.linalg.norm(one.motion.w, axis=1)))
 
 
-def _heads(run: TrackingRun) -> tuple[str, ...]:
-    within = f"within {math.degrees(run.band):g}° from [s]"
+def _heads(one: TrackingRun) -> tuple[str, ...]:
+    within = f"within {math.degrees(one.band):g}° from [s]"
     heads = ("joint", "rms [°]", "peak error [°]", within, "final error [°]", "peak torque [N·m]")
-    return (*heads, "promised [N·m]", "limit [N·m]", "")
+    return (*heads, "promised [N·m]", "limit [N·m]", "inside limit")
 
 
-def _rows(run: TrackingRun) -> list[tuple[str, ...]]:
-    found, torque = run.indices, run.promise.torque
-    rows = []
-    for i, joint in enumerate(run.joints):
-        numbers = (found.rms[i], found.peak_error[i], found.entered[i], found.final_error[i])
-        forms = ("z.4f", "z.3f", "z.3f", "z.4f")
-        promised = "—" if torque is None else up(torque.total[i])
-        limit = run.torque_limit[i]
-        cells = [cell(float(x), form) for x, form in zip(numbers, forms, strict=True)]
-        torques = [cell(float(found.peak_torque[i]), "z.2f"), promised, cell(limit, "g")]
-        rows.append((joint, *cells, *torques, _inside(run, i)))
-    return rows
+def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
+    found, torque = one.indices, one.promise.torque
+    return [
+        (
+            joint,
+            cell(found.rms[i], "z.4f"),
+            cell(found.peak_error[i], "z.3f"),
+            cell(found.entered[i], "z.3f"),
+            cell(found.final_error[i], "z.4f"),
+            cell(found.peak_torque[i], "z.2f"),
+            NONE if torque is None else up(torque.total[i]),
+            cell(one.torque_limit[i], "g"),
+            _inside(one, i),
+        )
+        for i, joint in enumerate(one.joints)
+    ]
 
 
-def _inside(run: TrackingRun, i: int) -> str:
-    """How a joint stands with its motor's limit."""
-    limit, torque = run.torque_limit[i], run.promise.torque
+def _inside(one: TrackingRun, i: int) -> str:
+    """Whether the torque of a joint is promised to stay inside its motor's limit, or was seen to."""
+    limit, torque = one.torque_limit[i], one.promise.torque
     if limit is None:
         return ""
-    if run.indices.peak_torque[i] > limit:
-        return "BEYOND LIMIT"
-    return "promised inside" if torque is not None and torque.total[i] <= limit else "seen inside"
+    if one.indices.peak_torque[i] > limit:
+        return "NO"
+    return "promised" if torque is not None and torque.total[i] <= limit else "seen"
+
+
+def _promise(one: TrackingRun) -> dict[str, Any]:
+    promise, torque = one.promise, one.promise.torque
+    return {
+        "reference_speed": _double_above(promise.suprema.speed),
+        "reference_acceleration": _double_above(promise.suprema.push),
+        "eps0": promise.eps0,
+        "largest_eps0": None if promise.largest is None else decimal_text(promise.largest),
+        "V_falls": promise.falls,
+        "reason": promise.reason,
+        "torque_bound": None if torque is None else [_double_above(x) for x in torque.total],
+        "error_rate": None if torque is None else _double_above(torque.error_rate),
+    }
+
+
+def _double_above(value: Fraction) -> float:
+    """The smallest double that is not below."""
+    return Enclosure(value, value).float_upper
 
 
 def up(value: Fraction) -> str:
@@ -115,7 +215,3 @@ def up(value: Fraction) -> str:
         return "0"
     scale = Fraction(10) ** (3 - math.floor(math.log10(value)))
     return f"{float(math.ceil(value * scale) / scale):.4g}"
-
-
-def _shared_notes(runs: Sequence[TrackingRun]) -> list[str]:
-    return list(dict.fromkeys(note for run in runs for note in run.notes))

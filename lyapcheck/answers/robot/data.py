@@ -1,0 +1,98 @@
+"""The report of an arm for programs."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.constants import SEED
+from lyapcheck.files import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.robot.properties import Property
+    from lyapcheck.answers.robot.report import RobotReport
+    from lyapcheck.constants import Constant
+    from lyapcheck.robots import Number
+
+_DIGITS = 15
+
+
+def report_data(report: RobotReport) -> dict[str, Any]:
+    """All of it; exact numbers as decimal strings."""
+    model = report.model
+    return {
+        "robot": model.name,
+        "title": model.title,
+        "n": model.n,
+        "seed": SEED,
+        "properties": [property_data(row) for row in report.properties],
+        "prints": [property_data(row) for row in report.prints],
+        "constants": [constant_data(report, constant) for constant in report.constants],
+        "joints": [
+            {
+                "name": joint,
+                "viscous": _number(model.viscous[i]),
+                "coulomb": _number(model.coulomb[i]),
+                "torque_limit": _number(model.torque_limit[i]),
+                "encoder": model.encoder[i],
+                "gravity_bound": _number(model.gravity_bound[i]),
+            }
+            for i, joint in enumerate(model.joints)
+        ],
+        "numbers": {name: _number(number) for name, number in model.numbers.items()},
+        "parameters": list(model.parameters),
+        "assumptions": list(model.assumptions),
+    }
+
+
+def property_data(row: Property) -> dict[str, Any]:
+    """One property, or a claim about the print."""
+    finding = row.finding
+    return {
+        "id": row.id,
+        "statement": row.statement,
+        "verdict": row.verdict.value,
+        "grade": finding.grade.label,
+        "method": finding.method,
+        "reason": finding.reason,
+        "witness": finding.witness,
+        "evidence": finding.evidence,
+    }
+
+
+def constant_data(report: RobotReport, constant: Constant) -> dict[str, Any]:
+    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
+    lower, upper = constant.enclosure.decimals(_DIGITS)
+    n, shown = report.model.n, report.certified.get(constant.name, Certified())
+    return {
+        "name": constant.name,
+        "unit": constant.unit,
+        "lower": lower,
+        "upper": upper,
+        "certified": {"lower": _end(shown.lower), "upper": _end(shown.upper)},
+        "numeric": {"lower": lower, "upper": upper},
+        "gap": f"{constant.gap:.3e}",
+        "q": [repr(x) for x in constant.state[:n]],
+        "x": [repr(x) for x in constant.state[n:]] or None,
+        "boxes": constant.boxes,
+    }
+
+
+def _end(value: Fraction | None) -> str | None:
+    return None if value is None else decimal_text(value)
+
+
+def _number(number: Number | None) -> dict[str, Any] | None:
+    if number is None:
+        return None
+    low, high = number.bounds
+    return {
+        "value": decimal_text(number.value),
+        "unit": number.unit,
+        "source": number.source,
+        "assumed": number.assumed,
+        "low": decimal_text(low),
+        "high": decimal_text(high),
+        "note": number.note,
+    }

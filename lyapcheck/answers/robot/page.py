@@ -1,0 +1,149 @@
+"""The report of an arm for people."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.files import decimal_text
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.robots.number import with_unit
+from lyapcheck.verdicts import Verdict
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.robot.properties import Property
+    from lyapcheck.answers.robot.report import RobotReport
+    from lyapcheck.constants import Constant
+    from lyapcheck.robots import Number, RobotModel
+
+SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
+MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
+"""From what matters most."""
+NONE = "–"
+_DIGITS = 6
+CONSTANT_HEADS = (
+    "constant",
+    "unit",
+    "certified: above",
+    "at most",
+    "numeric: at least",
+    "at most",
+    "gap",
+)
+JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
+NOMINAL = "At nominal parameters: ends that certificates show, and the sharper ones of floating point."
+PRINT = "As the source prints it"
+
+
+def page(report: RobotReport) -> Document:
+    """The verdicts first, then what was not proved, then all there is."""
+    model = report.model
+    judged = [(f"property {row.id}", row) for row in report.properties]
+    judged += [(row.statement, row) for row in report.prints]
+    wrong = tuple(
+        f"{what}: {row.verdict.value}; {evidence(row)}"
+        for what, row in judged
+        if row.verdict is not Verdict.PROVED
+    )
+    about = Paragraph(f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}.")
+    return Document(_title(report), (about, *([Bullets(wrong)] if wrong else []), *_sections(report)))
+
+
+def evidence(row: Property) -> str:
+    """What supports the verdict."""
+    finding = row.finding
+    parts = [finding.method, finding.reason]
+    if finding.witness is not None:
+        point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
+        left, right = (finding.witness[side][0] for side in ("left", "right"))
+        at = f"at {point}: " if point else ""
+        parts.append(f"{at}not {left} {finding.witness['operator']} {right}")
+    return "; ".join(part for part in parts if part)
+
+
+def _title(report: RobotReport) -> str:
+    name = report.model.name
+    for verdict, mark in MARKS.items():
+        found = [row.id for row in report.properties if row.verdict is verdict]
+        if found:
+            ending = "y" if len(found) == 1 else "ies"
+            return f"{mark} {name}: propert{ending} {', '.join(found)} {verdict.value}"
+    first, last = report.properties[0].id, report.properties[-1].id
+    return f"✓ {name}: properties {first}–{last} proved"
+
+
+def _sections(report: RobotReport) -> list[Section]:
+    model = report.model
+    prints = [_judged(PRINT, "claim", report.prints)] if report.prints else []
+    joints = [Section("Joints", (Table(JOINT_HEADS, tuple(_joint_rows(model))),))]
+    assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
+    numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
+    properties = _judged("Properties", "property", report.properties)
+    return [properties, *prints, _constants(report), *joints, *numbers, *assumed]
+
+
+def _judged(title: str, head: str, rows: Sequence[Property]) -> Section:
+    """Verdicts, then what supports them."""
+    cells = tuple((row.id, row.verdict.value, row.finding.grade.label, row.statement) for row in rows)
+    shown = tuple(f"{row.id}: {evidence(row)}" for row in rows)
+    table = Table((head, "verdict", "grade", "statement"), cells, align="llll")
+    return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
+
+
+def _constants(report: RobotReport) -> Section:
+    rows = [_constant_row(report, constant) for constant in report.constants]
+    states = [row for constant in report.constants for row in _state_rows(report, constant)]
+    table = Table(CONSTANT_HEADS, tuple(rows), align="llrrrrr")
+    shown = Table(("constant", "shown at q [rad]"), tuple(states), align="ll")
+    return Section("Constants", (Paragraph(NOMINAL), table, shown))
+
+
+def _constant_row(report: RobotReport, constant: Constant) -> tuple[str, ...]:
+    """The ends that certificates show, and those of floating point, rounded outward."""
+    shown = report.certified.get(constant.name, Certified())
+    known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
+    gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
+    return (_symbol(constant), constant.unit, *known, *constant.enclosure.decimals(_DIGITS), gap)
+
+
+def _state_rows(report: RobotReport, constant: Constant) -> list[tuple[str, str]]:
+    """The angles; of k_c also the direction x."""
+    n, name = report.model.n, _symbol(constant)
+    angles, x = (", ".join(f"{x:.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
+    return [(name, angles), *([(f"{name}: x", x)] if x else [])]
+
+
+def _symbol(constant: Constant) -> str:
+    return SYMBOLS.get(constant.name, constant.name)
+
+
+def _joint_rows(model: RobotModel) -> list[tuple[str, ...]]:
+    return [
+        (
+            joint,
+            _value(model.viscous[i]),
+            _value(model.coulomb[i]),
+            _value(model.torque_limit[i]),
+            NONE if model.encoder[i] is None else str(model.encoder[i]),
+        )
+        for i, joint in enumerate(model.joints)
+    ]
+
+
+def _numbers(model: RobotModel) -> Table:
+    """Every number with where it comes from; its range where any has one."""
+    ranged = any(number.ranged for number in model.numbers.values())
+    rows = []
+    for name, number in model.numbers.items():
+        between = " and ".join(map(decimal_text, number.bounds)) if number.ranged else ""
+        origin = "assumed" if number.assumed else number.source
+        rows.append((name, with_unit(number.value, number.unit), *([between] * ranged), origin))
+    heads = ("number", "value", *(["between"] * ranged), "source")
+    return Table(heads, tuple(rows), align="l" * len(heads))
+
+
+def _value(number: Number | None) -> str:
+    if number is None:
+        return NONE
+    return decimal_text(number.value) + (" (assumed)" if number.assumed else "")

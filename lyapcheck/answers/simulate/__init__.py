@@ -1,0 +1,1 @@
+"""How does the closed loop move, and does it keep what theory promises: set points, starts, tracking."""

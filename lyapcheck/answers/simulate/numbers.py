@@ -1,0 +1,28 @@
+"""Numbers of a run for people and for programs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+NONE = "—"
+
+
+def cell(value: float | None, form: str) -> str:
+    """A number in a form, a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else format(value, form)
+
+
+def plain(value: float | None) -> float | None:
+    """The number to nine digits, which is what the accuracy of a run supports; none for NaN and infinity."""
+    return None if value is None or not math.isfinite(value) else float(f"{value:.9g}")
+
+
+def plains(values: Iterable[float]) -> list[float | None]:
+    """The same for each number."""
+    return [plain(float(value)) for value in values]
+
+
+def row(values: Iterable[float]) -> str:
+    """Numbers in parentheses."""
+    return f"({', '.join(f'{value:g}' for value in values)})"

@@ -1,0 +1,190 @@
+"""What the three kinds of simulation have in common: gain sets on an arm, and the promises they broke."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
+
+from lyapcheck.answers.gain_place import GainPlace, gain_place
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Block, Bullets, Document, Section, Table
+from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.control import GainFile
+    from lyapcheck.simulate.breach import Breach
+
+PROMISES, FINISHED = "promises", "finished"
+MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
+NUMERIC = "All of this is seen in floating point: observations, never proofs."
+BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
+
+
+class Simulated(Protocol):
+    """What was found for one gain set."""
+
+    @property
+    def name(self) -> str:
+        """The name of the gain set."""
+
+    @property
+    def robot(self) -> str:
+        """The name of the arm."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader must know."""
+
+    @property
+    def breach(self) -> Breach | None:
+        """The first promise that it broke."""
+
+
+Result = TypeVar("Result", bound=Simulated)
+
+
+@dataclass(frozen=True)
+class Unfinished:
+    """Why not all that was asked of a gain set could be found out."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Simulation(Answer, Generic[Result]):
+    """Simulated gain sets on one arm.
+
+    Args:
+        results: one a gain set; a run that was cut short is one as well.
+        unfinished: what could not be found out.
+        file: where the gain sets stand.
+    """
+
+    schema = "lyapcheck/simulate/1"
+
+    results: tuple[Result, ...]
+    unfinished: tuple[Unfinished, ...] = ()
+    file: GainFile | None = None
+
+    promised: ClassVar[str]
+    """What theory promises, in words."""
+
+    @property
+    def exit_code(self) -> Exit:
+        """1 if a promise is proved broken, 3 if one was seen broken or something was not finished, else 0."""
+        levels = {self.level(name) for name in self._names()}
+        if Level.FAILED in levels:
+            return Exit.REFUTED
+        return Exit.UNDECIDED if Level.UNDECIDED in levels else Exit.PROVED
+
+    def level(self, name: str) -> Level:
+        """How a gain set came out; what was only seen in floating point decides nothing."""
+        breach = self._breaches().get(name)
+        if breach is not None and breach.confirmed:
+            return Level.FAILED
+        missing = breach is not None or any(one.name == name for one in self.unfinished)
+        return Level.UNDECIDED if missing else Level.PASSED
+
+    def mark(self, name: str) -> str:
+        """How a gain set came out as a sign; none where nothing was held against theory."""
+        level = self.level(name)
+        return MARKS[level] if level is not Level.PASSED or self.watches(name) else ""
+
+    def complaints(self) -> list[str]:
+        """What went wrong: a sentence for each broken promise, and for what was not finished."""
+        broken = [f"promise broken: {name}: {one.sentence}" for name, one in self._breaches().items()]
+        return [*broken, *(f"not finished: {one.reason}" for one in self.unfinished)]
+
+    def document(self) -> Document:
+        """What went wrong, all gain sets beside each other, then each by itself; what is assumed."""
+        wrong = self.complaints()
+        told = [Bullets(tuple(wrong))] if wrong else []
+        overview = [self.overview()] if self.results else []
+        blocks: tuple[Block, ...] = (*told, *self.opening(), *overview, *map(self.section, self.results))
+        return Document(self._title(), blocks, (*self.legend(), NUMERIC, *self._notes()))
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, m, robot, kind, …}], notes``: degrees, N·m, s, J; ``None`` without a number."""
+        return {"results": [self.plain_data(one) for one in self.results], "notes": self._notes()}
+
+    def annotations(self) -> list[Annotation]:
+        """A case a gain set."""
+        return [self._annotation(name) for name in self._names()]
+
+    @abstractmethod
+    def overview(self) -> Table:
+        """A row a gain set."""
+
+    @abstractmethod
+    def section(self, one: Result) -> Section:
+        """All that was found for a gain set."""
+
+    @abstractmethod
+    def plain_data(self, one: Result) -> dict[str, Any]:
+        """The same for programs."""
+
+    def opening(self) -> Sequence[Block]:
+        """What all gain sets have in common."""
+        return ()
+
+    def legend(self) -> Sequence[str]:
+        """What the tables mean."""
+        return ()
+
+    def about(self) -> str:
+        """What the gain sets did, after their number."""
+        return ""
+
+    def watches(self, name: str) -> bool:
+        """Whether the promises of theory were looked at for a gain set."""
+        return True
+
+    def _names(self) -> list[str]:
+        return list(dict.fromkeys([*(one.name for one in self.results), *(x.name for x in self.unfinished)]))
+
+    def _breaches(self) -> dict[str, Breach]:
+        return {one.name: one.breach for one in self.results if one.breach is not None}
+
+    def _title(self) -> str:
+        names = self._names()
+        levels = [self.level(name) for name in names]
+        robots = ", ".join(_unique(one.robot for one in self.results)) or "simulation"
+        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{self.about()}"
+        failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)
+        if failed:
+            return f"✗ {robots}: promises broken by {failed} of {count}"
+        if open_:
+            return f"? {robots}: undecided for {open_} of {count}"
+        if any(map(self.watches, names)):
+            return f"✓ {robots}: no promise broken by {count}"
+        return f"{robots}: {count}"
+
+    def _notes(self) -> list[str]:
+        return _unique(note for one in self.results for note in one.notes)
+
+    def _annotation(self, name: str) -> Annotation:
+        breach = self._breaches().get(name)
+        said = [] if breach is None else [breach.sentence]
+        said += [one.reason for one in self.unfinished if one.name == name]
+        rule = PROMISES if self.watches(name) else FINISHED
+        text = self.promised if rule == PROMISES else "the run reaches its end"
+        place = self._place(name)
+        return Annotation(self.level(name), rule, text, name, "", "; ".join(said), *place)
+
+    def _place(self, name: str) -> GainPlace:
+        known = () if self.file is None else self.file.gains
+        found = next((gain_set for gain_set in known if gain_set.name == name), None)
+        return GainPlace() if found is None else gain_place(self.file, found)
+
+
+def breach_record(breach: Breach | None) -> dict[str, Any]:
+    """A broken promise as the part of a row; empty cells where none broke."""
+    return {key: None if breach is None else breach.data[key] for key in BREACH_KEYS}
+
+
+def _unique(texts: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(texts))
