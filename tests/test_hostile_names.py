@@ -176,16 +176,16 @@ COMMANDS = [
         f"gate gains.toml --format {form}"
         for form in ("text", "json", "markdown", "junit", "sarif", "github")
     ),
-    *(f"simulate gains.toml {SHORT} --format {form}" for form in ("text", "json", "markdown")),
-    *(f"simulate gains.toml {SHORT} --runs 2 --format {form}" for form in ("text", "json", "markdown")),
-    *(f"simulate gains.toml --reference reference.toml --format {f}" for f in ("text", "json", "markdown")),
+    *(f"simulate gains.toml {SHORT} --format {form}" for form in JudgedFormat),
+    *(f"simulate gains.toml {SHORT} --runs 2 --format {form}" for form in JudgedFormat),
+    *(f"simulate gains.toml --reference reference.toml --format {form}" for form in JudgedFormat),
     f"simulate gains.toml {SHORT} --csv -",
     f"simulate gains.toml {SHORT} --runs 2 --csv -",
     "simulate gains.toml --reference reference.toml --csv -",
     *(f"epsilon gains.toml --max-boxes 20 --starts 1 --format {form}" for form in JudgedFormat),
     *(f"bounds one.toml {SHORT} --max-boxes 20 --format {form}" for form in JudgedFormat),
-    *(f"robot arm.toml --max-boxes 20 --format {form}" for form in ("text", "json", "markdown")),
-    *(f"robot arm.urdf --max-boxes 20 --format {form}" for form in ("text", "json", "markdown")),
+    *(f"robot arm.toml --max-boxes 20 --format {form}" for form in JudgedFormat),
+    *(f"robot arm.urdf --max-boxes 20 --format {form}" for form in JudgedFormat),
     *(f"tune arm.toml --compare gains.toml --format {form}" for form in TuneFormat),
     *(f"table --m 1 --robot arm.toml --format {f}" for f in ("text", "json", "csv", "markdown", "latex")),
     *(f"check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd --format {f}" for f in JudgedFormat),
@@ -296,9 +296,9 @@ def test_what_does_not_print_is_refused_in_urdf_files(
     [
         *(f"gate ? --format {form}" for form in ("text", "json", "markdown", "junit", "sarif", "github")),
         "epsilon ? --max-boxes 20 --starts 1",
-        f"simulate ? {SHORT} --format json",
+        *(f"simulate ? {SHORT} --format {form}" for form in ("json", "sarif", "junit", "github")),
         "tune arm.toml --compare ?",
-        "robot ?",
+        *(f"robot ? --format {form}" for form in ("text", "sarif", "junit", "github")),
     ],
 )
 def test_paths_are_shown_as_escapes(
