@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +33,7 @@ RULES = {
     "no-rate": "V falls exponentially near the goal",
 }
 FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
-NONE = "—"
+NONE, TORQUE = "—", "torque"
 LEGEND = (
     "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
     "farther than this one, joint by joint.",
@@ -137,10 +138,10 @@ def _errors(found: Comparison) -> list[Table]:
     columns: list[tuple[str, Sequence[str]]] = []
     if found.settling.largest_errors:
         columns.append(("on the way", list(map(angle_up, found.settling.largest_errors))))
-    if _acting(found):
+    acting = _acting(found)
+    columns += [(f"{name} N·m", [f"{float(x):g}" for x in values]) for name, values in acting.items()]
+    if acting:
         columns += [
-            ("torque N·m", [f"{float(x):g}" for x in left.torque]),
-            ("dry friction N·m", [f"{float(x):g}" for x in left.dry]),
             ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
             ("disturbed, simulated", list(map(angle_up, found.simulated_errors))),
         ]
@@ -156,10 +157,15 @@ def _caption(found: Comparison) -> str:
     """What the errors are, and from when on."""
     if not _acting(found):
         return "Largest |e_i|:"
+    acting = " and ".join(f"{name} of any sign" if name == TORQUE else name for name in _acting(found))
     time = found.disturbance.time
-    since = "" if time is None else f", from {seconds_up(time)} on"
-    return f"Largest |e_i|; disturbed: under torques of any sign and dry friction{since}:"
+    since = "" if time is None else f"certified from {seconds_up(time)} on, "
+    return (
+        f"Largest |e_i|; disturbed, under {acting}: {since}simulated in the last tenth of {found.task.T:g} s."
+    )
 
 
-def _acting(found: Comparison) -> bool:
-    return any(found.disturbance.torque) or any(found.disturbance.dry)
+def _acting(found: Comparison) -> dict[str, tuple[Fraction, ...]]:
+    """What disturbs, joint by joint."""
+    both = {TORQUE: found.disturbance.torque, "dry friction": found.disturbance.dry}
+    return {name: values for name, values in both.items() if any(values)}

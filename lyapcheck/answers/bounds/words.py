@@ -62,7 +62,8 @@ def angle_up(value: Fraction | float | None) -> str:
 def provenance_text(found: Provenance) -> str:
     """What a bound rests on."""
     shares = f"{float(found.friction):.0%} of B and {float(found.stiffness):.0%} of K_p"
-    return f"{found.by} ({found.boxes} boxes), ε₀ = {float(found.eps0):g}, doing without {shares}"
+    boxes = "box" if found.boxes == 1 else "boxes"
+    return f"{found.by} ({found.boxes} {boxes}), ε₀ = {float(found.eps0):g}, doing without {shares}"
 
 
 def _up(value: float) -> str:
@@ -71,4 +72,5 @@ def _up(value: float) -> str:
     if math.isinf(value):
         return "more than 1e308"
     scale = 10.0 ** (3 - math.floor(math.log10(value)))
-    return f"{math.ceil(value * scale * (1 + 1e-12)) / scale:.4g}"
+    rounded = math.ceil(value * scale * (1 + 1e-12)) / scale
+    return f"{rounded:.0f}" if 1e4 <= rounded < 1e7 else f"{rounded:.4g}"

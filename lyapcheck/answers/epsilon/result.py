@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lyapcheck.search.proof import Proof
     from lyapcheck.search.weights import Weighted
 
-HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified", "boxes")
+HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
 NOT_IN_RECORDS = ("corner", "findings", "assumptions")
 PARTS = ("witness", "weighted")
 """What takes several columns where there is any."""
@@ -175,7 +175,7 @@ class EpsilonResults(Answer):
         name = result.name, "—" if result.m is None else str(result.m)
         numbers = (number_cell(result, kind) for kind in KINDS)
         time = () if seconds is None else (f"{seconds:.2f}",)
-        return (*name, *numbers, ratio_text(result.ratio) or "—", str(result.boxes), *time)
+        return (*name, *numbers, ratio_text(result.ratio) or "—", *time)
 
     def _timed(self) -> Iterator[tuple[EpsilonResult, float | None]]:
         times = [None] * len(self.results) if self.seconds is None else self.seconds

@@ -32,6 +32,11 @@ def ratio_text(value: Fraction | None) -> str | None:
     return f"{whole}.{rest:06d}"
 
 
+def boxes_text(count: int) -> str:
+    """So many boxes."""
+    return "1 box" if count == 1 else f"{count} boxes"
+
+
 def exact(value: Fraction | None) -> str | None:
     """An exact number as a decimal string."""
     return None if value is None else decimal_text(value)
@@ -62,7 +67,7 @@ def _one(result: EpsilonResult) -> str:
 
 def remarks(result: EpsilonResult) -> list[str]:
     """How the certified number was proved, findings, reasons for missing numbers and the witness."""
-    said = [] if result.certified is None else [_way(result)]
+    said = [_way(result)] if result.certified is not None or result.boxes else []
     said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
     if result.weighted is not None:
@@ -76,9 +81,13 @@ def remarks(result: EpsilonResult) -> list[str]:
 
 
 def _way(result: EpsilonResult) -> str:
-    """How the certified number was proved."""
-    count = "" if result.proof is None else f", {result.proof.boxes} boxes judged by the checker"
-    return f"certified by {result.certified_by}{count}."
+    """How the certified number was proved, and how much was tried."""
+    parts = [] if result.certified is None else [f"certified by {result.certified_by}"]
+    if result.proof is not None:
+        parts.append(f"{boxes_text(result.proof.boxes)} judged by the checker")
+    if result.boxes:
+        parts.append(f"{boxes_text(result.boxes)} looked at by the search")
+    return f"{', '.join(parts)}."
 
 
 def reasons(result: EpsilonResult) -> list[str]:
@@ -94,7 +103,7 @@ def _weighted_text(weighted: Weighted) -> str:
     products = ", ".join(map(decimal_text, weighted.products))
     return (
         f"with weights, y = w − εΛh, dV/dt < 0 is proved for ε₀Λ = diag({products}) "
-        f"({weighted.proof.boxes} boxes, {weighted.states} worst states in the program)."
+        f"({boxes_text(weighted.proof.boxes)}, {weighted.states} worst states in the program)."
     )
 
 
