@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.cli import main as cli
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.gating import GateResult, gate, gate_exit
 from lyapcheck.verdicts import Exit
 
 HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "scipy", "sympy")
@@ -150,7 +150,7 @@ def test_the_worst_verdict_is_the_exit_code(tmp_path: Path, verdicts: list[str],
         found = gate(read_gain_file(path))
         assert [result.verdict for result in found] == [verdict]
         results += found
-    assert gate_exit(results) == code
+    assert GateAnswer(results).exit_code == code
 
 
 def test_the_command_leaves_with_the_exit_code(

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control import read_gain_file
-from lyapcheck.control.bracket import Bracket
 from lyapcheck.control.conditions import Check
-from lyapcheck.gating import GateResult, gate
 
 SETTINGS = settings(
     max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
@@ -119,7 +119,7 @@ def test_equality_is_rejected_by_19_and_10p(tmp_path: Path, n: int, limit: str, 
     budget = format(EXACT.multiply(Decimal(limit), Decimal(isqrt(n))), "f")
     result = judged(tmp_path / "g.toml", top, ["1"] * n, [limit] * n, arm(budget, ["9e90"] * n, ["0"] * n))
     check = of(result, "19")
-    assert (check.verdict, check.margin, check.limit) == ("rejected", 0, Bracket.exact(border))
+    assert (check.verdict, check.margin, check.limit) == ("rejected", 0, Enclosure.exact(border))
     assert check.largest_admissible is not None
     assert check.largest_admissible < border
     if "." in limit:

@@ -10,18 +10,16 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from lyapcheck import load_robot, named_family
+from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate.stability import remarks, stable_otherwise
 from lyapcheck.check.loop import proves
-from lyapcheck.cli import gate_run
 from lyapcheck.cli import main as cli
-from lyapcheck.cli.gate_options import quick_call
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.gating import GateResult, gate, gate_exit
-from lyapcheck.gating.formats import FORMATS, renderer
-from lyapcheck.gating.stability import remarks, stable_otherwise
+from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
@@ -111,7 +109,7 @@ def test_what_the_checker_refuses_is_not_accepted(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
 ) -> None:
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
-    import lyapcheck.gating.certificates as room
+    import lyapcheck.answers.gate.prover as room
 
     monkeypatch.setattr(Proof, "accepted", lambda *_: False)
     monkeypatch.setattr(room, "CEILINGS", (64, 4))
@@ -254,21 +252,21 @@ def test_without_friction_nothing_is_promised(tmp_path: Path) -> None:
     assert all("no viscous friction" in check.reason for check in result.checks[-2:])
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", JudgedFormat)
 def test_every_format_tells_the_value_or_the_reason(name: str, everywhere: dict[str, GateResult]) -> None:
     results = list(everywhere.values())
-    text = renderer(name)(results)
+    text = GateAnswer(results).written(name)
     if name in ("text", "markdown", "json"):
         assert str(float(results[0].checks[-1].value or 0)) in text
-        assert "nominal" in text or name == "markdown"
-    if name != "sarif":
+        assert "nominal" in text
+    if name != "csv":
         assert "yet the gains are proved stable without it" in text
 
 
 def test_json_tells_what_establishes_stability(everywhere: dict[str, GateResult]) -> None:
-    rows = json.loads(renderer("json")([*everywhere.values(), *judged(paper_gain_file()).values()]))[
-        "results"
-    ]
+    rows = json.loads(
+        GateAnswer([*everywhere.values(), *judged(paper_gain_file()).values()]).written("json")
+    )["results"]
     for row in rows[3:]:
         assert row["stable_otherwise"] is None
     for row in rows[:3]:
@@ -285,18 +283,22 @@ def test_strict_makes_undecided_a_failure(tmp_path: Path) -> None:
     path = gain_file(tmp_path / "g.toml", "robot = 'pelican2'", "[0.01, 0.01]")
     (loose,), (strict,) = judged(path).values(), judged(path, strict=True).values()
     assert (loose.verdict, strict.verdict) == ("undecided", "undecided")
-    assert (gate_exit([loose]), gate_exit([strict])) == (Exit.UNDECIDED, Exit.REFUTED)
+    assert (GateAnswer([loose]).exit_code, GateAnswer([strict]).exit_code) == (Exit.UNDECIDED, Exit.REFUTED)
     counts = []
     for result in (loose, strict):
-        (suite,) = ET.fromstring(renderer("junit")([result]))
+        (suite,) = ET.fromstring(GateAnswer([result]).written("junit"))
         counts.append((suite.get("tests"), suite.get("failures"), suite.get("skipped")))
         assert len(suite.findall("testcase/failure")) == int(suite.get("failures") or 0)
         assert len(suite.findall("testcase/skipped")) == int(suite.get("skipped") or 0)
     assert counts == [("4", "0", "2"), ("4", "2", "0")]
     assert (
-        renderer("github")([loose]).count("::warning ") == renderer("github")([strict]).count("::error ") == 2
+        GateAnswer([loose]).written("github").count("::warning ")
+        == GateAnswer([strict]).written("github").count("::error ")
+        == 2
     )
-    assert [json.loads(renderer("json")([result]))["results"][0]["strict"] for result in (loose, strict)] == [
+    assert [
+        json.loads(GateAnswer([result]).written("json"))["results"][0]["strict"] for result in (loose, strict)
+    ] == [
         False,
         True,
     ]
@@ -318,6 +320,10 @@ def test_the_command_takes_strict(
 # --- written down ------------------------------------------------------------------------------
 
 
+def judged_by_command(*words: str) -> Result:
+    return CliRunner().invoke(cli.build_app(("gate",)), ["gate", *words])
+
+
 def recheck(folder: Path) -> tuple[int, str]:
     done = CliRunner().invoke(cli.build_app(("recheck",)), ["recheck", str(folder)])
     return done.exit_code, done.output
@@ -325,9 +331,7 @@ def recheck(folder: Path) -> tuple[int, str]:
 
 @pytest.mark.parametrize("words", [(), ("--gamma=printed",), ("--condition", "scalar", "--condition=global")])
 def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tuple[str, ...]) -> None:
-    call = quick_call([str(TABLE2), f"--certificates={tmp_path / 'made'}", *words])
-    assert call is not None
-    gate_run.run(call)
+    judged_by_command(str(TABLE2), f"--certificates={tmp_path / 'made'}", *words)
     made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}
     assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json"} <= made.keys()
     assert len(made) == 3 * (7 if len(words) == 3 else 5)
@@ -341,15 +345,12 @@ def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tup
 def test_other_functions_have_certificates_too(tmp_path: Path, family: str) -> None:
     path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'")
     path.write_text(path.read_text().replace("m = 2", f"family = '{family}'"))
-    call = quick_call([str(path), "--certificates", str(tmp_path / "made")])
-    assert call is not None
-    gate_run.run(call)
+    judged_by_command(str(path), "--certificates", str(tmp_path / "made"))
     assert len(list((tmp_path / "made").iterdir())) == 5
     assert recheck(tmp_path / "made")[0] == 0
 
 
 def test_sets_of_two_files_with_one_name_are_refused(tmp_path: Path) -> None:
-    call = quick_call([str(TABLE2), str(TABLE2), "--certificates", str(tmp_path / "made")])
-    assert call is not None
-    with pytest.raises(InputError, match="one file at a time"):
-        gate_run.run(call)
+    done = judged_by_command(str(TABLE2), str(TABLE2), "--certificates", str(tmp_path / "made"))
+    assert isinstance(done.exception, InputError)
+    assert "one file at a time" in str(done.exception)

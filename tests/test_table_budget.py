@@ -16,7 +16,7 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.main import build_app
 from lyapcheck.control import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.gating import gate
+from lyapcheck.answers.gate import gate
 
 
 def run(*arguments):
