@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from lyapcheck._types import Progress
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
@@ -22,8 +23,6 @@ from lyapcheck.claims.script import find_script
 from lyapcheck.claims.statements import Missing, Statement
 from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Verdict
-
-Progress = Callable[[float, str], None]
 
 DEFAULT_ROBOT = "buap3"
 DEFAULT_GAINS = "table2"

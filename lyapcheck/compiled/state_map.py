@@ -7,13 +7,12 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.library import library, resource
 from lyapcheck.compiled.straight_line import Code, Term, TooLong
 from lyapcheck.compiled.threads import over_shares
 
-Array = NDArray[np.float64]
 Columns = list[Term]
 Formula = Callable[[Code, Columns, Columns, Columns, Columns], Sequence[Any]]
 """(code, q, e, w, parameters) ↦ the outputs."""

@@ -1,7 +1,8 @@
 """λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi of an arm, enclosed in floating point."""
 
+from lyapcheck._types import SEED
 from lyapcheck.constants.arm import arm_constants
 from lyapcheck.constants.bounds import RobotConstants, robot_bounds, robot_constants
-from lyapcheck.constants.constant import SEED, Constant
+from lyapcheck.constants.constant import Constant
 
 __all__ = ["SEED", "Constant", "RobotConstants", "arm_constants", "robot_bounds", "robot_constants"]

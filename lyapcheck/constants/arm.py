@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from lyapcheck._types import Progress
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.constant import Constant, Task
 from lyapcheck.constants.coriolis import coriolis_task
@@ -20,8 +21,6 @@ from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
 from lyapcheck.constants.outside import FEW, outside
 from lyapcheck.robots import RobotModel
-
-Progress = Callable[[float, str], None]
 
 GAP = 1e-3
 GAP_OF_MANY = 2e-2

@@ -7,13 +7,11 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.torus import Torus
 from lyapcheck.constants.waves import Waves, derivative, waves
 from lyapcheck.robots import RobotModel, trig
-
-Array = NDArray[np.float64]
 
 
 class ArmWaves:

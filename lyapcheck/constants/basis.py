@@ -14,9 +14,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.waves import Wave
 
-Array = NDArray[np.float64]
 Rows = list[dict[int, Fraction]]
 _MOST_SUMS = 20_000
 

@@ -7,16 +7,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.constants.maximise import Progress, maximise
+from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.outside import ceiling
 from lyapcheck.constants.torus import PI_ABOVE, Reach, Torus
 
-Array = NDArray[np.float64]
-
-SEED = 20190301
 _SAMPLES = 1024
 _BLOCK = 64
 _ROUNDS = 40

@@ -15,15 +15,13 @@ References: property 2.6 of reyes2019family.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import SEED, Array
 from lyapcheck.constants.arm_waves import ArmWaves
-from lyapcheck.constants.constant import SEED, Task
+from lyapcheck.constants.constant import Task
 from lyapcheck.constants.quartic import quartic
 from lyapcheck.constants.spectrum import ROUNDING, eigenvalues, largest_norm
 from lyapcheck.constants.torus import Reach
-
-Array = NDArray[np.float64]
 
 _TURNS = 6
 _STARTS = 3

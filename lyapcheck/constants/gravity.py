@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.constant import Task
 from lyapcheck.constants.torus import Reach, Torus
-
-Array = NDArray[np.float64]
 
 
 def gravity_task(arm: ArmWaves, name: str, joints: Sequence[int]) -> Task:

@@ -8,14 +8,12 @@ from __future__ import annotations
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.constant import Task
 from lyapcheck.constants.spectrum import eigenvalues, largest_eigenvalue, smallest_eigenvalue
 from lyapcheck.constants.torus import Reach
-
-Array = NDArray[np.float64]
 
 
 def lambda_max_task(arm: ArmWaves) -> Task:

@@ -6,14 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array, Progress
+
 Bounds = Callable[[Array, Array], tuple[Array, Array]]
 """Middles and half widths of boxes to what the function is at least in the middle and at most on the box."""
 Influence = Callable[[Array, Array], Array]
 """Middles and half widths of boxes to how much each side matters."""
-Progress = Callable[[float, str], None]
 
 BATCH = 128
 

@@ -19,7 +19,8 @@ from itertools import combinations_with_replacement
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
+
 Pair = tuple[int, int]
 
 _STEPS, _STEPS_OF_MANY, _MANY = 30, 10, 4

@@ -7,9 +7,9 @@ of those of D (Bauer and Fike); both factors are bounded by what is left of A V 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
+
 ROUNDING = 1e-13
 """Times n², above the rounding of sums of n products of doubles relative to the norms of the factors."""
 

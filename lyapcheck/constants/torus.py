@@ -15,12 +15,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.basis import basis_of
 from lyapcheck.constants.waves import Wave
 
-Array = NDArray[np.float64]
 PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
 _NEAR = 0.5

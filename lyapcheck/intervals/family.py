@@ -9,11 +9,12 @@ from functools import lru_cache
 import numpy as np
 from flint import arb
 
+from lyapcheck._types import Array
 from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.intervals.functions import widened
-from lyapcheck.intervals.interval import Array, Interval
+from lyapcheck.intervals.interval import Interval
 
 
 @dataclass(frozen=True)

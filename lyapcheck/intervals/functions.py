@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from lyapcheck.intervals.interval import Array, Interval, down, up
+from lyapcheck._types import Array
+from lyapcheck.intervals.interval import Interval, down, up
 
 LIBRARY_SLACK = 2.0**-49
 _TINY = 1e-300

@@ -15,9 +15,9 @@ from fractions import Fraction
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
+
 Number = float | int | Fraction
 
 _SLACK = 2.0**-51

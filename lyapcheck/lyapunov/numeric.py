@@ -7,8 +7,8 @@ from functools import cached_property, lru_cache
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.columns import ColumnForms
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.state_map import StateMap, state_map
@@ -17,7 +17,6 @@ from lyapcheck.family import Family
 from lyapcheck.lyapunov.along import Certificate
 from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
 Columns = list[Array]
 Name = Literal["value", "rate"]
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from lyapcheck.report.compute import SEED, Progress, compute
+from lyapcheck._types import SEED, Progress
+from lyapcheck.report.compute import compute
 from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Data, Report
 

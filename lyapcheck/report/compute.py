@@ -11,6 +11,7 @@ from multiprocessing import get_context
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck._types import SEED, Progress
 from lyapcheck.report.drawings import draw_claims, draw_comparisons, draw_family, draw_sensitivity, draw_set
 from lyapcheck.report.jobs import claims_job, gains_job, sensitivity_job
 from lyapcheck.report.model import Data
@@ -20,10 +21,8 @@ if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
 
-Progress = Callable[[float, str], None]
 Job = Future[Any]
 
-SEED = 20190301
 PROOF = "published.py"
 INSTEAD = ("scalar.py", "tracking.py")
 """Proofs of what the paper concludes, that do not rest on what is refuted."""

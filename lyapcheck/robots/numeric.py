@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 from flint import fmpq_mpoly
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.robots import trig
 from lyapcheck.robots.model import RobotModel
 
-Array = NDArray[np.float64]
 _SPARSE = 50_000
 """Entries from which on a coefficient matrix is kept without its zeros."""
 _BLOCK = 4096

@@ -18,13 +18,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.intervals.family import dh_range, h_range
-from lyapcheck.search.cover import Outcome, Progress, cover
+from lyapcheck.search.cover import Outcome, cover
 from lyapcheck.search.schur import Problem
-
-Array = NDArray[np.float64]
 
 
 def certify(

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from time import monotonic
 
+from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, Progress
+from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting

@@ -8,8 +8,9 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck._types import Progress
 from lyapcheck.robots import RobotModel
-from lyapcheck.search.falsify import Progress, Witness, falsify
+from lyapcheck.search.falsify import Witness, falsify
 from lyapcheck.search.sample import States, quadratic
 from lyapcheck.search.setting import Setting
 

@@ -10,12 +10,12 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array, Progress
+
 Boxes = Array
 """(count, 2, dimensions): lower and upper ends."""
 Indices = NDArray[np.intp]
 
-Progress = Callable[[float, str], None]
 Prover = Callable[[Boxes], NDArray[np.bool_]]
 Chooser = Callable[[Boxes], Indices]
 

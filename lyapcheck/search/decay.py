@@ -9,10 +9,11 @@ References: ``reyes2019family`` (11), (12).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, RadialBounds
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
@@ -25,12 +26,12 @@ from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Show
 from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
 from lyapcheck.search.setting import Setting
 
-Progress = Callable[[float, str], None]
-
 COARSE = 0.6
 FINE = 0.93
 """Ratio of neighbouring levels, to compare margins and for the answer."""
-NOT_FALLING = "V was not shown to fall at all levels from the start down to the errors asked for; raise --delta"
+NOT_FALLING = (
+    "V was not shown to fall at all levels from the start down to the errors asked for; raise --delta"
+)
 TOO_LARGE = "the disturbance is too large beside k_pi and the friction: V is not shown to fall at any level"
 NO_MARGIN = "no margin of dV/dt < 0 was proved"
 

@@ -6,12 +6,13 @@ References: ``reyes2019family`` (12), (15).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -24,7 +25,7 @@ from lyapcheck.search.sample import (
     spread,
     worst_rates,
 )
-from lyapcheck.search.setting import Array, Setting
+from lyapcheck.search.setting import Setting
 from lyapcheck.search.worst_states import (
     fast_states,
     finite_states,
@@ -34,11 +35,8 @@ from lyapcheck.search.worst_states import (
     steepness,
 )
 
-Progress = Callable[[float, str], None]
-
 SAMPLES = 20_000
 STARTS = 30
-SEED = 20190301
 
 _DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""

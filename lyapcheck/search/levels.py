@@ -7,12 +7,9 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lyapcheck.check.loop.decay import Estimate
 from lyapcheck.family import Family
-
-Array = NDArray[np.float64]
 
 POINTS = 161
 STEPS = 40

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import SEED
 from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.decay import Margin
@@ -19,8 +19,6 @@ from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.radial import holds_radially, radial_data
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
-
-Array = NDArray[np.float64]
 
 FRICTION = tuple(Fraction(k, 100) for k in (8, 15, 25, 40, 60))
 """The η that are weighed against each other: less for the proof allows less ε₀."""
@@ -32,7 +30,6 @@ SLACK = Fraction(1, 2)
 SHARES = tuple(Fraction(k, 100) for k in (85, 75, 60, 40, 20))
 """Shares of the largest ε₀ that samples allow, tried one after the other."""
 SAMPLES = 1_500
-SEED = 20190301
 MAX_BOXES = 60_000
 
 

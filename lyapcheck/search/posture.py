@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lyapcheck._types import SEED
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
 POSTURES = 20_000
 DIGITS = 4
-SEED = 20190301
 
 
 def unphysical(setting: Setting) -> str:

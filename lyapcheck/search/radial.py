@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.decreasing import RadialBounds
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.boxes import Box
@@ -23,10 +24,7 @@ from lyapcheck.search.cover import cover
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
 
-Array = NDArray[np.float64]
-
 SAMPLES = 5_000
-SEED = 20190301
 MAX_BOXES = 12_000
 MOST_ANGLES = 4
 """Angles whose boxes are looked at; the harmonics of the others are bounded by their sizes."""

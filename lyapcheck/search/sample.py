@@ -17,7 +17,8 @@ from typing import cast
 
 import numpy as np
 
-from lyapcheck.search.setting import Array, Setting
+from lyapcheck._types import Array
+from lyapcheck.search.setting import Setting
 
 _STEPS = 6
 """Fixed-point steps towards the worst w."""

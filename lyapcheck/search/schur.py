@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.loop import Closure
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
@@ -18,7 +19,6 @@ from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.family import dh_range, h_range
 from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
 Entry = Interval | float
 Rows = list[list[Interval]]
 

@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.states import Arm, Controller
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from lyapcheck.check.loop.states import Term
     from lyapcheck.control import GainSet
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

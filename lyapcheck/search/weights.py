@@ -20,15 +20,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
-from lyapcheck.search.cover import Progress
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
-
-Array = NDArray[np.float64]
 
 SAMPLES = 20_000
 KEPT = 12

@@ -20,9 +20,10 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from lyapcheck._types import Array
 from lyapcheck.robots import graph
 from lyapcheck.search.sample import States, fastest_directions, quadratic, size
-from lyapcheck.search.setting import Array, Setting
+from lyapcheck.search.setting import Setting
 
 _OPTIONS: dict[str, Any] = {
     "print_time": False,

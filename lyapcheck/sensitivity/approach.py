@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
 
 PARENTS = 8
 CHILDREN = 6

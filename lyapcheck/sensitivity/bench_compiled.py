@@ -8,16 +8,14 @@ from importlib.resources import files
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
 from lyapcheck.compiled.straight_line import Code, TooLong
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from lyapcheck.sensitivity.bench_step import BenchStep, parameter_count
-
-Array = NDArray[np.float64]
 
 LANES = 8
 """Runs that advance together."""

@@ -8,13 +8,11 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from lyapcheck.sensitivity.bench_step import BenchStep, parameter_count
-
-Array = NDArray[np.float64]
 
 _CALLS: dict[str, Callable[..., Any]] = {
     "copysign": ca.copysign,

@@ -8,8 +8,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.sensitivity.assumptions import BAND, Assumption, numbers
 from lyapcheck.sensitivity.bench_compiled import compiled_bench
 from lyapcheck.simulate.batch_runs import settling_times
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
-Array = NDArray[np.float64]
 
 PERIOD = 2.5e-3
 """s between two readings, as in Section 4 of ``reyes2019family``."""

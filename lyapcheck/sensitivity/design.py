@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.sensitivity.assumptions import Assumption
-
-Array = NDArray[np.float64]
 
 LEVELS = 5
 """Values of each number that is changed alone, both ends included."""

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.sensitivity.design import LEVELS, Design, values
 from lyapcheck.sensitivity.printed_numbers import PrintedNumber
 from lyapcheck.sensitivity.results import Answer, NumberStudy
 from lyapcheck.sensitivity.shares import shares
 from lyapcheck.sensitivity.trials import Trials
 
-Array = NDArray[np.float64]
 NEAR, LEAST = 0.01, 0.005
 """A value within 1 % and 0.005 ° or s of a printed one is taken for it."""
 

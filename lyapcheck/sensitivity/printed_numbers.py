@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.printed import PRINTED, Printed
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.sensitivity.bench_runs import Outcomes
 
-Array = NDArray[np.float64]
 
 PAPER_ARM = "buap3"
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lyapcheck._types import Progress
 from lyapcheck.sensitivity.assumptions import assumptions
 from lyapcheck.sensitivity.bench_runs import BenchRuns
 from lyapcheck.sensitivity.design import design, values
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from lyapcheck.sensitivity.design import Design
     from lyapcheck.simulate.printed import Printed
 
-Progress = Callable[[float, str], None]
 
 SPREAD, CORNERS = 512, 256
 """Arms spread over all ranges, and arms with every number at an end of its range."""

@@ -7,13 +7,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.sensitivity.approach import approach
 from lyapcheck.sensitivity.design import values
 from lyapcheck.sensitivity.printed_numbers import PrintedNumber
 from lyapcheck.sensitivity.results import AtOnce, Together
 from lyapcheck.sensitivity.trials import Trials
-
-Array = NDArray[np.float64]
 
 CHILDREN = 12
 """Of each parent in each round of these searches: there is one goal only, and it is narrow."""

@@ -8,12 +8,12 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.sensitivity.approach import approach, between
 from lyapcheck.sensitivity.bench_runs import BenchRuns, Outcomes
 from lyapcheck.sensitivity.design import values
 from lyapcheck.sensitivity.printed_numbers import PrintedNumber
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 SAME = 1e-9

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.family import Family
 from lyapcheck.simulate.batch_compiled import compiled_runs
 from lyapcheck.simulate.batch_numpy import NumpyRuns
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 TOLERANCE = 1e-12
 """Relative tolerance per step; the paper's runs then err by less than 1e-8."""

@@ -8,8 +8,8 @@ from importlib.resources import files
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
 from lyapcheck.compiled.straight_line import Code, TooLong
@@ -20,8 +20,6 @@ from lyapcheck.simulate import dop853
 from lyapcheck.simulate.batch_paths import Paths
 from lyapcheck.simulate.batch_rates import Loop, parameter_count
 from lyapcheck.simulate.dop853 import Weights
-
-Array = NDArray[np.float64]
 
 LANES = 8
 """Runs that advance together in one thread."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.columns import ColumnForms
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.plain_arrays import PlainArrays
@@ -16,7 +17,6 @@ from lyapcheck.simulate.batch_paths import OUT_OF_RANGE, STEP_TOO_SMALL, TOO_MAN
 from lyapcheck.simulate.batch_rates import Loop
 from lyapcheck.simulate.dop853 import Weights
 
-Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
 _LARGEST = 1e15

@@ -8,7 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
+
 Counts = NDArray[np.int32]
 
 TOO_MANY_STEPS, STEP_TOO_SMALL, OUT_OF_RANGE = 1, 2, 3

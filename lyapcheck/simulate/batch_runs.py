@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.batch_paths import FAILURES, Paths
 from lyapcheck.simulate.indices import LEAST_STEP, SETTLING_BAND
 from lyapcheck.simulate.results import LEAST_ENERGY
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

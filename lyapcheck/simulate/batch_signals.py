@@ -7,8 +7,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.state_map import StateMap, state_map
 from lyapcheck.compiled.straight_line import Code, Term
@@ -16,8 +16,6 @@ from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from lyapcheck.simulate.batch_numpy import array_forms
 from lyapcheck.simulate.batch_rates import Loop, parameter_count
-
-Array = NDArray[np.float64]
 
 
 class Signals:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import FARTHEST, FASTEST, task_for
@@ -17,8 +18,6 @@ from lyapcheck.simulate.task import FARTHEST, FASTEST, task_for
 if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

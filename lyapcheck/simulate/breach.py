@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.confirm import Sample, exceeds, rises
 
 if TYPE_CHECKING:
     from lyapcheck.search.setting import Setting
 
-Array = NDArray[np.float64]
 
 RATE_NOISE = 1e-12
 """dV/dt below this share of its largest size is not worth a look in balls."""

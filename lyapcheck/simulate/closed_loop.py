@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.simulate.breach import (
     Breach,
     Watched,
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 TOLERANCE = 1e-11
 """Relative tolerance of the first integration; the one handed back is ten times tighter."""

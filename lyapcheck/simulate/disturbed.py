@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.compiled import Compiled
 from lyapcheck.simulate.dynamics import closed_loop, solve_definite
 from lyapcheck.simulate.integrate import integrate
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
 
 CREEP = 1e-3
 """rad/s: dry friction is f tanh(w/creep), so that a joint that should stick creeps."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
 
 SETTLING_BAND = 0.02
 """Settled means within 2 % of the step; the paper prints settling times but not its band."""

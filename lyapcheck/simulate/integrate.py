@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lyapcheck._types import Array
+
 Field = Callable[[float, Array], Array]
 
 MAX_STEPS = 200_000

@@ -6,16 +6,14 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.entries import gravity_sizes
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.run import Promises
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
-
-Array = NDArray[np.float64]
 
 
 def observe(

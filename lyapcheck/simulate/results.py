@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate import indices
 from lyapcheck.simulate.monitor import observe, torque_limits
 from lyapcheck.simulate.run import Indices, Run
 from lyapcheck.simulate.setup import Setup
-
-Array = NDArray[np.float64]
 
 V_NOISE = 1e-9
 """How far V may rise between samples, relative to its largest value, before it counts as a rise."""

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lyapcheck._types import Array
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.task import Task
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.batch import simulate_many
 from lyapcheck.simulate.batch_runs import Runs
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 MOST_RUNS = 100_000
 """Runs of one gain set; so many of the paper's arm take about ten seconds."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Progress
 from lyapcheck.errors import argument_error
 from lyapcheck.simulate.bench import Bench, dry_friction, enough_substeps, period_map
 from lyapcheck.simulate.indices import l2_index
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 BENCH = Bench()
 """The settings of the published experiment."""

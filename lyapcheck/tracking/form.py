@@ -13,8 +13,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.bounds import robot_bounds
@@ -24,7 +24,6 @@ from lyapcheck.lyapunov.scalar import scalar_form
 if TYPE_CHECKING:
     from lyapcheck.search.setting import Setting
 
-Array = NDArray[np.float64]
 
 HALVINGS = 48
 DIGITS = 9

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.breach import Breach, Monitor, Watched
-
-Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
 """How far dV/dt may be above its bound, relative to the larger of both: what doubles may do."""

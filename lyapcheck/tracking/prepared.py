@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.integrate import Trajectory, integrate
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 EASIER = 100.0
 """How much less accurate the work W may be: it is a check, and only it feels the kinks of a recorded q̈_d."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
@@ -24,8 +24,6 @@ from lyapcheck.simulate.results import noise_of
 from lyapcheck.tracking.form import TrackingForm
 from lyapcheck.tracking.monitors import form_monitor
 from lyapcheck.tracking.run import Indices, Motion, Promise
-
-Array = NDArray[np.float64]
 
 
 def energies(setting: Setting, gains: Gains, eps0: float, motion: Motion) -> tuple[Array, Array]:

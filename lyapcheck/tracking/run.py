@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.tracking.monitors import ROUNDING
 from lyapcheck.tracking.reference import Reference, Suprema
 from lyapcheck.tracking.torque import TorqueBounds
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lyapcheck._types import Progress
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
 from lyapcheck.tracking.prepared import Prepared
 from lyapcheck.tracking.reference import Reference
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from lyapcheck.control import GainSet
     from lyapcheck.robots import RobotModel
 
-Progress = Callable[[float, str], None]
 
 TOLERANCE = 1e-10
 """Relative tolerance of the first integration; the one handed back is ten times tighter."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array, Progress
 from lyapcheck.search.decay import disturbance_bound, settling_bound
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.disturbed import disturbed
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound
     from lyapcheck.simulate.task import Task
-
-Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,12 @@ class ProofResult(Answer):
 
     def document(self) -> Document:
         """The tally, a list of what is not proved, then every claim, those that are not proved first."""
-        blocks: tuple[Block, ...] = (Paragraph(self._run()), *self._index(), *self._sections(), *self._assumed())
+        blocks: tuple[Block, ...] = (
+            Paragraph(self._run()),
+            *self._index(),
+            *self._sections(),
+            *self._assumed(),
+        )
         return Document(self._title(), blocks, tuple(self._notes()))
 
     def data(self) -> dict[str, Any]:

@@ -11,10 +11,10 @@ References: ``reyes2019family`` (12), (16), (18).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
@@ -23,7 +23,7 @@ from lyapcheck.constants import robot_bounds
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
 from lyapcheck.search.corners import falsify_corners
-from lyapcheck.search.falsify import SEED, STARTS, Witness, falsify
+from lyapcheck.search.falsify import STARTS, Witness, falsify
 from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
 
-Progress = Callable[[float, str], None]
 _DIGITS = 9
 
 

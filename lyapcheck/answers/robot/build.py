@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from lyapcheck._types import Progress
 from lyapcheck.answers.robot import certified as ends
 from lyapcheck.answers.robot import print_claims
 from lyapcheck.answers.robot.judged import judged
@@ -14,7 +13,6 @@ from lyapcheck.constants import arm_constants
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
-Progress = Callable[[float, str], None]
 MAX_BOXES = 200_000
 """Over the square of the number of joints: the budget that takes a minute or so."""
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from lyapcheck._types import Progress
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.claims.decision import Decision, undecided
 from lyapcheck.claims.run import run_proof
@@ -12,7 +13,6 @@ from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
-Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True)

@@ -86,8 +86,11 @@ class Simulation(Answer, Generic[Result]):
         breach = self._breaches().get(name)
         if breach is not None and breach.confirmed:
             return Level.FAILED
-        missing = breach is not None or any(one.name == name for one in self.unfinished)
-        return Level.UNDECIDED if missing else Level.PASSED
+        return Level.UNDECIDED if breach is not None or self.missing(name) else Level.PASSED
+
+    def missing(self, name: str) -> list[str]:
+        """Why not all that was asked of a gain set is known."""
+        return [one.reason for one in self.unfinished if one.name == name]
 
     def mark(self, name: str) -> str:
         """How a gain set came out as a sign; none where nothing was held against theory."""
@@ -168,8 +171,7 @@ class Simulation(Answer, Generic[Result]):
 
     def _annotation(self, name: str) -> Annotation:
         breach = self._breaches().get(name)
-        said = [] if breach is None else [breach.sentence]
-        said += [one.reason for one in self.unfinished if one.name == name]
+        said = [*([] if breach is None else [breach.sentence]), *self.missing(name)]
         rule = PROMISES if self.watches(name) else FINISHED
         text = self.promised if rule == PROMISES else "the run reaches its end"
         place = self._place(name)

@@ -31,6 +31,17 @@ class RandomStarts(Simulation[Sweep]):
         counts = {one.starts.count for one in self.results}
         return f", {'/'.join(map(str, sorted(counts)))} random starts each" if counts else ""
 
+    def missing(self, name: str) -> list[str]:
+        """Also what was seen of many runs at once and could not be found again in one of them."""
+        return [
+            *super().missing(name),
+            *(_doubt(one) for one in self.results if one.name == name and _doubt(one)),
+        ]
+
+    def complaints(self) -> list[str]:
+        """The same."""
+        return [*super().complaints(), *(f"undecided: {_doubt(one)}" for one in self.results if _doubt(one))]
+
     def opening(self) -> Sequence[Block]:
         """Where the starts lie, and the set point."""
         return [Paragraph(text) for text in dict.fromkeys(map(_task, self.results))]
@@ -106,6 +117,17 @@ class RandomStarts(Simulation[Sweep]):
             }
             for found in quantities(one)
         ]
+
+
+def _doubt(one: Sweep) -> str:
+    """What counts against a gain set of which no breach is known."""
+    seen = _count((one.risen | one.beyond) & one.runs.complete)
+    if not seen or one.breach is not None:
+        return ""
+    where = (
+        f"{one.name} on {one.robot}: V rose or a torque left its limit in {seen} of {one.starts.count} runs"
+    )
+    return f"{where}, but the first of them breaks no promise when it is run alone"
 
 
 def _task(one: Sweep) -> str:

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck._types import SEED
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -15,7 +16,6 @@ from lyapcheck.claims.finding import Finding, broken, shown, still_open
 
 METHOD = "gravity"
 SAMPLES = 400
-SEED = 20190301
 
 
 def find_gravity_below(statement: GravityBelow) -> Finding:

@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck._types import SEED
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     CoriolisBelow,
@@ -31,7 +32,6 @@ from lyapcheck.search.inertia import mass_proof
 
 METHOD = "inertia"
 SAMPLES = 400
-SEED = 20190301
 MOST_BOXES_JOINTS = 4
 OfArm = MassAbove | MassBelow | CoriolisBelow
 

@@ -16,16 +16,14 @@ from fractions import Fraction
 
 import numpy as np
 from flint import fmpq, fmpq_mat
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.spectrum import smallest_eigenvalue
 from lyapcheck.constants.storage import lift
 from lyapcheck.constants.storage.exact import Exact
 from lyapcheck.constants.storage.hinges import Hinge
 from lyapcheck.constants.torus import Torus
-
-Array = NDArray[np.float64]
 
 SIZE = 5
 RELATION = np.zeros((SIZE, SIZE))

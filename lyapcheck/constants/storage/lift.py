@@ -19,11 +19,9 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 from flint import fmpq, fmpq_mat
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.storage.exact import Exact, cross, exact, unit, zeros
-
-Array = NDArray[np.float64]
 
 STATE, INPUT = 34, 8
 ROWS = STATE + INPUT

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.constants.storage.exact import rounded
 from lyapcheck.constants.storage.problem import Problem
-
-Array = NDArray[np.float64]
 
 
 @dataclass

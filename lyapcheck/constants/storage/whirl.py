@@ -18,16 +18,14 @@ from math import inf, isfinite
 
 import numpy as np
 from flint import arb, ctx, fmpq
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.numbers.matrices import balls_positive_definite
 from lyapcheck.constants.storage import head, lift
 from lyapcheck.constants.storage.exact import Exact, rounded, zeros
 from lyapcheck.constants.storage.hinges import Hinge
 from lyapcheck.constants.storage.program import Blocks, solve
 from lyapcheck.constants.torus import PI_ABOVE
-
-Array = NDArray[np.float64]
 
 _MARGIN = 1e-5
 _ANGLES = 17

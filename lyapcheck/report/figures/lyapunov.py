@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.style import COLOURS, panels, styled
-
-Array = NDArray[np.float64]
 
 
 def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None = None) -> Any:

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.figures.style import COLOURS, DASHES, panels, styled
-
-Array = NDArray[np.float64]
 
 ABREAST = 3
 """Panels in a row, and names in a row of a legend."""

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-import numpy as np
 from flint import arb
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
-
-Array = NDArray[np.float64]
 
 SECONDS = 5.0
 """Duration of a run of which nothing else is said."""

@@ -8,11 +8,9 @@ from math import comb
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.tracking.reference.base import Reference, Suprema
-
-Array = NDArray[np.float64]
 
 DEGREES = {"cubic": 3, "quintic": 5}
 """Splines with two and with four continuous derivatives."""

@@ -9,12 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files import printable
-
-Array = NDArray[np.float64]
 
 MOST_ROWS = 200_000
 MOST_PROBLEMS = 20

@@ -7,12 +7,11 @@ from fractions import Fraction
 
 import numpy as np
 from flint import acb, arb
-from numpy.typing import NDArray
 
+from lyapcheck._types import Array
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.tracking.reference.base import BITS, Reference, Suprema, above, angles
 
-Array = NDArray[np.float64]
 Row = tuple[Fraction, ...]
 
 

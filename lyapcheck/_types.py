@@ -1,0 +1,21 @@
+"""Names of types and of the seed that the whole house shares; importing it costs nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    """Doubles of any shape; who takes some says which."""
+else:
+    Array = Any
+
+Progress = Callable[[float, str], None]
+"""Told the fraction done (0 to 1) and a note of a few words."""
+
+SEED = 20190301
+"""Where random choices begin, unless the user says otherwise: the month of the paper."""
