@@ -155,6 +155,17 @@ def test_what_is_seen_in_floating_point_alone_decides_nothing() -> None:
     assert answer.document().title == "? buap3: undecided for 1 of 1 gain set"
 
 
+def test_a_rise_that_no_single_run_shows_again_is_undecided() -> None:
+    (first, second) = answers()["starts"].results
+    doubtful = replace(first, risen=np.array([False, True, False, False]))
+    answer = RandomStarts((doubtful, second))
+    assert answer.exit_code is Exit.UNDECIDED
+    assert [case.level for case in answer.annotations()] == [Level.UNDECIDED, Level.PASSED]
+    assert "in 1 of 4 runs" in answer.annotations()[0].message
+    (complaint,) = answer.complaints()
+    assert complaint.startswith("undecided: tau_m1 on buap3: V rose")
+
+
 def test_what_was_not_finished_is_said_first() -> None:
     answer = SetPointRuns((short_run(),), (Unfinished("tau_m1", "tau_m1 on buap3: no ε₀ is certified"),))
     assert answer.exit_code is Exit.UNDECIDED

@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 PROMISES, FINISHED = "promises", "finished"
 MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
-NUMERIC = "All of this is seen in floating point: observations, never proofs."
+NUMERIC = (
+    "Runs are integrated in floating point: what they show are observations, never proofs; only a broken "
+    "promise that balls confirm is proved, at its state."
+)
 BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
 
 

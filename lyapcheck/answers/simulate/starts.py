@@ -39,7 +39,7 @@ class RandomStarts(Simulation[Sweep]):
         ]
 
     def complaints(self) -> list[str]:
-        """The same."""
+        """What went wrong, and these doubts."""
         return [*super().complaints(), *(f"undecided: {_doubt(one)}" for one in self.results if _doubt(one))]
 
     def opening(self) -> Sequence[Block]:
