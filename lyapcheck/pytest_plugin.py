@@ -49,7 +49,7 @@ def assert_accepted(
     """
     __tracebackhide__ = True
     from lyapcheck.answers.gate import gate
-    from lyapcheck.control import read_gain_file
+    from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import argument_error
 
     if not conditions:

@@ -13,16 +13,20 @@ from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
 from lyapcheck.compiled.compiler import OFF, compiler
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.simulate import PAPER_TASK, Runs, simulate, simulate_many
 from lyapcheck.simulate import batch as batch_module
+from lyapcheck.simulate.batch import simulate_many
 from lyapcheck.simulate.batch_compiled import compiled_runs
 from lyapcheck.simulate.batch_rates import solve_definite
+from lyapcheck.simulate.batch_runs import Runs
 from lyapcheck.simulate.batch_signals import compiled_signals
+from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.task import PAPER_TASK
 
 TABLE2 = (
     *read_gain_file(paper_gain_file("table2")).gains,

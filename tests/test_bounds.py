@@ -10,7 +10,8 @@ import pytest
 
 from lyapcheck.answers.bounds.answer import Comparisons
 from lyapcheck.answers.bounds.compare import compare
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import load

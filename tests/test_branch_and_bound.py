@@ -11,7 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from lyapcheck.check.loop import leaves, proves
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

@@ -23,7 +23,8 @@ from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.cli.main import main
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load

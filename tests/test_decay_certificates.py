@@ -24,7 +24,8 @@ from lyapcheck.check.trusted import closure
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict

@@ -15,7 +15,8 @@ from lyapcheck.answers.epsilon.consistency import Contradiction, findings, requi
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat

@@ -17,7 +17,8 @@ from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.refusal import Refused
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 
 F = Fraction

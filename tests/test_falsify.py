@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.loop.states import State, confirms_positive, rate
-from lyapcheck.control import GainSet
+from lyapcheck.control.gains import GainSet
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load
 from lyapcheck.search.falsify import Witness, falsify, round_up, worst_states

@@ -15,11 +15,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.cli import main as cli
-from lyapcheck.control import GainFile, limits_for, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainFile, read_gain_file
+from lyapcheck.control.limits import limits_for
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.family.registry import names as families
-from lyapcheck.files import decimal_text, printable, round_down
-from lyapcheck.files.decimals import Written, places_of, written
+from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written
+from lyapcheck.output.escapes import printable
 
 GOOD = """\
 robot = "buap3"

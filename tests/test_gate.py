@@ -11,7 +11,8 @@ import pytest
 
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.cli import main as cli
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
 

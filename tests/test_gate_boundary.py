@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control import read_gain_file
 from lyapcheck.control.conditions import Check
+from lyapcheck.control.gains import read_gain_file
 
 SETTINGS = settings(
     max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]

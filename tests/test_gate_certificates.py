@@ -17,7 +17,8 @@ from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.answers.gate.stability import remarks, stable_otherwise
 from lyapcheck.check.loop import proves
 from lyapcheck.cli import main as cli
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel

@@ -18,7 +18,8 @@ from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.answers.gate.words import significant_down
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat

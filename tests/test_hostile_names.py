@@ -188,7 +188,10 @@ COMMANDS = [
     *(f"robot arm.urdf --max-boxes 20 --format {form}" for form in JudgedFormat),
     *(f"tune arm.toml --compare gains.toml --format {form}" for form in TuneFormat),
     *(f"table --m 1 --robot arm.toml --format {f}" for f in ("text", "json", "csv", "markdown", "latex")),
-    *(f"check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd --format {f}" for f in JudgedFormat),
+    *(
+        f"check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd --format {f}"
+        for f in JudgedFormat
+    ),
 ]
 
 

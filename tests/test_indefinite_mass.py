@@ -12,7 +12,8 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims import ArmBounds, decreasing, run_proof
 from lyapcheck.claims.procedures import propose
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 
 GAINS = paper_gain_file("table2_shoulder_elbow")

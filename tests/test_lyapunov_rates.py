@@ -99,7 +99,7 @@ def test_one_state_or_many_give_the_same() -> None:
 
 @pytest.mark.parametrize("arm", ["reyes-kelly2", "buap3"])
 def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.search.setting import Setting
 
     model = robots.load(arm)

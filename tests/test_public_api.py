@@ -95,7 +95,9 @@ def homes_with_examples() -> list[str]:
 
 
 def test_gate_table_and_tune_have_examples():
-    assert {"answers.table", "answers.tune.tuning", "answers.tune.targets", "answers.explain"} <= set(homes_with_examples())
+    assert {"answers.table", "answers.tune.tuning", "answers.tune.targets", "answers.explain"} <= set(
+        homes_with_examples()
+    )
 
 
 @pytest.mark.parametrize("home", homes_with_examples())

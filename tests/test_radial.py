@@ -19,7 +19,8 @@ from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, proves_
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

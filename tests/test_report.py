@@ -19,7 +19,8 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.drawings import file_stem

@@ -12,7 +12,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
 from lyapcheck.report.findings import findings
 from lyapcheck.report.jobs import sensitivity_job

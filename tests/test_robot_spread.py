@@ -11,7 +11,8 @@ from typer.testing import CliRunner
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.check.loop import proves
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
 from lyapcheck.search.branch_and_bound import certify

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.sensitivity.approach import approach, between
 from lyapcheck.sensitivity.assumptions import Assumption, assumptions
@@ -27,8 +28,10 @@ from lyapcheck.sensitivity.results import Answer, Study
 from lyapcheck.sensitivity.shares import shares
 from lyapcheck.sensitivity.study import study
 from lyapcheck.sensitivity.trials import first_trials
-from lyapcheck.simulate import PAPER_TASK, Bench, experiment
+from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.trial import experiment
 
 ARM = load("buap3")
 ASSUMED = assumptions(ARM)

@@ -12,14 +12,16 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import runs_csv
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.simulate import PAPER_TASK, SimulationFailed, simulate
-from lyapcheck.simulate.closed_loop import _imbalance
+from lyapcheck.simulate.closed_loop import _imbalance, simulate
 from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.integrate import integrate
 from lyapcheck.simulate.monitor import observe
+from lyapcheck.simulate.run import SimulationFailed
+from lyapcheck.simulate.task import PAPER_TASK
 
 TABLE2 = (
     *read_gain_file(paper_gain_file("table2")).gains,

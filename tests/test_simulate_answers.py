@@ -20,14 +20,18 @@ from lyapcheck.answers.simulate.samples import starts_csv
 from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
 from lyapcheck.answers.simulate.starts import RandomStarts
 from lyapcheck.answers.simulate.tracking import TrackingRuns
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
-from lyapcheck.simulate import PAPER_TASK, Run, SimulationFailed, experiment, simulate
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.starts import Starts, sweep
-from lyapcheck.tracking import track
+from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.trial import experiment
 from lyapcheck.tracking.reference import MinimumJerk
+from lyapcheck.tracking.simulation import track
 from lyapcheck.verdicts import Exit
 
 FILE = read_gain_file(paper_gain_file("table2"))

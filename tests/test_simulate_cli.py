@@ -11,7 +11,7 @@ from typing import NamedTuple
 import pytest
 
 from lyapcheck.cli.main import main
-from lyapcheck.control import paper_gain_file
+from lyapcheck.control.paper import paper_gain_file
 
 TABLE2 = str(paper_gain_file("table2"))
 PD = str(paper_gain_file("table2_pd"))

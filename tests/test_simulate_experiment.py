@@ -12,11 +12,15 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import runs_csv
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import Number
-from lyapcheck.simulate import PAPER_TASK, Bench, SimulationFailed, experiment, simulate
-from lyapcheck.simulate.bench import enough_substeps, read_encoders
+from lyapcheck.simulate.bench import Bench, enough_substeps, read_encoders
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.run import SimulationFailed
+from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.trial import experiment
 
 TABLE2 = (
     *read_gain_file(paper_gain_file("table2")).gains,

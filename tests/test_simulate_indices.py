@@ -10,9 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.control import paper_gain_file, read_gain_file
-from lyapcheck.simulate import PAPER_TASK, simulate
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.indices import final_errors, l2_index, overshoots, peak_torques, settling_times
+from lyapcheck.simulate.task import PAPER_TASK
 
 T = np.linspace(0.0, 5.0, 2001)
 

@@ -13,9 +13,11 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.cli.main import main
-from lyapcheck.control import paper_gain_file, read_gain_file
-from lyapcheck.simulate import PAPER_TASK, simulate
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.starts import Starts, sweep
+from lyapcheck.simulate.task import PAPER_TASK
 
 TABLE2 = str(paper_gain_file("table2"))
 SINE = 'kind = "sine"\namplitude = [20, 30, 40]\nfrequency = [0.5, 0.5, 0.25]\n'

@@ -14,14 +14,17 @@ from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.states import State, confirms_positive
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.falsify import falsify
 from lyapcheck.search.setting import Setting
-from lyapcheck.simulate import PAPER_TASK, PromiseBroken, SimulationFailed, simulate
 from lyapcheck.simulate.breach import Watched, bound_monitor, fall_monitor, first_breach
+from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.confirm import Sample, torques
+from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+from lyapcheck.simulate.task import PAPER_TASK
 from lyapcheck.verdicts import Exit
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains

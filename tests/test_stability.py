@@ -22,7 +22,8 @@ from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import dyadic
 from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, mirrored
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel

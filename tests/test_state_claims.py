@@ -16,7 +16,7 @@ from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamm
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.run import paper_case
-from lyapcheck.control import GainSet
+from lyapcheck.control.gains import GainSet
 from lyapcheck.family import hyperbolic
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load

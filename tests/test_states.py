@@ -10,7 +10,6 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.members import Functions
 from lyapcheck.check.loop.states import (
     Arm,
     Controller,
@@ -23,6 +22,7 @@ from lyapcheck.check.loop.states import (
     value,
 )
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.members import Functions
 
 F = Fraction
 LINEAR = Functions(lambda x: x, lambda x: arb(1), lambda x: x * x / 2)

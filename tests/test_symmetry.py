@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from robot_cases import BUILT_IN
 
 from lyapcheck.check.loop import Closure
-from lyapcheck.control import GainSet
+from lyapcheck.control.gains import GainSet
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

@@ -11,12 +11,13 @@ import pytest
 from flint import arb
 from typer.testing import CliRunner
 
+from lyapcheck.answers.gate import gate
 from lyapcheck.answers.table import LIMITS
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.main import build_app
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.answers.gate import gate
 
 
 def run(*arguments):

@@ -14,18 +14,19 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import tracking_csv
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.control import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
 from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.gains import gains_for
-from lyapcheck.tracking import TrackingFailed, TrackingRun, track
 from lyapcheck.tracking.form import TrackingForm, tracking_form
 from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
 from lyapcheck.tracking.results import bound_of, broken, energies
-from lyapcheck.tracking.run import Motion
+from lyapcheck.tracking.run import Motion, TrackingFailed, TrackingRun
+from lyapcheck.tracking.simulation import track
 from lyapcheck.tracking.torque import torque_bounds
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
@@ -115,7 +116,7 @@ def test_an_arm_that_starts_on_the_reference_stays_on_it():
 
 
 def test_a_reference_at_rest_is_the_regulator():
-    from lyapcheck.simulate import simulate
+    from lyapcheck.simulate.closed_loop import simulate
 
     run = run_of(TABLE2[1], STILL, eps0=0.03)
     task = np.radians([45, 45, 90])
@@ -253,7 +254,7 @@ def test_a_motor_that_is_asked_for_too_much_stops_the_run():
 
 def test_a_run_read_back_is_followed_again(tmp_path):
     """The CSV of a run is a recording; the arm that starts on it follows it to what the spline can do."""
-    from lyapcheck.tracking import read_reference
+    from lyapcheck.tracking.reference import read_reference
 
     run = run_of(TABLE2[0], JERK)
     (tmp_path / "run.csv").write_text(tracking_csv([run]), encoding="utf-8")

@@ -26,9 +26,10 @@ from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms
 from lyapcheck.cli.decimals import parse_decimals
 from lyapcheck.cli.main import build_app
 from lyapcheck.cli.tune import TuneFormat
-from lyapcheck.control import Bounds, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import Bounds, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load
 
 ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}

@@ -17,7 +17,8 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune import Targets, tune
 from lyapcheck.cli.main import build_app
 from lyapcheck.cli.tune import TuneFormat
-from lyapcheck.control import paper_gain_file, read_gain_file
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 
 UR5 = str(Path(__file__).parent / "arms" / "ur5.urdf")
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
 
 
 class GainPlace(NamedTuple):

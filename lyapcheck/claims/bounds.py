@@ -28,7 +28,7 @@ from lyapcheck.claims.expressions import Expr, expr, sqrt
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 Function = tuple[Expr, Expr, Expr]

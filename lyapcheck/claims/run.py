@@ -193,7 +193,8 @@ def _robot(robot: Any, n: int | None) -> Any:
 def _gain_sets(gains: Any, joints: int) -> tuple[Any, ...]:
     """The gain sets of the hyperbolic family with the right number of joints."""
     if gains is None or isinstance(gains, (str, Path)):
-        from lyapcheck.control import paper_gain_file, read_gain_file
+        from lyapcheck.control.gains import read_gain_file
+        from lyapcheck.control.paper import paper_gain_file
 
         gains = paper_gain_file(DEFAULT_GAINS) if gains is None else gains
         gains = read_gain_file(gains) if isinstance(gains, (str, Path)) else gains

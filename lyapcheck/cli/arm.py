@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainFile
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
 

@@ -18,9 +18,9 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate import Task
+    from lyapcheck.simulate.task import Task
 
 MOST_TORQUE = 1e6
 

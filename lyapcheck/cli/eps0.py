@@ -10,7 +10,7 @@ from lyapcheck.errors import argument_error
 
 if TYPE_CHECKING:
     from lyapcheck.cli.progress import Advance
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 CERTIFIED = "certified"

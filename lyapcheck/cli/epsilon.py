@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from lyapcheck.answers.epsilon import EpsilonResult
-    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
 
 

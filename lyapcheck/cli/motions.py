@@ -19,11 +19,14 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
-    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate import Run, Task
+    from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.starts import Starts, Sweep
-    from lyapcheck.tracking import Reference, Request, TrackingRun
+    from lyapcheck.simulate.task import Task
+    from lyapcheck.tracking.reference import Reference
+    from lyapcheck.tracking.request import Request
+    from lyapcheck.tracking.run import TrackingRun
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,9 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
     """The set-point task, by the equations or on the bench."""
     from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.answers.simulate.samples import runs_csv
-    from lyapcheck.simulate import PromiseBroken, SimulationFailed, experiment, simulate
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+    from lyapcheck.simulate.trial import experiment
 
     runs: list[Run] = []
     mover = experiment if bench else partial(simulate, stop=stop)
@@ -113,7 +118,8 @@ def follow(job: Job, reference: Reference, request: Request, *, stop: bool) -> E
     """The tracking scheme (21) along a reference."""
     from lyapcheck.answers.simulate.samples import tracking_csv
     from lyapcheck.answers.simulate.tracking import TrackingRuns
-    from lyapcheck.tracking import TrackingFailed, track_as_asked
+    from lyapcheck.tracking.run import TrackingFailed
+    from lyapcheck.tracking.simulation import track_as_asked
 
     runs: list[TrackingRun] = []
     for gain_set, tell in job.each():

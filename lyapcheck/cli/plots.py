@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.cli.output import write_whole
 
 if TYPE_CHECKING:
-    from lyapcheck.simulate import Run
-    from lyapcheck.tracking import TrackingRun
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.tracking.run import TrackingRun
 
 
 def plot_run(run: Run, number: int, place: Path) -> None:

@@ -72,7 +72,8 @@ def _formats(text: str) -> tuple[str, ...]:
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
     from lyapcheck.cli.m_range import parse_m
-    from lyapcheck.control import paper_gain_file, read_gain_file
+    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.report.build import Subject
     from lyapcheck.robots import load
 

@@ -79,9 +79,9 @@ def command(
     below (9), every motor within its limit. Exit code 1 if such a state is confirmed in balls, 3 if a run
     could not be finished; what was reached is written and marked.
     """
-    from lyapcheck.control import read_gain_file
+    from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
-    from lyapcheck.tracking import read_reference
+    from lyapcheck.tracking.reference import read_reference
 
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))

@@ -16,9 +16,10 @@ from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate import Task
     from lyapcheck.simulate.starts import Starts
-    from lyapcheck.tracking import Reference, Request
+    from lyapcheck.simulate.task import Task
+    from lyapcheck.tracking.reference import Reference
+    from lyapcheck.tracking.request import Request
 
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""

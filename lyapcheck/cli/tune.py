@@ -153,7 +153,7 @@ def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | N
 
 
 def _written(values: tuple[Fraction, ...]) -> str:
-    from lyapcheck.files import decimal_text
+    from lyapcheck.files.decimals import decimal_text
 
     return ",".join(map(decimal_text, values))
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from lyapcheck.errors import InputError
 from lyapcheck.family.registry import LARGEST_M, names
-from lyapcheck.files import Document, Fields, Notes, open_document
+from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.place import KeyPath, Place
+from lyapcheck.files.toml import Document, open_document
 
 
 @dataclass(frozen=True)

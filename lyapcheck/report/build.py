@@ -13,7 +13,7 @@ from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Data, Report
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainFile
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
 PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")

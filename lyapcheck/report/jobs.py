@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate import Run
+    from lyapcheck.simulate.run import Run
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
@@ -54,7 +54,7 @@ def claims_job(proof: str, m: int, robot: str, gains: str) -> list[dict[str, Any
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     """The four ε₀ of one gain set, its worst states, and the reference simulation."""
-    from lyapcheck.control import read_gain_file
+    from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
     gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
@@ -73,7 +73,7 @@ def sensitivity_job(sets: Sequence[tuple[str, str]], robot: str, seed: int) -> d
         seed: of all random choices.
     """
     from lyapcheck.compiled.compiler import compiler
-    from lyapcheck.control import read_gain_file
+    from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
     from lyapcheck.sensitivity.json import study_json
     from lyapcheck.sensitivity.study import study
@@ -100,7 +100,8 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
     """The paper's experiment where the arm has its three joints, else a step of 45° in every joint."""
-    from lyapcheck.simulate import PAPER_TASK, simulate
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.task import PAPER_TASK
 
     if model.n == len(PAPER_TASK.q_d):
         task = PAPER_TASK

@@ -73,7 +73,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.errors import InputError
-from lyapcheck.files import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.robots import trig
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes

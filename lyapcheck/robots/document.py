@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files import Document, open_document
+from lyapcheck.files.toml import Document, open_document
 
 LARGEST_ARM_FILE = 1_000_000
 """Bytes; an arm of nine joints with a page of notes has about twenty thousand."""

@@ -7,7 +7,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import cast
 
-from lyapcheck.files import Fields, Notes, decimal_text
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.place import KeyPath
 from lyapcheck.files.rules import RETYPE, UNPRINTABLE
 from lyapcheck.robots.number import Number

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.errors import InputError
-from lyapcheck.files import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_motor
 from lyapcheck.robots.model import RobotModel

@@ -8,7 +8,8 @@ from itertools import islice, product
 
 from flint import fmpq, fmpq_mat
 
-from lyapcheck.files import Notes, decimal_text
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.fields import Notes
 from lyapcheck.robots.model import RobotModel
 
 _STATES = 8

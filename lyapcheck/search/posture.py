@@ -11,7 +11,7 @@ from lyapcheck._types import SEED
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.search.setting import Setting

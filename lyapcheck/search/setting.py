@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from flint import fmpq_mpoly
 
     from lyapcheck.check.loop.states import Term
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from lyapcheck.simulate.batch_runs import settling_times
 from lyapcheck.simulate.gains import Gains, gains_for
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 

@@ -13,7 +13,7 @@ from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.printed import PRINTED, Printed
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.sensitivity.bench_runs import Outcomes
 

@@ -21,7 +21,7 @@ from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.task import PAPER_TASK
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.sensitivity.design import Design
     from lyapcheck.simulate.printed import Printed

@@ -19,7 +19,7 @@ from lyapcheck.simulate.batch_task import BatchTask, batch_task, grouped
 from lyapcheck.simulate.integrate import MAX_STEPS
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

@@ -16,7 +16,7 @@ from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import FARTHEST, FASTEST, task_for
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

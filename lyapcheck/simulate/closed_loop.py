@@ -27,7 +27,7 @@ from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

@@ -16,7 +16,7 @@ from lyapcheck.simulate.integrate import integrate
 from lyapcheck.simulate.setup import set_up
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

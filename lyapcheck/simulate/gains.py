@@ -10,7 +10,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import Task, task_for
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

@@ -21,7 +21,7 @@ from lyapcheck.simulate.results import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.task import Task
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

@@ -17,7 +17,7 @@ from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

@@ -18,7 +18,7 @@ from lyapcheck._types import Array
 from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.bounds import robot_bounds
-from lyapcheck.files import round_down
+from lyapcheck.files.decimals import round_down
 from lyapcheck.lyapunov.scalar import scalar_form
 
 if TYPE_CHECKING:

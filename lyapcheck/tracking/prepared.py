@@ -22,7 +22,7 @@ from lyapcheck.tracking.run import Motion, Promise, TrackingRun
 from lyapcheck.tracking.torque import torque_bounds
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 

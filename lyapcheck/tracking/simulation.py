@@ -17,7 +17,7 @@ from lyapcheck.tracking.request import BAND, POINTS, Request, request_for
 from lyapcheck.tracking.run import TrackingFailed, TrackingRun
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 
@@ -68,7 +68,7 @@ def track(
 
     Examples:
         >>> from fractions import Fraction as F
-        >>> from lyapcheck.control import paper_gain_file, read_gain_file
+        >>> from lyapcheck import paper_gain_file, read_gain_file
         >>> from lyapcheck.robots import load
         >>> from lyapcheck.tracking.reference import MinimumJerk
         >>> way = MinimumJerk((F(0),) * 3, (F(45), F(45), F(90)), F(2))

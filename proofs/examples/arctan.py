@@ -42,7 +42,7 @@ from lyapcheck.claims import (
     total,
     var,
 )
-from lyapcheck.control import GainSet
+from lyapcheck.control.gains import GainSet
 
 proof = Proof("arctan", "arctan in place of h: global asymptotic stability for every arm and all gains")
 

@@ -24,7 +24,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainFile
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.search.decay_results import MotionBound
 
 RULES = {

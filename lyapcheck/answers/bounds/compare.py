@@ -15,7 +15,7 @@ from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound
     from lyapcheck.simulate.task import Task

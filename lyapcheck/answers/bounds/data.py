@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison

@@ -12,7 +12,7 @@ from lyapcheck.output.annotations import Annotation, Level
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.result import EpsilonResult
-    from lyapcheck.control import GainFile
+    from lyapcheck.control.gains import GainFile
 
 CERTIFIED, FALSIFIED = "certified", "falsified"
 RULES = {

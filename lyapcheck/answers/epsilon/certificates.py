@@ -9,7 +9,7 @@ from urllib.parse import quote
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.statement import Proof
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult

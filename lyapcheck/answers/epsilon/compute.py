@@ -33,7 +33,7 @@ from lyapcheck.search.setting import Setting
 from lyapcheck.search.weights import weighted_epsilon
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
 

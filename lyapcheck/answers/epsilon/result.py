@@ -15,7 +15,7 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop import Closure
-    from lyapcheck.control import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.output.annotations import Annotation
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.proof import Proof

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.result import EpsilonResult

@@ -40,7 +40,7 @@ def gate(
     References: (10), (19) and Section 4 of reyes2019family.
 
     Example:
-        >>> from lyapcheck.control import paper_gain_file, read_gain_file
+        >>> from lyapcheck import paper_gain_file, read_gain_file
         >>> [result.verdict for result in gate(read_gain_file(paper_gain_file("table2")))]
         ['accepted', 'rejected', 'rejected']
     """

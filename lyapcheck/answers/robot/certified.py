@@ -30,7 +30,7 @@ from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.finding import Finding, broken, shown
 from lyapcheck.constants import SEED, Constant
 from lyapcheck.constants.arm_waves import ArmWaves
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade

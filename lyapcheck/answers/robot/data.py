@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.robot.certified import Certified
 from lyapcheck.constants import SEED
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.answers.robot.properties import Property

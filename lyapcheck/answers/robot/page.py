@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.robot.certified import Certified
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict

@@ -15,7 +15,7 @@ from lyapcheck.check.statement import Monomials, Statement
 from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.moving_arm import ranges_of
 from lyapcheck.claims.procedures import propose
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel, trig
 from lyapcheck.search.inertia import mass_of
 

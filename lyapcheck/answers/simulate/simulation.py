@@ -14,7 +14,7 @@ from lyapcheck.output.document import Block, Bullets, Document, Section, Table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.control import GainFile
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.breach import Breach
 
 PROMISES, FINISHED = "promises", "finished"

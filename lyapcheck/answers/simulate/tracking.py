@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck.answers.simulate.numbers import NONE, cell, plain, plains, row
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 

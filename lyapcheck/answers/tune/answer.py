@@ -11,7 +11,7 @@ from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, Compari
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.gains import Bounds
 from lyapcheck.control.limits import Limits
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit

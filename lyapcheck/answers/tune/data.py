@@ -11,7 +11,7 @@ from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedJoint
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 DIGITS = 20
 

@@ -14,7 +14,7 @@ from lyapcheck.answers.tune.results import TUNED, TunedSet
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.control.gains import Bounds
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 HEAD = """\
 # The largest gains that meet (10p) and (19), with {targets}.

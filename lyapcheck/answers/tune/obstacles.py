@@ -7,7 +7,7 @@ from fractions import Fraction
 from lyapcheck.answers.tune.room import Room
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.limits import Limits
-from lyapcheck.files import decimal_text, round_down
+from lyapcheck.files.decimals import decimal_text, round_down
 
 
 def unknown(limits: Limits) -> list[str]:

@@ -8,7 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files import decimal_text
+from lyapcheck.files.decimals import decimal_text
 
 MOST_DIGITS = 12
 Number = int | str | Fraction | Decimal

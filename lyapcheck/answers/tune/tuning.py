@@ -20,7 +20,7 @@ from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.files import round_down
+from lyapcheck.files.decimals import round_down
 from lyapcheck.robots import RobotModel, load
 
 WRITTEN_PLACES = 12

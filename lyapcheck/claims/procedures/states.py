@@ -151,7 +151,7 @@ def _by_boxes(statement: Decreasing) -> Finding:
 
 def setting_of(statement: Decreasing) -> Setting:
     """The arm at the middle of its ranges under the controller, for a search."""
-    from lyapcheck.control import GainSet
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.search.setting import Setting
 
     gains = GainSet(

@@ -9,7 +9,7 @@ from pathlib import Path
 from flint import fmpq_mpoly_ctx
 
 from lyapcheck.errors import InputError
-from lyapcheck.files import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.robots import trig
 from lyapcheck.robots.chain import exact_chain
 from lyapcheck.robots.chain_bounds import chain_bounds

@@ -6,7 +6,7 @@ import re
 from fractions import Fraction
 
 from lyapcheck.errors import Problem
-from lyapcheck.files import printable
+from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import LARGEST
 from lyapcheck.robots.urdf.xml import Element
 

@@ -24,7 +24,9 @@ from pathlib import Path
 from typing import cast
 
 from lyapcheck.errors import InputError
-from lyapcheck.files import Fields, Notes, NotFinite, open_document
+from lyapcheck.files.decimals import NotFinite
+from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.toml import open_document
 from lyapcheck.tracking.reference.base import Reference
 from lyapcheck.tracking.reference.minimum_jerk import MinimumJerk
 from lyapcheck.tracking.reference.recorded import DEGREES, Recorded

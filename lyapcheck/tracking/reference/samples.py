@@ -12,7 +12,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files import printable
+from lyapcheck.output.escapes import printable
 
 MOST_ROWS = 200_000
 MOST_PROBLEMS = 20
