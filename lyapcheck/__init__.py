@@ -6,8 +6,6 @@ The names below are the whole public interface. Each is imported from its home w
 
 from __future__ import annotations
 
-from lyapcheck.lazy import exporter
-
 TYPE_CHECKING = False  # typing takes longer to import than a short command to run
 if TYPE_CHECKING:
     from typing import Any
@@ -164,16 +162,18 @@ _HOMES = {
 """The module of each public name, and its name there if that is another."""
 
 
-_find = exporter(__name__, _HOMES)
-
-
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, and keep it."""
-    if name == "__version__":
-        from importlib.metadata import version
+    from importlib import import_module, metadata
 
-        return version(__name__)
-    return _find(name)
+    if name == "__version__":
+        return metadata.version(__name__)
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, _, inside = _HOMES[name].partition(":")
+    value = getattr(import_module(f"{__name__}.{module}"), inside or name)
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:

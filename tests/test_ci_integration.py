@@ -126,7 +126,7 @@ def action(folder, environment, **inputs):
 @pytest.mark.parametrize(
     ("gains", "robot", "code", "words"),
     [
-        (GOOD, "", 0, "::notice title=lyapcheck gate::1 of 1 gain sets accepted"),
+        (GOOD, "", 0, "::notice title=lyapcheck gate::✓ 1 accepted"),
         (GOOD, "buap3-small", 1, "::error file=gains.toml,line=6"),
         (BAD, "", 1, "::error file=gains.toml,line=6,col=11"),
         ("robot = 1\n", "", 2, ""),
@@ -137,7 +137,7 @@ def test_the_action_annotates_and_fails(gains, robot, code, words, tmp_path, env
     done, summary = action(tmp_path, environment, ROBOT=robot)
     assert done.returncode == code, done.stdout + done.stderr
     assert words in done.stdout
-    assert summary.startswith("### ") if code < 2 else summary == ""
+    assert summary.startswith("# ") if code < 2 else summary == ""
 
 
 def test_the_action_takes_conditions_and_strictness(tmp_path, environment):
