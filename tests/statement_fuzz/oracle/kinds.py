@@ -54,9 +54,11 @@ def confirms(statement: Any, witness: Mapping[str, Any]) -> bool | None:
 
 def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
+        arms,
         bounds,
         every_n,
         printed,
         relations,
+        same_harmonics,
         small,
     )
