@@ -57,6 +57,7 @@ def _load() -> None:
     from tests.statement_fuzz.generators import (  # noqa: F401
         arms,
         constants,
+        controlled,
         every_n,
         for_all,
         identities,

@@ -56,6 +56,7 @@ def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
         arms,
         bounds,
+        decreasing,
         every_n,
         printed,
         relations,
