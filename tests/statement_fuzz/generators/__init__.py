@@ -62,9 +62,13 @@ def _load() -> None:
         for_all,
         identities,
         implications,
+        loop_properties,
         moving_arms,
         norms,
         printed,
+        resting,
+        settling,
         small,
+        theorems,
         trigonometric,
     )

@@ -58,8 +58,12 @@ def _load() -> None:
         bounds,
         decreasing,
         every_n,
+        loop_properties,
         printed,
         relations,
+        resting,
         same_harmonics,
+        settling,
         small,
+        theorems,
     )
