@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -123,28 +124,13 @@ def _of_coriolis(random: Random, kind: Any) -> Made:
     return Made(kind(arm.mass, arm.parameters, printed), family, truth)
 
 
-@generates("CoriolisAtRest", 0.5)
-def at_rest(random: Random) -> Made:
-    """C(q, 0) = 0."""
-    return _of_coriolis(random, CoriolisAtRest)
-
-
-@generates("RateOfMass", 0.6)
-def rate(random: Random) -> Made:
-    """Ṁ = C + Cᵀ."""
-    return _of_coriolis(random, RateOfMass)
-
-
-@generates("RateLessTwiceCoriolis", 0.6)
-def skew(random: Random) -> Made:
-    """Ṁ − 2C is skew-symmetric."""
-    return _of_coriolis(random, RateLessTwiceCoriolis)
-
-
-@generates("CoriolisTorque", 0.6)
-def torque(random: Random) -> Made:
-    """C(q, w)w is that of the Christoffel symbols."""
-    return _of_coriolis(random, CoriolisTorque)
+for _kind, _weight in (
+    (CoriolisAtRest, 0.5),
+    (RateOfMass, 0.6),
+    (RateLessTwiceCoriolis, 0.6),
+    (CoriolisTorque, 0.6),
+):
+    generates(_kind.__name__, _weight)(partial(_of_coriolis, kind=_kind))
 
 
 @generates("GravityOfPotential", 0.6)

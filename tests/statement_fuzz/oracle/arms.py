@@ -226,27 +226,29 @@ def within(
     return (q, parameters) if inside else None
 
 
-@kinds.judges("MassAbove")
-def small_form(statement: Any, witness: Mapping[str, Any]) -> bool | None:
-    """Whether xᵀMx < low xᵀx at the posture."""
+def _product(statement: Any, witness: Mapping[str, Any]) -> tuple[list[list[Any]], list[Any]] | None:
+    """M(q) and the x of a witness, if it is one of this arm."""
     n = len(statement.mass)
     place, x = within(statement, witness, n), read(witness["point"], "x", n)
     if place is None or x is None:
-        return False
+        return None
+    return accurately(*place).matrix(statement.mass), [many(v) for v in x]
+
+
+@kinds.judges("MassAbove")
+def small_form(statement: Any, witness: Mapping[str, Any]) -> bool | None:
+    """Whether xᵀMx < low xᵀx at the posture."""
     with mp.workdps(DIGITS):
-        return _below(accurately(*place).matrix(statement.mass), [many(v) for v in x], statement.low)
+        found = _product(statement, witness)
+        return found is not None and _below(*found, statement.low)
 
 
 @kinds.judges("MassBelow")
 def large_product(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     """Whether ‖Mx‖ > high ‖x‖ at the posture."""
-    n = len(statement.mass)
-    place, x = within(statement, witness, n), read(witness["point"], "x", n)
-    if place is None or x is None:
-        return False
     with mp.workdps(DIGITS):
-        vector = [many(v) for v in x]
-        return _longer(times(accurately(*place).matrix(statement.mass), vector), statement.high, vector)
+        found = _product(statement, witness)
+        return found is not None and _longer(times(*found), statement.high, found[1])
 
 
 @kinds.judges("CoriolisBelow")
