@@ -185,8 +185,10 @@ def gravity_below(statement: Any, random: Random) -> Objection | None:
 
 
 def _longer(found: Sequence[Any], high: Fraction, *vectors: Sequence[Any]) -> bool:
-    """‖found‖ > high · the product of the lengths, beyond doubt."""
-    bound = many(max(high, Fraction(0))) ** 2
+    """‖found‖ > high · the product of the lengths, beyond doubt; no length is below 0."""
+    if high < 0:
+        return True
+    bound = many(high) ** 2
     for vector in vectors:
         bound = bound * dot(vector, vector)
     square = dot(found, found)

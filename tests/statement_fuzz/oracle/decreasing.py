@@ -108,6 +108,8 @@ def decreasing(statement: Any, random: Random) -> Objection | None:
     found = mass_above(low, random)
     if found is not None:
         return found
+    if (joint := _held(statement)) is not None:
+        return Objection("false", f"w = 0, e along joint {joint + 1}")
     best, at = rising(statement, random)
     if not best > -1e-6:
         return None
@@ -119,6 +121,13 @@ def decreasing(statement: Any, random: Random) -> Objection | None:
         f"{name} = {[float(x) for x in part]}" for name, part in zip("qew", state, strict=True)
     )
     return Objection("false", places)
+
+
+def _held(statement: Any) -> int | None:
+    """A joint along which V does not fall at rest, where dV/dt = −ε Σ λ_i k_pi h_i²."""
+    weights = statement.coupling or (1,) * len(statement.kp)
+    signs = [statement.eps0 * k * c for k, c in zip(statement.kp, weights, strict=True)]
+    return next((joint for joint, sign in enumerate(signs) if sign <= 0), None)
 
 
 def _rises(loop: Loop, state: Sequence[Sequence[Fraction]]) -> bool | None:

@@ -20,6 +20,9 @@ BEYOND = (Fraction(1, 10**20), Fraction(1, 10**6), Fraction(1, 100), Fraction(1)
 @kinds.objections_to("Resting")
 def resting(statement: Any, random: Random) -> Objection | None:
     """A joint and an error somewhat or far beyond its bound, at which it may rest."""
+    known = statement.family in ("tanh", "arctan", "algebraic") and statement.m is None
+    if not known and (statement.family != "hyperbolic" or statement.m is None):
+        return Objection("undefined", f"h, as there is no {statement.family} with m = {statement.m}")
     for joint, bound in enumerate(statement.errors):
         if bound is None:
             continue

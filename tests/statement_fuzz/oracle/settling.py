@@ -15,12 +15,12 @@ from tests.statement_fuzz.oracle.loop import DOUBLES, Loop
 from tests.statement_fuzz.oracle.region import Objection
 
 MOTIONS = 24
-STEP = 0.02
-MOST_STEPS = 700
-MARGIN = 1e-5
+STEP = 0.03
+MOST_STEPS = 600
+MARGIN = 1e-4
 """Relative; above the error of the motion by orders of magnitude."""
-STICKING = 50.0
-"""Dry friction is at most f and has the sign of w: f tanh(50 w)."""
+STEEPEST = 5.0
+"""Dry friction is at most f and has the sign of w: f tanh(kw), with kf as large as the step can follow."""
 
 
 class Motion:
@@ -37,6 +37,7 @@ class Motion:
         self.q = generator.uniform(-np.pi, np.pi, (n, MOTIONS))
         self.torque = corners[2] * np.array([[float(x)] for x in statement.torque])
         self.dry = np.array([[float(x)] for x in statement.dry])
+        self.steep = STEEPEST / max(0.1, float(np.max(self.dry)))
         self.dry = np.where(generator.random(MOTIONS) < 0.5, 1.0, 0.0) * self.dry
         self.loop: Loop = loop_of(statement, statement.viscous, ())
 
@@ -44,7 +45,7 @@ class Motion:
         """The derivatives of q, e and w."""
         q, e, w = z
         force = np.array(self.loop.force(list(q), list(e), list(w), DOUBLES))
-        force = force + self.torque - self.dry * np.tanh(STICKING * w)
+        force = force + self.torque - self.dry * np.tanh(self.steep * w)
         a = solved(self.loop.at(list(q), DOUBLES).matrix(self.loop.mass), list(force))
         return np.array([w, -w, np.array(a)])
 
