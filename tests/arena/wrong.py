@@ -1,5 +1,6 @@
-"""Changes after which a statement of an arm, a loop or small values is false, a refuted one true, or its
-proof none: for each what follows from the change by itself.
+"""Changes by which a statement becomes false for sure, a refuted one true, or a proof none.
+
+Each follows from what is changed by itself: no checker is asked.
 """
 
 from __future__ import annotations
@@ -211,7 +212,15 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("eps0",), "0", "no ε₀"),
     ],
     ("ForAll", "pieces of the domain"): [(("pieces",), [], "no piece")],
-    ("ForSmall", "leading term"): [(("identity", "multiples"), [], "none of what it takes")],
+    ("ForSmall", "leading term"): [
+        (
+            ("identity", "multiples"),
+            [{"hypothesis": 0, "weight": "1", "monomial": []}],
+            "a hypothesis that there is not",
+        ),
+        (("identity", "lift"), [[0, -1]], "a negative power"),
+        (("identity", "lift"), [[MANY, 1]], "a generator that there is not"),
+    ],
     ("ForSmall", "failure for small values"): [
         (("below",), "0", "below zero, where ε is not"),
         (("point",), [["x", "-1"]], "a point out of the ranges"),
