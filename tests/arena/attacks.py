@@ -384,6 +384,140 @@ ON_SMALL: list[Attack] = [
         "another entry without value",
     ),
 ]
+ON_LISTS_AND_SYMBOLS: list[Attack] = [
+    (
+        "torque-lower",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "CoriolisTorque",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [
+                        [[[], [], []], [[[[0, 0, 1, 0], "1"]], [], []]],
+                        [[[], [], []], [[], [], []]],
+                    ],
+                },
+            ),
+            (at(P), {"rule": "comparison of harmonics"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "the symbols of an M that is not symmetric",
+    ),
+    (
+        "torque-plain-refuted",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "CoriolisTorque",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [
+                        [[[], [], []], [[[[0, 0, 1, 0], "1/2"]], [], []]],
+                        [[[], [], []], [[], [], []]],
+                    ],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "true, for symbols of an M that is not symmetric",
+    ),
+    (
+        "less-ref-u",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "RateLessTwiceCoriolis",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "symbols of an M with more above the diagonal",
+    ),
+    (
+        "less-ref-l",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "RateLessTwiceCoriolis",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], []], [[[[1, 0, 0, 0], "1"]], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "symbols of an M with more below the diagonal",
+    ),
+    (
+        "g0",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {"gravity": [], "high": "1/1000000", "joints": 1, "kind": "GravityBelow", "parameters": []},
+            ),
+            (at(P), {"rule": "bisection"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "enclosure"),
+        ],
+        "the torque of no joint",
+    ),
+    (
+        "empty-sizes",
+        "ext.boxes",
+        [
+            (at(S), {"entries": [], "kind": "TrigonometricPositive"}),
+            (at(P), {"rule": "Fourier sums"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "no polynomial is positive",
+    ),
+    (
+        "trig0",
+        "ext.boxes",
+        [
+            (at(S), {"entries": [], "kind": "TrigonometricBound"}),
+            (at(P), {"rule": "Fourier sums"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "no polynomial is bounded",
+    ),
+    ("tree-words", "ext.boxes", [(at(P, "rate", "tree"), "believe me")], "words for a tree of boxes"),
+    (
+        "radius-endless",
+        "ext.boxes",
+        [(at(S, "kp", 0), HUGE), (at(S, "eps0"), HUGE[:3000])],
+        "gains for which norms suffice beyond all angles only",
+    ),
+    (
+        "harmonics-endless",
+        "ext.gravity-boxes",
+        [(at(S, "joints"), 9), (at(S, "gravity"), [[[[40] * 18, "1"]]])],
+        "a term of 81⁹ exponentials",
+    ),
+]
+
 SINGLE = [
     *ON_NUMBERS,
     *ON_RESTING,
@@ -392,6 +526,7 @@ SINGLE = [
     *ON_ARMS,
     *ON_PROPERTIES,
     *ON_SMALL,
+    *ON_LISTS_AND_SYMBOLS,
 ]
 
 FREE, ARM, TIME = "sca.arms.all.m1", "sca.arm.stable.m1", "tra.21.m1"
