@@ -65,7 +65,7 @@ FALSE: list[Compared] = [
     CoriolisAtRest(MASS, (), LEFT),
     RateOfMass(MASS, (), MOVED),
     RateOfMass(MASS, (), LEFT),
-    RateOfMass(LOPSIDED, (), ()),
+    RateOfMass(LOPSIDED, (), OWN),
     RateLessTwiceCoriolis(MASS, (), MOVED),
     RateLessTwiceCoriolis(MASS, (), LEFT),
     CoriolisTorque(MASS, (), LEFT),
@@ -86,6 +86,22 @@ def test_different_polynomials_are_refuted_and_not_proved(statement: Compared) -
     assert propose(statement).verdict is Verdict.REFUTED
     with pytest.raises(Refused, match="is not the same on both sides"):
         verify(statement, SameHarmonics())
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        RateOfMass(LOPSIDED, (), ()),
+        RateLessTwiceCoriolis(LOPSIDED, (), ()),
+        CoriolisTorque(LOPSIDED, (), OWN),
+    ],
+    ids=lambda s: type(s).__name__,
+)
+def test_a_matrix_that_is_not_symmetric_has_no_christoffel_symbols(statement: Compared) -> None:
+    """The formula depends on the order of the indices there; the checker keeps one order only."""
+    assert propose(statement).verdict is Verdict.UNDECIDED
+    with pytest.raises(Refused, match="must be symmetric"):
+        statement.require_well_formed()
 
 
 def test_a_printed_matrix_of_another_size_is_refused() -> None:

@@ -4,12 +4,24 @@ Good ones are taken as they are, the smallest of every kind and rule. Bad ones a
 a change after which the statement is false, undefined or about another arm, or the proof no longer one;
 digests are renewed, as whoever means harm would do. What is expected follows from the change, never from a
 checker.
+
+To rebuild everything, write the certificates of the shipped scripts and of ``extra`` into folders, of which
+the names begin the names of the files:
+
+    lyapcheck check proofs/examples/arctan.py --certificates OUT/arc
+    lyapcheck check proofs/asymptotics.py --certificates OUT/asy
+    lyapcheck check proofs/every_m.py --certificates OUT/eve
+    lyapcheck check proofs/published.py --m 1 --certificates OUT/pub
+    lyapcheck robot buap3 --certificates OUT/rob
+    lyapcheck check proofs/scalar.py --m 1 --certificates OUT/sca
+    lyapcheck check proofs/tracking.py --m 1 --certificates OUT/tra
+    python -m tests.arena.extra OUT/ext
+    python -m tests.arena.plant OUT/arc OUT/asy OUT/eve OUT/pub OUT/rob OUT/sca OUT/tra OUT/ext
 """
 
 from __future__ import annotations
 
 import copy
-import hashlib
 import json
 import shutil
 import sys
@@ -19,8 +31,12 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from tests.arena.attacks import attacks, encoded, sealed
+from tests.arena.wrong import BROKEN, FALSE, TRUE, put
+
 ARENA = Path(__file__).parent
 MAX_BYTES = 12_000
+MAX_PREMISE = 30_000
 OF_EACH = 4
 BAD_OF_EACH = 2
 REFUSED, NOT_ACCEPTED = ["refused"], ["refused", "undecided"]
@@ -35,13 +51,6 @@ NO_BOUND: dict[str, tuple[str, Any]] = {
 }
 
 Document = dict[str, Any]
-
-
-def sealed(document: Document) -> Document:
-    """The document under the digest of its content."""
-    content = {key: value for key, value in document.items() if key != "digest"}
-    text = json.dumps(content, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
-    return {**content, "digest": hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()}
 
 
 def kind_of(document: Document) -> tuple[str, str, str]:
@@ -83,6 +92,8 @@ def false_statement(document: Document) -> bool:
         relation["left"], relation["right"] = relation["right"], relation["left"]
         if not strict:
             relation["right"] = ["add", relation["right"], ["num", "-1"]]
+    elif kind in FALSE:
+        return FALSE[kind](statement)
     elif kind == "AllOf":
         parts = [{"verdict": "proved", "statement": part} for _, part in statement["parts"]]
         return any(false_statement(part) for part in parts)
@@ -103,6 +114,12 @@ def undefined(document: Document) -> bool:
         document["statement"]["bound"] = NO_VALUE
         return True
     return bool(found)
+
+
+def true_statement(document: Document) -> bool:
+    """Make a refuted statement true, or another one than the proof is against."""
+    change = TRUE.get((document["statement"]["kind"], document["proof"]["rule"]))
+    return document["verdict"] == "refuted" and change is not None and change(document["statement"])
 
 
 def opposite(document: Document) -> bool:
@@ -157,6 +174,7 @@ def other_words(document: Document) -> bool:
 
 CHANGES: dict[str, tuple[Callable[[Document], bool], list[str], str]] = {
     "false": (false_statement, REFUSED, "the statement is false"),
+    "true": (true_statement, REFUSED, "what the proof is against is not stated"),
     "undefined": (undefined, REFUSED, "a term of the statement has no value"),
     "opposite": (opposite, REFUSED, "a proof of the opposite verdict"),
     "rule": (other_rule, REFUSED, "no rule has this name"),
@@ -289,7 +307,7 @@ def read(folders: list[Path]) -> list[tuple[str, Document]]:
     found = [
         (f"{folder.name}.{path.stem}", path) for folder in folders for path in sorted(folder.glob("*.json"))
     ]
-    found = [(name, path) for name, path in found if path.stat().st_size <= MAX_BYTES]
+    found = [(name, path) for name, path in found if path.stat().st_size <= MAX_PREMISE]
     found.sort(key=lambda item: (item[1].stat().st_size, item[0]))
     return [(name, json.loads(path.read_text())) for name, path in found]
 
@@ -312,10 +330,6 @@ class Arena:
             for name, data in content:
                 (target / name).write_bytes(data)
         self.entries.append({"path": path, "expected": expected, "why": why})
-
-
-def encoded(document: Document) -> bytes:
-    return (json.dumps(document, sort_keys=True, ensure_ascii=False) + "\n").encode()
 
 
 def with_premises(document: Document, by_digest: dict[str, Document]) -> list[Document] | None:
@@ -366,19 +380,25 @@ def main(folders: list[str]) -> None:
     arena = Arena()
     good: dict[tuple[str, str, str], list[tuple[str, Document]]] = defaultdict(list)
     for name, document in documents:
-        if not document["uses"] and len(good[kind_of(document)]) < OF_EACH:
+        small = len(encoded(document)) <= MAX_BYTES
+        if small and not document["uses"] and len(good[kind_of(document)]) < OF_EACH:
             good[kind_of(document)].append((name, document))
     for (kind, verdict, rule), found in sorted(good.items()):
         for name, document in found:
             arena.add(f"good/{name}.json", encoded(document), ["accepted"], f"{kind} {verdict} by {rule}")
         for change, (make, expected, why) in CHANGES.items():
-            for name, document in found[: OF_EACH if change in ("false", "arm") else BAD_OF_EACH]:
+            for name, document in found[: OF_EACH if change in ("false", "true", "arm") else BAD_OF_EACH]:
                 changed = copy.deepcopy(document)
                 if make(changed):
                     arena.add(
                         f"bad/{change}.{name}.json", encoded(sealed(changed)), expected, f"{kind}: {why}"
                     )
         name, document = found[0]
+        for index, (path, value, why) in enumerate(BROKEN.get((kind, rule), [])):
+            if put((changed := copy.deepcopy(document))["proof"], path, value):
+                arena.add(
+                    f"bad/proof-{index}.{name}.json", encoded(sealed(changed)), REFUSED, f"{kind}: {why}"
+                )
         other_words(words := copy.deepcopy(document))
         arena.add(
             f"bad/words.{name}.json", encoded(words), REFUSED, f"{kind}: other words under the old digest"
@@ -389,6 +409,8 @@ def main(folders: list[str]) -> None:
     )
     for name, data, why in chain(no_documents(sample), no_certificates(sample), no_numbers(sample)):
         arena.add(f"bad/hostile.{name}.json", data, REFUSED, why)
+    for name, data, expected, why in attacks(dict(documents)):
+        arena.add(f"bad/attack.{name}", data, expected, why)
     arena.entries.sort(key=lambda entry: entry["path"])
     (ARENA / "expected.json").write_text(json.dumps(arena.entries, indent=1, ensure_ascii=False) + "\n")
     bad = sum(entry["path"].startswith("bad/") for entry in arena.entries)

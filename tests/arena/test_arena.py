@@ -4,20 +4,83 @@ from __future__ import annotations
 
 import json
 import sys
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
+from lyapcheck.check.codec import members, name_of
+from lyapcheck.check.kinds.for_all import Piece
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import RULES
 from tests.arena.run import ARENA, faults
+
+NEVER_ALONE = {
+    "Sturm",
+    "Taylor boxes",
+    "tree of boxes",
+    "bounds in ‖e‖",
+}
+"""Proofs that are part of others."""
 
 
 def test_the_arena_is_large_enough():
     entries = json.loads((ARENA / "expected.json").read_text())
     good = [entry for entry in entries if entry["expected"] == ["accepted"]]
-    assert len(good) >= 60
-    assert len(entries) - len(good) >= 200
+    assert len(good) >= 130
+    assert len(entries) - len(good) >= 1100
     assert {entry["path"] for entry in entries} == {
         path.relative_to(ARENA).as_posix() for side in ("good", "bad") for path in (ARENA / side).iterdir()
     }
+
+
+def documents(side: str) -> Iterator[Any]:
+    """For each entry of one side the document that it is about, of those that can be read."""
+    for path in sorted((ARENA / side).iterdir()):
+        try:
+            found = json.loads((path / "0.json" if path.is_dir() else path).read_bytes())
+        except (ValueError, RecursionError):
+            continue
+        if isinstance(found, dict):
+            yield found
+
+
+def rules_in(value: Any) -> Iterator[str]:
+    """The rules of a proof and of the proofs inside it."""
+    if isinstance(value, dict):
+        yield from (value["rule"] for _ in range(isinstance(value.get("rule"), str)))
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    for part in inner:
+        yield from rules_in(part)
+
+
+def kind_of(document: Any, key: str, name: str) -> Any:
+    found = document.get(key)
+    return found.get(name) if isinstance(found, dict) else None
+
+
+def test_every_kind_by_every_rule_has_good_files_and_bad_ones():
+    pairs = {(name_of(kind), name_of(by)) for kind, by in RULES}
+    counted = {
+        side: Counter(
+            (kind_of(one, "statement", "kind"), kind_of(one, "proof", "rule")) for one in documents(side)
+        )
+        for side in ("good", "bad")
+    }
+    assert {pair for pair in pairs if counted["good"][pair] < 1} == set()
+    assert {pair for pair in pairs if counted["bad"][pair] < 2} == set()
+
+
+def test_every_rule_inside_others_has_good_files_and_bad_ones():
+    rules = {*members(Proof), *members(Piece)}
+    assert rules >= NEVER_ALONE
+    counted = {
+        side: Counter(rule for one in documents(side) for rule in set(rules_in(one.get("proof"))))
+        for side in ("good", "bad")
+    }
+    assert {rule for rule in rules if counted["good"][rule] < 1} == set()
+    assert {rule for rule in rules if counted["bad"][rule] < 2} == set()
 
 
 @pytest.mark.slow

@@ -11,16 +11,33 @@ from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding, PrintedInputs
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.coriolis import (
+    CoriolisAtRest,
+    CoriolisTorque,
+    MassSymmetric,
+    RateLessTwiceCoriolis,
+    RateOfMass,
+)
+from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.every_n import EveryN, Given
 from lyapcheck.check.kinds.for_all import Boxes, ForAll, Pieces, Sturm
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
+from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
+from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
 from lyapcheck.claims.procedures import propose
+from tests.statement_fuzz.motions import decide_settling
 
 __all__ = [
     "FAMILY",
@@ -28,30 +45,48 @@ __all__ = [
     "About",
     "Agrees",
     "AllOf",
+    "ArmAndGains",
     "BoundEveryN",
     "Boxes",
     "Certificate",
+    "ClosedLoop",
     "Constant",
+    "CoriolisAtRest",
+    "CoriolisBelow",
+    "CoriolisTorque",
+    "DampingBelow",
+    "Decreasing",
     "EveryN",
     "ExactNumbers",
     "ForAll",
     "ForSmall",
     "Given",
+    "GravityBelow",
+    "GravityOfPotential",
     "Identity",
     "Implies",
     "LeadingTerm",
+    "LoopProperty",
+    "MassAbove",
+    "MassBelow",
+    "MassSymmetric",
     "NormBound",
     "NormalForm",
     "OutsideRounding",
     "Pieces",
     "PrintedInputs",
     "Proof",
+    "RateLessTwiceCoriolis",
+    "RateOfMass",
     "Relation",
+    "Resting",
     "SeparateBalls",
+    "Settling",
     "SignIdentity",
     "Statement",
     "Sturm",
     "Supremum",
+    "Theorem",
     "TrigonometricBound",
     "TrigonometricPositive",
     "Variable",
@@ -63,4 +98,4 @@ __all__ = [
 
 def decide(statement: Any) -> Any:
     """The verdict that the search proposes and the rules of the checker accept."""
-    return propose(statement)
+    return decide_settling(statement) if isinstance(statement, Settling) else propose(statement)

@@ -12,13 +12,13 @@ import pytest
 from lyapcheck.claims import Constant, Implies, Relation, expr, for_all, identity, positive, sqrt, var
 from lyapcheck.verdicts import Verdict
 from tests.statement_fuzz.__main__ import main
-from tests.statement_fuzz.generators import GENERATORS, Made, draw
+from tests.statement_fuzz.generators import GENERATORS, TRUE, Made, draw
 from tests.statement_fuzz.judge import Judged, judge
 from tests.statement_fuzz.oracle.kinds import OBJECTIONS, confirms, objection
 from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Tally, run
 from tests.statement_fuzz.shrink import shrunk
-from tests.statement_fuzz.subject import decide
+from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
 SEEDS = range(10)
 EACH = 1_000
@@ -55,6 +55,7 @@ def test_statements_are_neither_all_plain_nor_all_hopeless() -> None:
 def test_every_kind_that_is_written_has_an_oracle() -> None:
     written = {type(draw(0, 0, kind).statement).__name__ for kind in GENERATORS}
     assert written <= set(OBJECTIONS)
+    assert set(OF_ARMS) <= written
 
 
 def test_a_decision_without_end_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,6 +104,63 @@ def test_an_unsound_procedure_is_caught(wrong: Any) -> None:
 def test_each_kind_has_objections(kind: str) -> None:
     made = (draw(6, k, kind) for k in range(60))
     assert any(judge(one, 0, by=credulous).fault for one in made)
+
+
+OF_ARMS = (
+    *("MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "MassSymmetric", "CoriolisAtRest"),
+    *("RateOfMass", "RateLessTwiceCoriolis", "CoriolisTorque", "GravityOfPotential", "Decreasing"),
+    *("DampingBelow", "Resting", "LoopProperty", "Theorem", "Settling"),
+)
+BY_POINTS = OF_ARMS[:11]
+
+
+@pytest.mark.parametrize("kind", OF_ARMS)
+def test_the_oracle_sees_by_itself_what_is_false_of_arms(kind: str) -> None:
+    made = [draw(6, k, kind) for k in range(20 if kind == "Settling" else 60)]
+    found = [bool(judge(replace(one, truth=None), k, by=credulous).fault) for k, one in enumerate(made)]
+    assert sum(found) >= 3
+    for one, objected in zip(made, found, strict=True):
+        if one.truth is not None:
+            assert objected is (one.truth != TRUE), one
+
+
+@pytest.mark.parametrize("kind", BY_POINTS)
+def test_a_witness_against_an_arm_is_one_only_where_it_stands(kind: str) -> None:
+    decided = ((one.statement, decide(one.statement)) for one in (draw(8, k, kind) for k in range(60)))
+    statement, found = next(pair for pair in decided if pair[1].verdict is Verdict.REFUTED)
+    assert confirms(statement, found.witness)
+    moved = {name: value for name, value in found.witness["point"].items() if name != "q1"}
+    assert not confirms(statement, {"point": moved})
+    for bound, value in (("high", Fraction(10**40)), ("low", Fraction(0)), ("printed", ())):
+        if hasattr(statement, bound):
+            weaker = replace(statement, **{bound: value})
+            assert confirms(weaker, found.witness) is (objection(weaker, 0) is not None)
+
+
+def blind_to_a_factor(statement: Any) -> Any:
+    """Takes C for half of what it is."""
+    if isinstance(statement, CoriolisBelow):
+        return decide(replace(statement, high=statement.high * Fraction(5, 2)))
+    return decide(statement)
+
+
+def test_a_coriolis_matrix_of_half_the_size_is_caught() -> None:
+    found = (judge(draw(7, k, "CoriolisBelow"), k, by=blind_to_a_factor) for k in range(40))
+    assert any(one.verdict == "proved" and one.fault for one in found)
+
+
+def blind_to_friction(statement: Any) -> Any:
+    """Takes friction for more than it is."""
+    if isinstance(statement, Decreasing):
+        more = tuple((abs(b) + 1, abs(c) + 1) for b, c in statement.viscous)
+        return decide(replace(statement, viscous=more))
+    return decide(statement)
+
+
+def test_friction_that_is_not_there_is_caught() -> None:
+    made = [draw(9, k, "Decreasing") for k in range(60)]
+    lacking = [replace(one, truth=None) for one in made if one.family == "friction that may be negative"]
+    assert any(judge(one, 0, by=blind_to_friction).fault.startswith("false") for one in lacking)
 
 
 def blind_to_strictness(statement: Any) -> Any:

@@ -87,8 +87,12 @@ class _OfCoriolis(_OfMass):
     printed: Matrices
 
     def require_well_formed(self) -> None:
-        """Polynomials, n + 1 an entry, or none."""
+        """Polynomials, n + 1 an entry, or none; a symmetric M where its Christoffel symbols are meant."""
         super().require_well_formed()
+        if self.speaks_of_symbols:
+            for i, j in product(range(self.joints), repeat=2):
+                same = self.inertia.mass[i][j] == self.inertia.mass[j][i]
+                require(same, "mass", f"M{i + 1}{j + 1}", "must be symmetric to have Christoffel symbols")
         n = self.joints
         rows = [*self.printed, *chain.from_iterable(self.printed)]
         require(len(self.printed) in (0, n), "printed", len(self.printed), f"must have no or {n} rows")
@@ -96,6 +100,11 @@ class _OfCoriolis(_OfMass):
         fits = fits and all(len(entry) == n + 1 for entry in rows[len(self.printed) :])
         require(fits, "printed", "", f"must have {n} entries a row, each with {n + 1} polynomials")
         require_polynomials(chain.from_iterable(chain.from_iterable(self.printed)), n, self.parameters)
+
+    @property
+    def speaks_of_symbols(self) -> bool:
+        """Whether c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) enter, which need M = Mᵀ."""
+        return not self.printed
 
     @cached_property
     def _printed(self) -> list[list[list[Uncertain]]]:
@@ -192,6 +201,11 @@ class RateLessTwiceCoriolis(_OfCoriolis):
 @dataclass(frozen=True)
 class CoriolisTorque(_OfCoriolis):
     """C(q, w)w is that of the Christoffel symbols of M(q), for all q, w and parameters."""
+
+    @property
+    def speaks_of_symbols(self) -> bool:
+        """Always."""
+        return True
 
     def gaps(self) -> Iterator[Gap]:
         """What w_j w_k multiplies, and what w_j multiplies."""

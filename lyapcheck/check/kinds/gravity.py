@@ -45,6 +45,7 @@ class GravityBelow(Statement):
 
     def require_well_formed(self) -> None:
         """Polynomials, and a bound that is not negative."""
+        require(len(self.gravity) > 0, "gravity", "", "must have an entry")
         require_polynomials(self.gravity, self.joints, self.parameters)
         require(self.high >= 0, "high", self.high, "must not be negative")
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
 from itertools import chain
+from math import prod
 
 from flint import arb
 
@@ -26,6 +27,8 @@ from lyapcheck.check.verify import Accepted, rule
 MAX_ARM = 9
 MAX_POWER = 40
 MAX_PARAMETERS = 16
+MAX_HARMONICS = 2_000_000
+"""Products of exponentials to which polynomials may be expanded; those of a seven-joint arm are 260,000."""
 LONGEST = 600
 """Characters beyond which M(q) is no longer written out."""
 Mass = tuple[tuple[Monomials, ...], ...]
@@ -50,9 +53,12 @@ def require_polynomials(entries: Iterable[Monomials], n: int, parameters: tuple[
     """
     length = 2 * n + len(parameters)
     require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    harmonics = 0
     for powers, _ in chain.from_iterable(entries):
         fits = len(powers) == length and all(0 <= p <= MAX_POWER for p in powers)
         require(fits, "exponents", powers, f"must be {length} numbers from 0 to {MAX_POWER}")
+        harmonics += prod(sine + cosine + 1 for sine, cosine in zip(powers[:n], powers[n:], strict=False))
+        require(harmonics <= MAX_HARMONICS, "harmonics", harmonics, f"must not exceed {MAX_HARMONICS}")
     require(len(parameters) <= MAX_PARAMETERS, "parameters", len(parameters), "are too many")
     for low, high in parameters:
         require(low <= high, "range", f"[{low}, {high}]", "is empty")

@@ -215,5 +215,5 @@ def _envelope_text(envelope: Envelope) -> str:
     written = ", ".join(rows)
     if len(written) <= LONGEST:
         return written
-    digest = sha256(repr(envelope).encode()).hexdigest()[:16]
+    digest = sha256(repr(envelope).encode()).hexdigest()[:32]
     return f"{rows[0]}, …, {rows[-1]} ({len(rows)} times and levels with digest {digest})"

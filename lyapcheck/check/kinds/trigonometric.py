@@ -32,6 +32,7 @@ class TrigonometricBound(Statement):
 
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
+        require(len(self.entries) > 0, "entries", "", "must be one or more")
         require_expressions(tree for tree, _ in self.entries)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
@@ -57,6 +58,7 @@ class TrigonometricPositive(Statement):
 
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
+        require(len(self.entries) > 0, "entries", "", "must be one or more")
         require_expressions(self.entries)
 
     def terms(self) -> list[tuple[Tree, Domain]]:

@@ -27,6 +27,9 @@ from lyapcheck.check.numbers.members import Member, member
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
 
+LARGEST_RADIUS = 1 << 64
+"""Radians; what takes more is no statement about an arm."""
+
 Range = tuple[Fraction, Fraction]
 
 
@@ -164,13 +167,15 @@ class Closure:
         """A double R ≥ 0 beyond which the scalar form is enough.
 
         Raises:
-            ValueError: the closure is not admissible, and there may be no such radius.
+            ValueError: the closure is not admissible, or the radius is beyond all angles.
         """
         if not self.admissible:
             raise ValueError("a closure that is not admissible has no radius")
         radius = Fraction(1, 64)
         while not certifies(self.tail, self.eps0 / (1 + radius)):
             radius = radius * 5 / 4
+            if radius > LARGEST_RADIUS:
+                raise ValueError(f"beyond ‖e‖ = {LARGEST_RADIUS} the scalar form is still not enough")
         return math.nextafter(float(radius), math.inf)
 
     @property

@@ -105,6 +105,10 @@ def _apply_theorem(statement: kinds.Theorem) -> Finding:
     if statement.name not in THEOREMS:
         known = "; ".join(sorted(THEOREMS))
         return still_open(f"the checker knows no theorem of that name, only: {known}", "theorem")
+    try:
+        verify(statement, Application())
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the hypotheses or the numbers of the loop", "theorem")
     hypotheses = dict(statement.hypotheses)
     return shown(Application(), f"theorem: {statement.name}", hypotheses=hypotheses)
 

@@ -70,6 +70,9 @@ def _with_mass(statement: Decreasing | DampingBelow, by: BoxTree) -> PositiveAnd
 
 def find_damping_below(statement: DampingBelow) -> Finding:
     """Look for a κ that breaks the bound and an ε₀ at which norms alone give dV/dt < 0; never proves."""
+    positive = find_mass_above(mass_positive(statement.with_damping(Fraction(1), Fraction(1))))
+    if positive.verdict is not Verdict.PROVED:
+        return still_open(f"M ≻ 0 is not shown: {positive.reason or 'it is refuted'}", METHOD)
     for factor in _factors(statement):
         numbers = find_constant(statement.below(factor))
         eps0 = _small_enough(statement.with_damping(factor, Fraction(1)))

@@ -31,10 +31,10 @@ class Made:
 
 
 Generator = Callable[[Random], Made]
-GENERATORS: dict[str, tuple[int, Generator]] = {}
+GENERATORS: dict[str, tuple[float, Generator]] = {}
 
 
-def generates(name: str, weight: int) -> Callable[[Generator], Generator]:
+def generates(name: str, weight: float) -> Callable[[Generator], Generator]:
     """Enter a generator, and how often it is asked."""
 
     def enter(function: Generator) -> Generator:
@@ -55,13 +55,20 @@ def draw(seed: int, index: int, only: str | None = None) -> Made:
 
 def _load() -> None:
     from tests.statement_fuzz.generators import (  # noqa: F401
+        arms,
         constants,
+        controlled,
         every_n,
         for_all,
         identities,
         implications,
+        loop_properties,
+        moving_arms,
         norms,
         printed,
+        resting,
+        settling,
         small,
+        theorems,
         trigonometric,
     )

@@ -91,7 +91,8 @@ def _near(random: Random) -> Made:
         with exact.kept(False), mp.workdps(60):
             value = lifted(Evaluation({}).of(tree))
             digits = random.choice((2, 6, 12, 30))
-            if not -LARGEST < value.low < LARGEST:
+            too_wide = (value.high - value.low) * 10 ** (digits + 1) > 1
+            if not -LARGEST < value.low < LARGEST or too_wide:
                 raise Unsure
             near = Fraction(int(mp.floor(value.low * 10**digits)), 10**digits)
     except (Undefined, Unsure):

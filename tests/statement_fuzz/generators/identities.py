@@ -8,23 +8,19 @@ from fractions import Fraction
 from random import Random
 
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
+from tests.statement_fuzz.generators.laws import everywhere, somewhere
 from tests.statement_fuzz.generators.traps import disguised, hidden_zero
 from tests.statement_fuzz.generators.trees import (
-    ONE,
-    TWO,
+    ZERO,
     Tree,
     add,
-    div,
     mul,
-    neg,
     nonzero,
     num,
     power,
-    root,
     rough,
     small_number,
     smooth,
-    sub,
     var,
 )
 from tests.statement_fuzz.subject import Identity, Variable
@@ -102,57 +98,14 @@ def _law(random: Random) -> Made:
     a = var("x") if random.random() < 0.6 else smooth(random, ["x"], 1)
     b = var("y") if random.random() < 0.6 else num(nonzero(random))
     k = num(random.choice((2, 3, -1, "1/2")))
-    everywhere = [
-        (root(power(a, 2)), ("abs", a)),
-        (("sin", mul(TWO, a)), mul(TWO, ("sin", a), ("cos", a))),
-        (power(("cosh", a), 2), add(ONE, power(("sinh", a), 2))),
-        (("tanh", a), div(("sinh", a), ("cosh", a))),
-        (("h", 1, a), ("tanh", a)),
-        (("exp", add(a, b)), mul(("exp", a), ("exp", b))),
-        (("atan", neg(a)), neg(("atan", a))),
-        (("cos", neg(a)), ("cos", a)),
-        (("abs", mul(a, b)), mul(("abs", a), ("abs", b))),
-        (("log", ("exp", a)), a),
-        (("sin", add(a, b)), add(mul(("sin", a), ("cos", b)), mul(("cos", a), ("sin", b)))),
-        (hidden_zero(random, ["x"]), num(0)),
-        (power(add(a, b), 2), add(power(a, 2), mul(TWO, a, b), power(b, 2))),
-        (div(a, add(ONE, power(b, 2))), mul(a, div(ONE, add(ONE, power(b, 2))))),
-    ]
-    partly = [
-        (power(root(a), 2), a),
-        (mul(root(a), root(b)), root(mul(a, b))),
-        (("exp", ("log", a)), a),
-        (("log", mul(a, b)), add(("log", a), ("log", b))),
-        (("log", power(a, 2)), mul(TWO, ("log", a))),
-        (div(a, a), ONE),
-        (div(ONE, div(ONE, a)), a),
-        (("tan", a), div(("sin", a), ("cos", a))),
-        (mul(("tan", a), ("cos", a)), ("sin", a)),
-        (("sin", ("asin", a)), a),
-        (("asin", ("sin", a)), a),
-        (root(power(a, 2)), a),
-        (sub(("log", a), ("log", a)), num(0)),
-        (power(("log", a), 0), ONE),
-        (power(a, 0), ONE),
-        (div(sub(power(a, 2), power(b, 2)), sub(a, b)), add(a, b)),
-        (add(("asin", a), ("acos", a)), div(("pi",), TWO)),
-        (mul(k, div(a, k)), a),
-        (div(power(a, 3), a), power(a, 2)),
-        (("abs", a), a),
-        (("atan", ("tan", a)), a),
-        (add(div(a, b), div(b, a)), div(add(power(a, 2), power(b, 2)), mul(a, b))),
-        (div(div(a, b), div(a, b)), ONE),
-        (mul(num(0), ("log", a)), num(0)),
-        (root(div(a, b)), div(root(a), root(b))),
-    ]
     if random.random() < 0.4:
-        left, right = random.choice(everywhere)
+        left, right = random.choice((*everywhere(a, b), (hidden_zero(random, ["x"]), ZERO)))
         if random.random() < 0.4:
             return Made(
                 _identity(random, left, add(right, num(random.choice((1, "1/1000000"))))), "a law, off", FALSE
             )
         return Made(_identity(random, left, right), "a law that holds", TRUE)
-    left, right = random.choice(partly)
+    left, right = random.choice(somewhere(a, b, k))
     if random.random() < 0.15:
         right = mul(right, num(small_number(random)))
     return Made(_identity(random, left, right), "a law that holds somewhere")

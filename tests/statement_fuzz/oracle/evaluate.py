@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -54,15 +54,15 @@ class Evaluation:
         return functions.pi() if kind == "pi" else family.constant(kind, rest[0])
 
     def _combined(self, kind: str, rest: list[Any]) -> Any:
-        parts = self._parts(rest)
+        parts = self.parts(rest)
         if kind == "div":
             return self._quotient(rest[1], *parts)
         if kind == "tan":
             self.divisors["cos", rest[0]] = sign(functions.apply("cos", parts[0]))
         return ARITHMETIC[kind](parts) if kind in ARITHMETIC else functions.apply(kind, parts[0])
 
-    def _parts(self, trees: list[Tree]) -> list[Any]:
-        """All parts: one that has no value makes the whole undefined, even beside one that is not known."""
+    def parts(self, trees: Iterable[Tree]) -> list[Any]:
+        """All values: one that does not exist makes it undefined, even beside one that is not known."""
         unsure: Unsure | None = None
         found = []
         for tree in trees:

@@ -54,9 +54,16 @@ def confirms(statement: Any, witness: Mapping[str, Any]) -> bool | None:
 
 def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
+        arms,
         bounds,
+        decreasing,
         every_n,
+        loop_properties,
         printed,
         relations,
+        resting,
+        same_harmonics,
+        settling,
         small,
+        theorems,
     )

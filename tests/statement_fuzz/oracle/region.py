@@ -93,7 +93,7 @@ class Region:
     def _at(self, point: Point) -> Objection | None:
         evaluation = Evaluation(point)
         try:
-            values = _all(evaluation, self.terms())
+            values = evaluation.parts(self.terms())
         except Undefined as why:
             return Objection("undefined", f"{shown(point)} ({why})")
         finally:
@@ -140,26 +140,12 @@ class Region:
         for digits, forms in ((DIGITS, False), (DIGITS, True), (MORE_DIGITS, False)):
             try:
                 with mp.workdps(digits), exact.kept(forms):
-                    return self._breaks(_all(Evaluation(point), self.terms()))
+                    return self._breaks(Evaluation(point).parts(self.terms()))
             except Undefined:
                 return False
             except Unsure:
                 continue
         return None
-
-
-def _all(evaluation: Evaluation, trees: list[Tree]) -> list[Value]:
-    """The values of all expressions; undefined as soon as one certainly is."""
-    unsure: Unsure | None = None
-    values = []
-    for tree in trees:
-        try:
-            values.append(evaluation.of(tree))
-        except Unsure as problem:
-            unsure = problem
-    if unsure is not None:
-        raise unsure
-    return values
 
 
 def holds(operator: str, left: Value, right: Value) -> bool:

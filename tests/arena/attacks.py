@@ -1,0 +1,657 @@
+"""Certificates of arms, loops and theorems whose numbers, sizes or premises were chosen to deceive.
+
+Each is a certificate of the folders with values put at some places, under a renewed digest. Each statement is
+false, says nothing, or is not what the proof or the premises are about.
+"""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+Document = dict[str, Any]
+Path = tuple[str | int, ...]
+Edits = list[tuple[Path, Any]]
+Attack = tuple[str, str, Edits, str]
+Files = bytes | list[tuple[str, bytes]]
+
+LARGE = "1000000007"
+HUGE = "1" + "0" * 3999
+TINY = "1/" + "1" + "0" * 3990 + "7"
+NO_MASS: list[Any] = [[[]]]
+MINUS_MASS = [[[[[0, 0], "-1"]]]]
+SINGULAR = [[[[[0, 0, 0, 0], "1"]], [[[0, 0, 0, 0], "1"]]], [[[[0, 0, 0, 0], "1"]], [[[0, 0, 0, 0], "1"]]]]
+S, P = "statement", "proof"
+
+
+def at(place: str, *names: str | int) -> Path:
+    return (place, *names)
+
+
+NOT_A_NUMBER = [
+    "NaN",
+    "nan",
+    "Infinity",
+    "-Infinity",
+    "1e3",
+    "0x10",
+    "1/0",
+    "-0",
+    "00",
+    "2/2",
+    "1/-2",
+    "1.5",
+    "",
+]
+ON_NUMBERS: list[Attack] = [
+    *(
+        (f"torque-{k}", "ext.resting", [(at(S, "torque", 0), text)], f"a torque of {text or 'nothing'}")
+        for k, text in enumerate(NOT_A_NUMBER)
+    ),
+    ("torque-null", "ext.resting", [(at(S, "torque", 0), None)], "a torque that is null"),
+    ("torque-true", "ext.resting", [(at(S, "torque", 0), True)], "a torque that is true"),
+    ("torque-int", "ext.resting", [(at(S, "torque", 0), 2)], "a torque that is no text"),
+]
+ON_RESTING: list[Attack] = [
+    ("rest-torque-negative", "ext.resting", [(at(S, "torque"), ["-2", "-5"])], "negative bounds of torques"),
+    ("rest-torque-kp", "ext.resting", [(at(S, "torque", 0), "10"), (at(S, "errors", 0), HUGE)], "d = k_p"),
+    (
+        "rest-torque-peak",
+        "ext.resting",
+        [(at(S, "torque", 0), "11"), (at(S, "errors", 0), "1")],
+        "d above k_p",
+    ),
+    ("rest-kp-zero", "ext.resting", [(at(S, "kp", 0), "0")], "no stiffness"),
+    ("rest-kp-negative", "ext.resting", [(at(S, "kp", 0), "-10")], "a negative stiffness"),
+    ("rest-kp-tiny", "ext.resting", [(at(S, "kp", 0), TINY)], "hardly a stiffness"),
+    ("rest-swapped", "ext.resting", [(at(S, "kp"), ["5", "10"])], "the gains of the other joint"),
+    ("rest-few-errors", "ext.resting", [(at(S, "errors"), ["3/5"])], "an error for one joint of two"),
+    ("rest-nothing", "ext.resting", [(at(S, n), []) for n in ("kp", "torque", "errors")], "no joint"),
+    ("rest-error-negative", "ext.resting", [(at(S, "errors", 0), "-3/5")], "a negative error"),
+    ("rest-m-zero", "ext.resting", [(at(S, "m"), 0)], "no h_0 is known"),
+    ("rest-m-negative", "ext.resting", [(at(S, "m"), -1)], "no h_−1 is known"),
+    ("rest-m-null", "ext.resting", [(at(S, "m"), None)], "which h_m is not said"),
+    ("rest-m-true", "ext.resting", [(at(S, "m"), True)], "an m that is no number"),
+    ("rest-m-endless", "ext.resting", [(at(S, "m"), 10**18)], "an m that no machine reaches"),
+    ("rest-family", "ext.resting", [(at(S, "family"), "sign")], "an unknown h"),
+    ("rest-tanh-m", "ext.not-resting", [(at(S, "m"), 1)], "a member of tanh"),
+    ("rest-steeper", "ext.resting", [(at(S, "m"), 9)], "the errors of another h"),
+    ("rest-within", "ext.not-resting", [(at(P, "error"), "1/2")], "a rest at the bound itself"),
+    ("rest-mirrored", "ext.not-resting", [(at(P, "error"), "-1")], "a rest on the other side"),
+    ("rest-no-bound", "ext.not-resting", [(at(S, "errors", 0), None)], "an error that nothing bounds"),
+    ("rest-not-held", "ext.not-resting", [(at(S, "torque", 0), "0")], "a rest without torque"),
+]
+LEVELS: Path = at(S, "envelope")
+ON_SETTLING: list[Attack] = [
+    ("settle-no-level", "ext.settling", [(LEVELS, [])], "no level"),
+    (
+        "settle-one-level",
+        "ext.pushed",
+        [(LEVELS, [["0", "1"]]), (at(P, "slopes"), [])],
+        "one level, not kept",
+    ),
+    ("settle-time-negative", "ext.settling", [((*LEVELS, 0, 0), "-1")], "a time before the start"),
+    ("settle-time-same", "ext.settling", [((*LEVELS, 1, 0), "0")], "two levels at once"),
+    ("settle-time-back", "ext.settling", [((*LEVELS, 2, 0), "30")], "times that fall"),
+    ("settle-sooner", "ext.settling", [((*LEVELS, 1, 0), "1")], "too soon"),
+    ("settle-rising", "ext.settling", [((*LEVELS, 2, 1), "1/2")], "levels that rise"),
+    ("settle-negative", "ext.settling", [((*LEVELS, 2, 1), "-1/16")], "a negative level"),
+    (
+        "settle-zero",
+        "ext.settling",
+        [((*LEVELS, 2, 1), "0"), ((*LEVELS, 2, 0), HUGE)],
+        "V = 0 in finite time",
+    ),
+    ("settle-nearer", "ext.settling", [(at(S, "errors", 0), "1/3")], "errors that V does not bound"),
+    ("settle-exactly", "ext.settling", [(at(S, "errors", 0), "0")], "no error after a time"),
+    (
+        "settle-farther",
+        "ext.settling",
+        [(at(S, "errors_at_start", 0), "2")],
+        "a start beyond the first level",
+    ),
+    ("settle-faster", "ext.settling", [(at(S, "rates_at_start", 0), "1")], "a start that moves too fast"),
+    ("settle-start-negative", "ext.settling", [(at(S, "errors_at_start", 0), "-1/2")], "a negative size"),
+    ("settle-rate-negative", "ext.settling", [(at(S, "rates_at_start", 0), "-1")], "a negative size"),
+    ("settle-pushed", "ext.settling", [(at(S, "torque", 0), "1/100")], "a torque without a share for it"),
+    ("settle-rubbed", "ext.settling", [(at(S, "dry", 0), "1")], "dry friction that keeps it away"),
+    ("settle-pushed-more", "ext.pushed", [(at(S, "torque", 0), "1")], "a torque that holds it there"),
+    (
+        "settle-pushed-negative",
+        "ext.pushed",
+        [(at(S, "torque", 0), "-1/100")],
+        "a negative bound of the torque",
+    ),
+    ("settle-no-viscous", "ext.settling", [(at(S, "viscous", 0), "0")], "no friction"),
+    ("settle-driven", "ext.settling", [(at(S, "viscous", 0), "-1")], "friction that drives"),
+    ("settle-kp", "ext.settling", [(at(S, "kp", 0), "-1")], "a negative stiffness"),
+    ("settle-kp-soft", "ext.settling", [(at(S, "kp", 0), "1/10")], "a softer controller"),
+    ("settle-kv", "ext.settling", [(at(S, "kv", 0), "-1")], "negative damping"),
+    ("settle-eps0", "ext.settling", [(at(S, "eps0"), "0")], "ε₀ = 0"),
+    ("settle-eps0-negative", "ext.settling", [(at(S, "eps0"), "-1/5")], "ε₀ below 0"),
+    ("settle-eps0-tiny", "ext.settling", [(at(S, "eps0"), TINY)], "hardly an ε₀"),
+    ("settle-eps0-huge", "ext.settling", [(at(S, "eps0"), HUGE)], "an ε₀ without end"),
+    ("settle-no-mass", "ext.settling", [(at(S, "mass"), NO_MASS)], "an arm without mass"),
+    ("settle-minus-mass", "ext.settling", [(at(S, "mass"), MINUS_MASS)], "an arm of negative mass"),
+    ("settle-heavier", "ext.settling", [(at(S, "mass"), [[[[[0, 0], "100"]]]])], "a heavier arm"),
+    ("settle-two-joints", "ext.settling", [(at(S, "mass"), SINGULAR)], "a singular arm of two joints"),
+    ("settle-no-joint", "ext.settling", [(at(S, "mass"), [])], "an arm without joints"),
+    ("settle-slack", "ext.pushed", [(at(P, "slack"), "0")], "no share for the torque"),
+    ("settle-shares", "ext.pushed", [(at(P, "slack"), "1/2")], "shares that are all of it"),
+    ("settle-shares-more", "ext.pushed", [(at(P, "split"), "99/100")], "shares that are more than all"),
+    ("settle-split", "ext.settling", [(at(P, "split"), TINY)], "too small a share for the mixed terms"),
+    ("settle-mu", "ext.settling", [(at(P, "inertia", "inertia"), "1")], "μ that M only just reaches"),
+    ("settle-mu-negative", "ext.settling", [(at(P, "inertia", "inertia"), "-1")], "a negative μ"),
+    ("settle-nu-negative", "ext.settling", [(at(P, "inertia", "lowest"), "-1")], "M above what it is"),
+    ("settle-angles", "ext.settling", [(at(P, "inertia", "angles"), [-1])], "an angle counted from the end"),
+    ("settle-angle-far", "ext.settling", [(at(P, "inertia", "angles"), [5])], "an angle that there is not"),
+    ("settle-slope-zero", "ext.settling", [(at(P, "slopes"), ["0", "0"])], "a slope that shows no fall"),
+    ("settle-slopes-more", "ext.settling", [(at(P, "slopes"), ["2/5"] * 3)], "a slope without a band"),
+    ("settle-unreduced", "ext.settling", [(at(P, "friction"), "9/10")], "more than the friction leaves"),
+    ("settle-family", "ext.settling", [(at(S, "family"), "sign")], "an unknown h"),
+    ("settle-m", "ext.settling", [(at(S, "family"), "hyperbolic"), (at(S, "m"), 3)], "another h"),
+]
+KINDS_OF_LOOP = ("ext.boxes", "ext.radial")
+ON_DECREASING: list[Attack] = [
+    *(
+        (f"loop-{name}-{base[4:]}", base, edits, why)
+        for base in KINDS_OF_LOOP
+        for name, edits, why in [
+            ("no-mass", [(at(S, "mass"), NO_MASS)], "an arm without mass"),
+            ("minus-mass", [(at(S, "mass"), MINUS_MASS)], "an arm of negative mass"),
+            ("kp-zero", [(at(S, "kp", 0), "0")], "no stiffness"),
+            ("kp-minus", [(at(S, "kp", 0), "-1")], "a negative stiffness"),
+            ("kv-zero", [(at(S, "kv", 0), "0")], "no damping"),
+            ("kv-minus", [(at(S, "kv", 0), "-1")], "negative damping"),
+            ("friction-zero", [(at(S, "viscous", 0), ["0", "0"])], "no friction"),
+            ("friction-minus", [(at(S, "viscous", 0), ["-1", "1"])], "friction that may drive"),
+            ("friction-back", [(at(S, "viscous", 0), ["1", "1/2"])], "an empty range of friction"),
+            ("friction-wide", [(at(S, "viscous", 0), ["0", "1"])], "friction that may vanish"),
+            ("friction-none", [(at(S, "viscous"), [])], "friction of no joint"),
+            ("friction-more", [(at(S, "viscous"), [["1", "1"]] * 2)], "friction of another joint"),
+            ("eps0-zero", [(at(S, "eps0"), "0")], "ε₀ = 0"),
+            ("eps0-minus", [(at(S, "eps0"), "-1/10")], "ε₀ below 0"),
+            ("eps0-large", [(at(S, "eps0"), "4")], "K̃ = 0"),
+            ("eps0-huge", [(at(S, "eps0"), HUGE)], "an ε₀ without end"),
+            ("parameter-back", [(at(S, "parameters"), [["1", "0"]])], "an empty range of no parameter"),
+            ("coupling", [(at(S, "coupling"), ["-1"])], "a negative weight"),
+            ("coupling-zero", [(at(S, "coupling"), ["0"])], "y = w"),
+            ("coupling-two", [(at(S, "coupling"), ["1", "1"])], "weights of two joints"),
+            ("m", [(at(S, "m"), 2)], "a member of tanh"),
+            ("m-zero", [(at(S, "family"), "hyperbolic"), (at(S, "m"), 0)], "no h_0 is known"),
+            (
+                "singular",
+                [
+                    (at(S, "mass"), SINGULAR),
+                    (at(S, "viscous"), [["1", "1"]] * 2),
+                    *((at(S, gain), ["1", "1"]) for gain in ("kp", "kv")),
+                ],
+                "a singular arm of two joints",
+            ),
+        ]
+    ),
+    ("loop-ranges", "ext.boxes", [(at(S, "viscous", 0), ["1/1000000", "1000000"])], "far more arms"),
+    ("radial-weights", "ext.radial", [(at(P, "rate", "weights"), ["2"])], "weights beyond the friction"),
+    ("radial-weight-zero", "ext.radial", [(at(P, "rate", "weights"), ["0"])], "weights of zero"),
+    ("radial-weight-minus", "ext.radial", [(at(P, "rate", "weights"), ["-1"])], "negative weights"),
+    ("radial-weights-none", "ext.radial", [(at(P, "rate", "weights"), [])], "no weights"),
+    ("radial-mu", "ext.radial", [(at(P, "rate", "inertia"), "1")], "μ that M only just reaches"),
+    ("radial-mu-minus", "ext.radial", [(at(P, "rate", "inertia"), "-11/10")], "a negative μ"),
+    ("radial-nu-minus", "ext.radial", [(at(P, "rate", "lowest"), "-1/2")], "a negative ν"),
+    ("radial-nu-large", "ext.radial", [(at(P, "rate", "lowest"), "2")], "ν above μ"),
+    ("radial-no-cuts", "ext.radial", [(at(P, "rate", "cuts"), [])], "no cuts"),
+    ("radial-cuts-late", "ext.radial", [(at(P, "rate", "cuts"), ["1", "2"])], "cuts that leave out 0"),
+    ("radial-cuts-minus", "ext.radial", [(at(P, "rate", "cuts"), ["-1", "1"])], "cuts below 0"),
+    ("radial-cuts-back", "ext.radial", [(at(P, "rate", "cuts"), ["0", "2", "1"])], "cuts that fall"),
+    ("radial-cuts-same", "ext.radial", [(at(P, "rate", "cuts"), ["0", "0"])], "cuts that do not rise"),
+    ("radial-tree-empty", "ext.radial", [(at(P, "rate", "tree"), "")], "no tree of boxes"),
+    ("radial-tree-more", "ext.radial", [(at(P, "rate", "tree"), "..")], "a tree with a box too many"),
+    ("radial-tree-side", "ext.radial", [(at(P, "rate", "tree"), "0..")], "a side that no box has"),
+    ("radial-angles-twice", "ext.radial", [(at(P, "rate", "angles"), [0, 0])], "an angle twice"),
+    ("radial-angles-minus", "ext.radial", [(at(P, "rate", "angles"), [-1])], "an angle counted from the end"),
+    ("radial-parameter", "ext.radial", [(at(S, "parameters"), [["0", "1"]])], "a parameter in no term"),
+    ("state-origin", "ext.eps0-too-large", [(at(P, "w", 0), "0")], "the origin"),
+    ("state-eps0", "ext.eps0-too-large", [(at(S, "eps0"), "1/10")], "an ε₀ at which V falls"),
+    ("state-eps0-zero", "ext.eps0-too-large", [(at(S, "eps0"), "0")], "ε₀ = 0"),
+    ("state-coupling", "ext.eps0-too-large", [(at(S, "coupling"), ["1"])], "a state of another V"),
+    (
+        "state-parameter",
+        "ext.eps0-too-large",
+        [(at(P, "parameters"), ["1"])],
+        "a parameter that there is not",
+    ),
+    ("posture-mass", "ext.no-arm", [(at(S, "mass", 0, 0, 0, 1), "1")], "an arm of positive mass"),
+    ("posture-zero", "ext.no-arm", [(at(P, "x", 0), "0")], "the vector 0"),
+    ("damping-factor", "pub.19n.m1", [(at(P, "factor"), TINY)], "a factor at which the bound is kept"),
+    ("damping-minus", "pub.19n.m1", [(at(S, "kv", 0), "-1")], "negative damping"),
+    ("damping-bound", "pub.19n.m1", [(at(S, "bound"), ["num", HUGE])], "a bound far above"),
+    ("damping-value", "pub.19n.m1", [(at(S, "bound"), ["div", ["num", "1"], ["num", "0"]])], "no bound"),
+    ("damping-eps0", "pub.19n.m1", [(at(P, "eps0"), "-1")], "ε₀ below 0"),
+    ("damping-friction", "pub.19n.m1", [(at(S, "viscous", 0), ["1", "0"])], "an empty range of friction"),
+]
+TWO: Path = at(S, "mass", 0, 1)
+ON_ARMS: list[Attack] = [
+    ("links-joints", "ext.links", [(at(P, "links", 1, "origin"), ["0", "1", "0"])], "links placed otherwise"),
+    ("links-turn", "ext.links", [(at(P, "links", 1, "turn"), [["0"] * 3] * 3)], "a turn that is none"),
+    ("links-axis", "ext.links", [(at(P, "links", 1, "axis"), ["1", "0", "0"])], "another axis"),
+    ("links-long", "ext.links", [(at(P, "links", 1, "axis"), ["0", "0", "2"])], "an axis of length 2"),
+    ("links-massless", "ext.links", [(at(P, "links", 1, "mass"), "0")], "a last link without mass"),
+    ("links-low", "ext.links", [(at(S, "low"), TINY)], "a bound that energies do not give"),
+    ("links-minus", "ext.links", [(at(S, "low"), "-1")], "a negative bound"),
+    ("links-parameter", "ext.links", [(at(S, "parameters"), [["1", "0"]])], "an empty range"),
+    ("links-singular", "ext.links", [(at(S, "mass"), SINGULAR)], "a singular arm"),
+    ("mass-empty-range", "ext.mass-range", [(at(S, "parameters"), [["2", "1"]])], "an empty range"),
+    ("mass-no-range", "ext.mass-range", [(at(S, "parameters"), [])], "a parameter without range"),
+    ("mass-wide-range", "ext.mass-range", [(at(S, "parameters"), [["1", "3"]])], "a wider range"),
+    ("mass-minus-range", "ext.mass-range", [(at(S, "parameters"), [["-9", "1"]])], "a range below 0"),
+    ("mass-high-minus", "ext.mass-boxes", [(at(S, "high"), "-6")], "a negative bound"),
+    ("mass-high-near", "ext.mass-boxes", [(at(S, "high"), "58284271/10000000")], "3 + 2√2 less 10⁻⁸"),
+    ("mass-skew", "ext.mass-boxes", [(at(S, "mass", 0, 1), [])], "M that is not symmetric"),
+    ("mass-ragged", "ext.mass-boxes", [(at(S, "mass", 0), [[]])], "rows that differ in length"),
+    ("mass-exponent", "ext.mass-boxes", [(at(S, "mass", 1, 1, 0, 0), [0, 0, 0, -1])], "a negative exponent"),
+    ("mass-exponent-large", "ext.mass-boxes", [(at(S, "mass", 1, 1, 0, 0, 3), 41)], "an exponent above 40"),
+    (
+        "mass-exponent-short",
+        "ext.mass-boxes",
+        [(at(S, "mass", 1, 1, 0, 0), [0, 0, 0])],
+        "exponents of no arm",
+    ),
+    (
+        "mass-exponent-true",
+        "ext.mass-boxes",
+        [(at(S, "mass", 1, 1, 0, 0, 3), True)],
+        "an exponent that is true",
+    ),
+    ("mass-witness-out", "ext.mass-range-large", [(at(P, "parameters", 0), "5/2")], "out of its range"),
+    ("mass-witness-zero", "ext.mass-range-large", [(at(P, "x", 0), "0")], "the vector 0"),
+    (
+        "mass-witness-range",
+        "ext.mass-range-large",
+        [(at(S, "parameters", 0, 1), "1")],
+        "out of a smaller range",
+    ),
+    ("coriolis-minus", "ext.coriolis-range", [(at(S, "high"), "-1")], "a negative bound"),
+    ("coriolis-empty", "ext.coriolis-range", [(at(S, "parameters"), [["2", "1"]])], "an empty range"),
+    ("coriolis-zero", "ext.coriolis-range", [(at(S, "high"), "0")], "C that vanishes"),
+    ("gravity-minus", "ext.gravity-boxes", [(at(S, "high"), "-3/2")], "a negative bound"),
+    ("gravity-near", "ext.gravity-boxes", [(at(S, "high"), "2828427/2000000")], "√2 less 10⁻⁷"),
+    (
+        "gravity-twice",
+        "ext.gravity-boxes",
+        [(at(S, "gravity"), [[[[1, 0], "1"]], [[[1, 0], "1"]], [[[0, 1], "2"]]])],
+        "three torques, each below the bound",
+    ),
+    ("gravity-joints", "ext.gravity-boxes", [(at(S, "joints"), 2)], "torques of another arm"),
+    ("gravity-joints-zero", "ext.gravity-boxes", [(at(S, "joints"), 0)], "an arm without joints"),
+    ("gravity-joints-many", "ext.gravity-boxes", [(at(S, "joints"), 10**18)], "joints without end"),
+    ("gravity-witness", "ext.gravity-large", [(at(S, "high"), "3/2")], "a bound that is kept"),
+    ("gravity-witness-far", "ext.gravity-large", [(at(P, "q", 0), "10" * 1900)], "a posture of no precision"),
+    ("potential-none", "ext.potential", [(at(S, "gravity"), [])], "no torque"),
+    ("potential-sign", "ext.potential", [(at(S, "potential", 0, 1), "1")], "the opposite potential"),
+    ("potential-angle", "ext.potential", [(at(S, "gravity"), [[], [[[1, 0], "1"]]])], "of another joint"),
+    ("symmetric-range", "ext.symmetric", [(at(S, "parameters"), [["1", "0"]])], "an empty range"),
+    ("symmetric-none", "ext.symmetric", [(at(S, "mass"), [])], "no joint"),
+    ("printed-row", "ext.symbols", [(at(S, "printed", 0), [])], "a row without entries"),
+    ("printed-short", "ext.symbols", [(at(S, "printed", 0, 0), [[], []])], "an entry without its last part"),
+    ("printed-one", "ext.symbols", [(at(S, "printed"), [[[[], [], []]]])], "C of one joint"),
+    ("printed-swapped", "ext.symbols", [(at(S, "printed", 1, 0, 0, 0, 1), "-1")], "a sign changed"),
+    ("printed-skew", "ext.RateOfMass.printed", [(TWO, [])], "M that is not symmetric"),
+    ("printed-halves", "ext.RateOfMass.friction", [(at(S, "printed", 0, 0, 2), [])], "no friction after all"),
+]
+X: list[Any] = ["var", "x"]
+LOOP_BASE = "ext.V-is-positive-definite"
+UNBOUNDED = "ext.V-is-radially-unbounded"
+SMOOTH = "ext.V-is-continuously-differentiable"
+ONLY = "ext.the-origin-is-the-only-equilibrium"
+SQUARE = ["pow", X, 2]
+ON_PROPERTIES: list[Attack] = [
+    ("property-unknown", LOOP_BASE, [(at(S, "property"), "V is radially bounded")], "an unknown property"),
+    ("property-desired", LOOP_BASE, [(at(S, "desired"), True)], "of V along (21)"),
+    (
+        "property-other",
+        LOOP_BASE,
+        [(at(S, "property"), "V is radially unbounded")],
+        "facts of another property",
+    ),
+    (
+        "property-constant",
+        LOOP_BASE,
+        [(at(S, "potential"), ["add", ["potential", 1, X], ["num", "1"]])],
+        "U(0) = 1",
+    ),
+    ("property-slope", LOOP_BASE, [(at(S, "slope"), ["num", "0"])], "a slope that is not h'"),
+    ("property-member", LOOP_BASE, [(at(S, "potential"), ["potential", 2, X])], "the potential of another h"),
+    (
+        "property-even",
+        ONLY,
+        [(at(S, "h"), SQUARE), (at(S, "slope"), ["mul", ["num", "2"], X])],
+        "h that is even",
+    ),
+    ("property-sine", ONLY, [(at(S, "h"), ["sin", X]), (at(S, "slope"), ["cos", X])], "h = sin x"),
+    ("property-variable", ONLY, [(at(S, "h"), ["h", 1, ["var", "y"]])], "h of another variable"),
+    (
+        "property-value",
+        ONLY,
+        [(at(S, "slope"), ["add", ["dh", 1, X], ["div", ["num", "0"], X]])],
+        "no value at 0",
+    ),
+    ("property-abs", SMOOTH, [(at(S, "potential"), ["abs", X])], "U = |x|"),
+    ("unbounded-few", UNBOUNDED, [(at(P, "numbers"), ["1"])], "too few numbers"),
+    ("unbounded-zero", UNBOUNDED, [(at(P, "numbers", 0), "0")], "h ≥ 0 from some x on"),
+    ("unbounded-minus", UNBOUNDED, [(at(P, "numbers", 0), "-1")], "h ≥ −1 from some x on"),
+    ("unbounded-start", UNBOUNDED, [(at(P, "numbers", 1), "-1")], "from below 0 on"),
+    ("unbounded-gamma", UNBOUNDED, [(at(P, "numbers", 2), "1/2")], "h above γ"),
+    ("smooth-rho", SMOOTH, [(at(P, "numbers", 0), "1/2")], "h' above ρ"),
+    ("smooth-secant", SMOOTH, [(at(P, "numbers", 1), "1/2")], "h above L x"),
+]
+ON_SMALL: list[Attack] = [
+    ("small-name", "ext.small", [(at(S, "small"), "x")], "one name for two variables"),
+    ("small-bounded", "ext.small", [(at(S, "bounded"), ["eps"])], "ε bounded by 1"),
+    ("small-free", "ext.small", [(at(S, "variables", 0, "low"), None)], "x that may be negative"),
+    ("small-low", "ext.small", [(at(S, "variables", 0, "low"), "-1")], "x from −1 on"),
+    ("small-closed", "ext.small", [(at(S, "variables", 0, "strict"), False)], "x that may be 0"),
+    (
+        "small-uniform",
+        "ext.small",
+        [(at(S, "bounded"), ["x"]), (at(S, "variables"), [])],
+        "one threshold for all x",
+    ),
+    ("small-other", "ext.small", [(at(S, "small"), "y")], "ε that is not small"),
+    ("small-shared-none", "ext.small-shared", [(at(S, "bounded"), [])], "t of no range"),
+    ("small-below", "ext.not-small", [(at(P, "below"), HUGE), (at(S, "small"), "x")], "another variable"),
+    ("small-point-zero", "ext.not-small", [(at(P, "point"), [["x", "0"]])], "x = 0, which is excluded"),
+    ("small-point-twice", "ext.not-small", [(at(P, "point"), [["x", "1"], ["x", "1"]])], "a variable twice"),
+    ("small-point-eps", "ext.not-small", [(at(P, "point"), [["x", "1"], ["eps", "1"]])], "a value of ε"),
+    ("angles-none-of", "ext.positive", [(at(S, "entries", 0), X)], "no polynomial in sines"),
+    ("angles-zero", "ext.positive", [(at(S, "entries", 0, 1, 1), "1")], "1 + sin x, which vanishes"),
+    (
+        "angles-near",
+        "ext.positive",
+        [(at(S, "entries", 0, 1, 1), "9" * 300 + "/1" + "0" * 300)],
+        "near 1 + sin x",
+    ),
+    (
+        "angles-value",
+        "ext.not-positive",
+        [
+            (at(S, "entries"), [["div", ["num", "1"], ["num", "0"]], ["sin", X]]),
+            (at(P, "entry"), 1),
+            (at(P, "point"), [["x", "-1"]]),
+        ],
+        "another entry without value",
+    ),
+]
+ON_LISTS_AND_SYMBOLS: list[Attack] = [
+    (
+        "torque-lower",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "CoriolisTorque",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [
+                        [[[], [], []], [[[[0, 0, 1, 0], "1"]], [], []]],
+                        [[[], [], []], [[], [], []]],
+                    ],
+                },
+            ),
+            (at(P), {"rule": "comparison of harmonics"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "the symbols of an M that is not symmetric",
+    ),
+    (
+        "torque-plain-refuted",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "CoriolisTorque",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [
+                        [[[], [], []], [[[[0, 0, 1, 0], "1/2"]], [], []]],
+                        [[[], [], []], [[], [], []]],
+                    ],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "true, for symbols of an M that is not symmetric",
+    ),
+    (
+        "less-ref-u",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "RateLessTwiceCoriolis",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], [[[1, 0, 0, 0], "1"]]], [[], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "symbols of an M with more above the diagonal",
+    ),
+    (
+        "less-ref-l",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "RateLessTwiceCoriolis",
+                    "mass": [[[[[0, 0, 0, 0], "1"]], []], [[[[1, 0, 0, 0], "1"]], [[[0, 0, 0, 0], "1"]]]],
+                    "parameters": [],
+                    "printed": [],
+                },
+            ),
+            (at(P), {"parameters": [], "q": ["0", "0"], "rule": "moving posture", "x": ["1", "1"], "y": []}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "symbols of an M with more below the diagonal",
+    ),
+    (
+        "g0",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {"gravity": [], "high": "1/1000000", "joints": 1, "kind": "GravityBelow", "parameters": []},
+            ),
+            (at(P), {"rule": "bisection"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "enclosure"),
+        ],
+        "the torque of no joint",
+    ),
+    (
+        "empty-sizes",
+        "ext.boxes",
+        [
+            (at(S), {"entries": [], "kind": "TrigonometricPositive"}),
+            (at(P), {"rule": "Fourier sums"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "no polynomial is positive",
+    ),
+    (
+        "trig0",
+        "ext.boxes",
+        [
+            (at(S), {"entries": [], "kind": "TrigonometricBound"}),
+            (at(P), {"rule": "Fourier sums"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "no polynomial is bounded",
+    ),
+    ("tree-words", "ext.boxes", [(at(P, "rate", "tree"), "believe me")], "words for a tree of boxes"),
+    (
+        "radius-endless",
+        "ext.boxes",
+        [(at(S, "kp", 0), HUGE), (at(S, "eps0"), HUGE[:3000])],
+        "gains for which norms suffice beyond all angles only",
+    ),
+    (
+        "harmonics-endless",
+        "ext.gravity-boxes",
+        [(at(S, "joints"), 9), (at(S, "gravity"), [[[[40] * 18, "1"]]])],
+        "a term of 81⁹ exponentials",
+    ),
+]
+
+SINGLE = [
+    *ON_NUMBERS,
+    *ON_RESTING,
+    *ON_SETTLING,
+    *ON_DECREASING,
+    *ON_ARMS,
+    *ON_PROPERTIES,
+    *ON_SMALL,
+    *ON_LISTS_AND_SYMBOLS,
+]
+
+FREE, ARM, TIME = "sca.arms.all.m1", "sca.arm.stable.m1", "tra.21.m1"
+CONDITION, LOOP = "sca.arms.stable.m1", at(S, "loop")
+NEVER = {"left": ["num", "1"], "operator": "<", "right": ["num", "0"]}
+ON_THEOREMS: list[Attack] = [
+    ("theorem-name", FREE, [(at(S, "name"), "Lyapunov's second thoughts")], "an unknown theorem"),
+    (
+        "theorem-time",
+        FREE,
+        [(at(S, "name"), "Lyapunov's direct method, time-varying")],
+        "of other hypotheses",
+    ),
+    ("theorem-desired", FREE, [((*LOOP, "desired"), True)], "along a motion, by the theorem for a goal"),
+    ("theorem-no-desired", TIME, [((*LOOP, "desired"), False)], "at a goal, by the theorem for a motion"),
+    (
+        "theorem-hypothesis",
+        FREE,
+        [(at(S, "hypotheses", 1), ["differentiable", "equilibrium"])],
+        "by another claim",
+    ),
+    ("theorem-twice", FREE, [(at(S, "hypotheses", 1, 0), "bounds of h")], "a hypothesis twice"),
+    ("theorem-none", FREE, [(at(S, "hypotheses"), [])], "no hypothesis"),
+    ("theorem-unused", FREE, [(at("uses"), {})], "claims that are not among the uses"),
+    ("theorem-n", FREE, [((*LOOP, "n"), 4)], "a joint more than reach is for"),
+    ("theorem-n-zero", FREE, [((*LOOP, "n"), 0)], "no joint"),
+    ("theorem-h", FREE, [((*LOOP, "h"), ["h", 2, X])], "of another h"),
+    ("theorem-gamma", FREE, [((*LOOP, "gamma"), "1/2")], "γ below sup h"),
+    ("theorem-gamma-zero", FREE, [((*LOOP, "gamma"), "0")], "γ = 0"),
+    ("theorem-reach", FREE, [((*LOOP, "reach"), "1")], "reach below √nγ"),
+    ("theorem-reach-minus", FREE, [((*LOOP, "reach"), "-2")], "a negative reach"),
+    ("theorem-G", FREE, [((*LOOP, "G"), TINY)], "G below what it bounds"),
+    ("theorem-rho", FREE, [((*LOOP, "rho"), "1/2")], "ρ below sup |h'|"),
+    ("theorem-L", FREE, [((*LOOP, "L"), "1/2")], "L below sup h(x)/x"),
+    ("theorem-form", FREE, [((*LOOP, "form"), [["num", "1"], ["num", "0"], ["num", "1"]])], "Θ = I"),
+    ("theorem-condition", FREE, [((*LOOP, "condition"), [NEVER])], "under a condition that the claims lack"),
+    ("theorem-no-condition", CONDITION, [((*LOOP, "condition"), [])], "for all ε₀"),
+    ("theorem-numbers", FREE, [((*LOOP, "numbers"), [["kp", "1"]])], "a number without an arm"),
+    ("theorem-no-numbers", ARM, [((*LOOP, "numbers"), [])], "an arm without numbers"),
+    ("theorem-no-arm", ARM, [((*LOOP, "arm"), None), ((*LOOP, "numbers"), [])], "for every arm"),
+    ("theorem-heavy", ARM, [((*LOOP, "arm", "mass", 0, 0, 0, 1), LARGE)], "a heavier arm"),
+    ("theorem-kp", ARM, [((*LOOP, "arm", "kp", 0), "1/1000")], "softer than the numbers say"),
+    ("theorem-kp-minus", ARM, [((*LOOP, "arm", "kp", 0), "-60")], "a negative stiffness"),
+    ("theorem-kv", ARM, [((*LOOP, "arm", "kv", 0), LARGE)], "more damping than the numbers say"),
+    ("theorem-kv-zero", ARM, [((*LOOP, "arm", "kv", 0), "0")], "a joint without damping"),
+    ("theorem-friction", ARM, [((*LOOP, "arm", "viscous", 0), "0")], "a joint without friction"),
+    ("theorem-few", ARM, [((*LOOP, "arm", "kp"), ["60"])], "a gain for one joint"),
+    ("theorem-no-joint", ARM, [((*LOOP, "arm", n), []) for n in ("mass", "viscous", "kp", "kv")], "no joint"),
+    ("theorem-eps0", ARM, [((*LOOP, "numbers", 3), ["eps0", "0"])], "ε₀ = 0, or a number twice"),
+]
+
+
+def sealed(document: Document) -> Document:
+    """The document under the digest of its content."""
+    content = {key: value for key, value in document.items() if key != "digest"}
+    text = json.dumps(content, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    return {**content, "digest": hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()}
+
+
+def encoded(document: Document) -> bytes:
+    return (json.dumps(document, sort_keys=True, ensure_ascii=False) + "\n").encode()
+
+
+def edited(document: Document, edits: Edits) -> Document:
+    """A copy with values put at places, under its own digest."""
+    changed = copy.deepcopy(document)
+    for path, value in edits:
+        place: Any = changed
+        for step in path[:-1]:
+            place = place[step]
+        place[path[-1]] = value
+    return sealed(changed)
+
+
+def premises(
+    documents: Mapping[str, Document], used: list[Document]
+) -> Iterator[tuple[str, list[Document], str]]:
+    """Theorems with premises of something else, under the ids of those that they need."""
+    theorem = documents[FREE]
+
+    def relying(replaced: Mapping[str, Document]) -> list[Document]:
+        """The theorem with some premises exchanged for others that go by their ids."""
+        own = {one["claim"]["id"]: one for one in used}
+        own |= {
+            name: edited(one, [(at("claim", "id"), name), (at("uses"), {})]) for name, one in replaced.items()
+        }
+        uses = {name: one["digest"] for name, one in own.items()}
+        return [edited(theorem, [(at("uses"), uses)]), *own.values()]
+
+    truth = documents["pub.7i.m1"]
+    ids = [one["claim"]["id"] for one in used]
+    yield "premise-trivial", relying(dict.fromkeys(ids, truth)), "γ_1 < γ_2 for every premise"
+    for name in ids:
+        yield f"premise-trivial.{name}", relying({name: truth}), f"γ_1 < γ_2 in place of {name}"
+    other, equilibrium = documents["arc.equilibrium"], documents["sca.equilibrium.m1"]
+    yield "premise-other-h", relying({"equilibrium": other}), "the equilibrium under another h"
+    yield "premise-property", relying({"V.smooth": equilibrium}), "another property of the same h"
+    false = edited(documents["pub.T1.torque.pd.elbow"], [(at("claim", "m"), None), (at("claim", "n"), None)])
+    yield "premise-refuted", relying({"equilibrium": false}), "a refutation as a premise"
+    own = {one["claim"]["id"]: one for one in used}
+    for name, value in (("m", 2), ("n", 7)):
+        foreign = edited(own["equilibrium"], [(at("claim", name), value)])
+        yield f"premise-{name}", relying({"equilibrium": foreign}), f"a premise for another {name}"
+    renamed = edited(theorem, [(at("uses", "equilibrium"), own["V.positive"]["digest"])])
+    yield "premise-swapped", [renamed, *used], "the certificate of another claim"
+    itself = edited(theorem, [(at("uses", "equilibrium"), theorem["digest"])])
+    yield "premise-itself", [itself, theorem, *used], "the theorem as its own premise"
+    part = {"kind": "AllOf", "parts": [["it", theorem["statement"]]]}
+    proof = {"rule": "every part", "parts": [theorem["proof"]]}
+    hidden = edited(theorem, [(at(S), part), (at(P), proof), (at("uses"), {})])
+    yield "premise-hidden", [hidden], "a theorem inside a conjunction, without premises"
+
+
+def attacks(documents: Mapping[str, Document]) -> Iterator[tuple[str, Files, list[str], str]]:
+    """The name of each, its bytes or those of its files, what may come of it, and why."""
+    by_digest = {document["digest"]: document for document in documents.values()}
+    for name, base, edits, why in SINGLE:
+        yield f"{name}.json", encoded(edited(documents[base], edits)), ["refused"], why
+    for name, base, edits, why in ON_THEOREMS:
+        original = documents[base]
+        used = [by_digest[digest] for digest in original["uses"].values()]
+        whole = [edited(original, edits), *used]
+        files = [(f"{index}.json", encoded(one)) for index, one in enumerate(whole)]
+        yield name, files, ["refused", "undecided"], f"a theorem: {why}"
+    used = [by_digest[digest] for digest in documents[FREE]["uses"].values()]
+    for name, whole, why in premises(documents, used):
+        files = [(f"{index}.json", encoded(one)) for index, one in enumerate(whole)]
+        yield name, files, ["refused", "undecided"], f"a theorem: {why}"

@@ -1,0 +1,231 @@
+"""Write certificates of the kinds and rules that no shipped script gives: python -m tests.arena.extra FOLDER.
+
+Statements of one and two joints and of few letters, small enough to be judged by hand. Where no proof stands
+beside a statement, the search proposes one.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction as F
+from importlib.metadata import version
+from pathlib import Path
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.agrees import Agrees, Corners
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.compared import MovingPosture
+from lyapcheck.check.kinds.coriolis import (
+    CoriolisAtRest,
+    CoriolisTorque,
+    MassSymmetric,
+    Matrices,
+    RateLessTwiceCoriolis,
+    RateOfMass,
+)
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    Decreasing,
+    PositiveAndDecreasing,
+    RadialBounds,
+    StateWitness,
+)
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.inertia import (
+    Bisection,
+    CoriolisBelow,
+    HarmonicSizes,
+    Links,
+    MassAbove,
+    MassBelow,
+    PostureWitness,
+)
+from lyapcheck.check.kinds.loop_property import FACTS, LoopProperty
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.settling import FallingLevels, Settling
+from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.loop.links import RigidLink
+from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures import propose
+
+Row = tuple[str, Statement, Proof | None]
+
+
+def num(value: F | int) -> Tree:
+    return ("num", str(F(value)))
+
+
+def vector(*values: int) -> tuple[F, ...]:
+    return tuple(map(F, values))
+
+
+X: Tree = ("var", "x")
+EPS, S, T = (("var", name) for name in ("eps", "s", "t"))
+A, Y, Z = ("mat", "A"), ("vec", "y"), ("vec", "z")
+
+# One joint: M = 1, and −1, which no arm has.
+UNIT: Monomials = (((0, 0), F(1)),)
+SINE: Monomials = (((1, 0), F(1)),)
+COSINE: Monomials = (((0, 1), F(1)),)
+MINUS: Monomials = (((0, 0), F(-1)),)
+# Two links of length 1 with mass 1 at each end: exponents of sin q1, sin q2, cos q1, cos q2.
+ONE: Monomials = (((0, 0, 0, 0), F(1)),)
+ELBOW: Monomials = (((0, 1, 0, 0), F(1)),)
+BACK: Monomials = (((0, 1, 0, 0), F(-1)),)
+TWICE: Monomials = (((0, 1, 0, 0), F(-2)),)
+MIXED: Monomials = (((0, 0, 0, 0), F(1)), ((0, 0, 0, 1), F(1)))
+MASS = (((((0, 0, 0, 0), F(3)), ((0, 0, 0, 1), F(2))), MIXED), (MIXED, ONE))
+SKEWED = ((ONE, ELBOW), ((), ONE))
+SYMBOLS: Matrices = ((((), BACK, ()), (BACK, BACK, ())), ((ELBOW, (), ()), ((), (), ())))
+SPLIT: Matrices = ((((), TWICE, ()), ((), BACK, ())), ((ELBOW, (), ()), ((), (), ())))
+"""C(q, w)w is right, the halves of C are not those of the Christoffel symbols."""
+STILL: Matrices = ((((), BACK, ONE), (BACK, BACK, ())), ((ELBOW, (), ()), ((), (), ())))
+"""With friction in C11."""
+TURN = (vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1))
+NOTHING = (vector(0, 0, 0),) * 3
+AXIS, ALONG = vector(0, 0, 1), vector(1, 0, 0)
+LINKS = (
+    RigidLink(AXIS, vector(0, 0, 0), F(1), ALONG, NOTHING, TURN),
+    RigidLink(AXIS, ALONG, F(1), ALONG, NOTHING, TURN),
+)
+AT = (F(0), F(1))
+RATES = (F(1), F(1, 2))
+
+
+def of_the_arm() -> Iterator[Row]:
+    """Bounds and identities of M, C and g."""
+    yield "links", MassAbove(MASS, (), F(0)), Links(LINKS)
+    yield "mass-boxes", MassBelow(MASS, (), F(6)), Bisection()
+    ranged = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1))),),)
+    yield "mass-range", MassBelow(ranged, ((F(1), F(2)),), F(7, 2)), Bisection()
+    yield (
+        "mass-range-large",
+        MassBelow(ranged, ((F(1), F(2)),), F(5, 2)),
+        PostureWitness((F(0),), (F(2),), (F(1),)),
+    )
+    yield "coriolis-range", CoriolisBelow(ranged, ((F(1), F(2)),), F(1)), HarmonicSizes()
+    yield "gravity-boxes", GravityBelow(1, ((*SINE, *COSINE),), (), F(3, 2)), Bisection()
+    yield (
+        "gravity-large",
+        GravityBelow(1, ((*SINE, *COSINE),), (), F(7, 5)),
+        PostureWitness((F(4, 5),), (), ()),
+    )
+    yield "potential", GravityOfPotential((SINE,), (((0, 1), F(-1)),), ()), None
+    yield "no-potential", GravityOfPotential((SINE,), COSINE, ()), MovingPosture((F(1),), (), (F(0),))
+    yield "symmetric", MassSymmetric(MASS, ()), None
+    yield "skewed", MassSymmetric(SKEWED, ()), MovingPosture(AT, (), RATES)
+    yield "symbols", CoriolisTorque(MASS, (), SYMBOLS), None
+    yield "split", CoriolisTorque(MASS, (), SPLIT), None
+    yield "friction", CoriolisTorque(MASS, (), STILL), MovingPosture(AT, (), RATES)
+    for kind in (CoriolisAtRest, RateOfMass, RateLessTwiceCoriolis):
+        yield f"{kind.__name__}.printed", kind(MASS, (), SYMBOLS), None
+        yield f"{kind.__name__}.friction", kind(MASS, (), STILL), MovingPosture(AT, (), RATES)
+    yield "halves", RateOfMass(MASS, (), SPLIT), MovingPosture(AT, (), RATES)
+    yield "halves-less", RateLessTwiceCoriolis(MASS, (), SPLIT), MovingPosture(AT, (), RATES)
+
+
+def decreasing(mass: Monomials, eps0: F, kp: F = F(1), viscous: F = F(1)) -> Decreasing:
+    """One joint under tanh."""
+    return Decreasing(((mass,),), ((viscous, viscous),), (), "tanh", None, (kp,), (F(1),), eps0, ())
+
+
+RADIAL = RadialBounds((F(1),), F(11, 10), F(0), (), ".", (F(0), F(1)))
+REDUCED = RadialBounds((F(4, 5),), F(8, 5), F(0), (), ".", (F(0), F(1)))
+"""At three quarters of the friction."""
+SETTLING = Settling(
+    mass=((UNIT,),),
+    viscous=(F(1),),
+    family="tanh",
+    m=None,
+    kp=(F(1),),
+    kv=(F(1),),
+    eps0=F(1, 5),
+    torque=(F(0),),
+    dry=(F(0),),
+    errors_at_start=(F(1, 2),),
+    rates_at_start=(F(0),),
+    envelope=((F(0), F(1, 4)), (F(40), F(1, 8)), (F(80), F(1, 16))),
+    largest_errors=(F(1),),
+    errors=(F(1, 2),),
+)
+LEVELS = FallingLevels(
+    friction=F(1, 4),
+    stiffness=F(1, 4),
+    split=F(1, 2),
+    slack=F(0),
+    inertia=RADIAL,
+    decreasing=PositiveAndDecreasing(Bisection(), REDUCED),
+    slopes=(F(2, 5), F(2, 5)),
+)
+RESTING = Resting("hyperbolic", 2, (F(10), F(5)), (F(2), F(5)), (F(3, 5), None))
+
+
+def of_the_loop() -> Iterator[Row]:
+    """Statements of (11), of V and of what is left of the errors."""
+    h: tuple[Tree, Tree, Tree] = ("h", 1, X), ("dh", 1, X), ("potential", 1, X)
+    for name in FACTS:
+        yield name.replace(" ", "-"), LoopProperty(name, *h), None
+    yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
+    yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
+    yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness((F(0),), (), (F(1),))
+    at = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
+    yield "eps0-too-large", decreasing(UNIT, F(10)), at
+    yield "settling", SETTLING, LEVELS
+    slower = ((F(0), F(1, 4)), (F(400), F(1, 8)), (F(800), F(1, 16)))
+    pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)
+    yield "pushed", pushed, replace(LEVELS, slack=F(1, 5))
+    yield "resting", RESTING, None
+    yield "not-resting", Resting("tanh", None, (F(2),), (F(1),), (F(1, 2),)), None
+
+
+def of_letters_and_numbers() -> Iterator[Row]:
+    """Statements for every n, for small values, of angles, and about what is printed."""
+    AY: Tree = ("apply", A, Y)
+    yield "not-symmetric", EveryN(("dot", Z, AY), ("dot", Y, ("apply", A, Z))), None
+    norms = (((A,), S), ((Y,), T), ((Z,), T))
+    yield "norms", BoundEveryN(("dot", Z, AY), ("mul", S, ("pow", T, 2)), (), (), (), norms, ()), None
+    yield "no-norms", BoundEveryN(("dot", Z, AY), ("mul", S, T), (), (), (), norms, ()), None
+    positive = (Variable("x", F(0)),)
+    yield "small", ForSmall("eps", positive, (), Relation(EPS, "<", X)), None
+    shared = Relation(("mul", EPS, T), "<", ("mul", num(2), T))
+    yield "small-shared", ForSmall("eps", (), (), shared, ("t",)), None
+    yield "not-small", ForSmall("eps", positive, (), Relation(X, "<", EPS)), None
+    yield "equal-entries", NormBound(("div", X, ("add", num(1), ("pow", X, 2))), 2, num(F(3, 4))), None
+    yield "supremum", NormBound(("h", 2, X), 4, num(3)), None
+    yield "square", ForAll(Relation(("mul", num(2), X), "<=", ("add", num(1), ("pow", X, 2)))), None
+    yield "sine", TrigonometricBound(((("sin", X), F(1, 2)),)), None
+    yield "positive", TrigonometricPositive((("add", num(2), ("sin", X)),)), None
+    yield "not-positive", TrigonometricPositive((("add", num(F(1, 2)), ("sin", X)),)), None
+    product: Tree = ("mul", X, ("var", "y"))
+    yield "corners", Agrees(product, (("x", "1.5"), ("y", "1.5")), "2.4"), Corners((0, 0), (1, 1), 128)
+
+
+def certificate(name: str, statement: Statement, proof: Proof | None) -> Certificate:
+    """The certificate of a statement by its proof, or by the one that the search finds."""
+    found = proof or propose(statement).proof
+    if found is None:
+        raise ValueError(f"{name}: no proof was found")
+    accepted = verify(statement, found)
+    about = About(name, statement.text()[:200], None, None, "extra")
+    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
+    return Certificate(about, statement, accepted.verdict, accepted.grade, found, {}, used)
+
+
+def main(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    for rows in (of_the_arm(), of_the_loop(), of_letters_and_numbers()):
+        for name, statement, proof in rows:
+            text = certificate(name, statement, proof).text()
+            (folder / f"{name}.json").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

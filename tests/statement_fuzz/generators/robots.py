@@ -1,0 +1,138 @@
+"""Small arms at random: M(q) of one or two joints, positive definite or not, and torques of gravity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from random import Random
+
+from tests.statement_fuzz.oracle.arm import Rows, Terms
+
+Ranges = tuple[tuple[Fraction, Fraction], ...]
+SCALES = (*[Fraction(1)] * 12, Fraction(10**9), Fraction(1, 10**9), Fraction(10**30), Fraction(1, 10**30))
+
+
+@dataclass(frozen=True)
+class Robot:
+    """M(q), the ranges of its parameters, and whether M ≻ 0 by construction (``None``: not known)."""
+
+    mass: Rows
+    parameters: Ranges
+    definite: bool | None
+
+    @property
+    def n(self) -> int:
+        """How many joints."""
+        return len(self.mass)
+
+
+def coefficient(random: Random) -> Fraction:
+    """A short number that is not 0."""
+    return Fraction(random.choice((-3, -2, -1, 1, 1, 2, 3, 5)), random.choice((1, 1, 2, 4, 7, 10)))
+
+
+def powers(n: int, parameters: int, **exponents: int) -> tuple[int, ...]:
+    """Exponents by name: ``s1`` is sin q1, ``c2`` is cos q2, ``p1`` the first parameter."""
+    names = [f"{letter}{k + 1}" for letter in "sc" for k in range(n)]
+    return tuple(exponents.get(name, 0) for name in [*names, *(f"p{k + 1}" for k in range(parameters))])
+
+
+def waves(random: Random, n: int, parameters: int, most: int, first: int = 1) -> Terms:
+    """Some products of sines and cosines of the joints from ``first`` on, sometimes with a parameter."""
+    found = []
+    for _ in range(random.randint(0, most)):
+        joint = random.randint(first, n)
+        names = random.choice(
+            (("s", "c")[random.randrange(2)], "c", "cc", "sc", "ss" if random.random() < 0.5 else "s")
+        )
+        exponents = {f"{letter}{joint}": names.count(letter) for letter in "sc"}
+        if n > 1 and random.random() < 0.2:
+            exponents[f"{random.choice('sc')}{random.randint(first, n)}"] = 1
+        if parameters and random.random() < 0.4:
+            exponents["p1"] = random.choice((1, 1, 2))
+        found.append((powers(n, parameters, **exponents), coefficient(random)))
+    return tuple(found)
+
+
+def scaled(terms: Terms, factor: Fraction) -> Terms:
+    """Each coefficient times a factor."""
+    return tuple((exponents, c * factor) for exponents, c in terms)
+
+
+def size(terms: Terms, parameters: Ranges) -> Fraction:
+    """A bound of the absolute value: the sum of the coefficients, with parameters at their largest."""
+    total = Fraction(0)
+    for exponents, c in terms:
+        part = abs(c)
+        for (low, high), power in zip(parameters, exponents[len(exponents) - len(parameters) :], strict=True):
+            part *= max(abs(low), abs(high)) ** power
+        total += part
+    return total
+
+
+def number(n: int, parameters: int, value: Fraction) -> Terms:
+    """A constant as a polynomial."""
+    return ((powers(n, parameters), value),)
+
+
+def ranges(random: Random) -> Ranges:
+    """Mostly no parameter, else one."""
+    if random.random() < 0.85:
+        return ()
+    low = Fraction(random.randint(-2, 4), 4)
+    return ((low, low + random.choice((Fraction(0), Fraction(1, 4), Fraction(1)))),)
+
+
+def robot(random: Random, n: int | None = None, definite: bool | None = None, plain: bool = False) -> Robot:
+    """An arm; ``definite`` asks for M ≻ 0 or not by construction, ``plain`` for nothing extreme.
+
+    M ≻ 0 where each diagonal entry has a constant above all that could be against it; M is not definite
+    where one is negative at every posture.
+    """
+    n = n or random.choice((1, 1, 2))
+    parameters = () if plain else ranges(random)
+    count = len(parameters)
+    if n == 2 and random.random() < 0.3 and definite is not False:
+        return _planar(random, plain)
+    first = 2 if n == 2 and (plain or random.random() < 0.7) else 1
+    most = 1 if plain else 2
+    entries = {(i, j): waves(random, n, count, most, first) for i in range(n) for j in range(i + 1)}
+    if n == 2 and random.random() < 0.5:
+        entries[1, 0] += number(n, count, coefficient(random))
+    against = [
+        sum((size(entries[max(i, j), min(i, j)], parameters) for j in range(n)), Fraction(0))
+        for i in range(n)
+    ]
+    what = definite if definite is not None else random.choice((True, True, True, False, None))
+    extra = [random.choice((Fraction(1, 100), Fraction(1, 4), Fraction(2))) for _ in range(n)]
+    constants = [a + b for a, b in zip(against, extra, strict=True)]
+    if what is False:
+        k = random.randrange(n)
+        constants[k] = -constants[k]
+    elif what is None:
+        constants = [c * random.choice((Fraction(1), Fraction(3, 4), Fraction(1, 2))) for c in constants]
+    for i, c in enumerate(constants):
+        entries[i, i] += number(n, count, c)
+    factor = Fraction(1) if plain else random.choice(SCALES)
+    rows = tuple(tuple(scaled(entries[max(i, j), min(i, j)], factor) for j in range(n)) for i in range(n))
+    return Robot(rows, parameters, what)
+
+
+def _planar(random: Random, plain: bool) -> Robot:
+    """Two links in a plane: M ≻ 0, as it is the sum of the energies of two bodies."""
+    m1, m2, l1, r1, r2, i1, i2 = (abs(coefficient(random)) for _ in range(7))
+    a, b, c = i1 + m1 * r1**2 + m2 * l1**2, m2 * l1 * r2, i2 + m2 * r2**2
+    factor = Fraction(1) if plain else random.choice(SCALES)
+    one, turn = powers(2, 0), powers(2, 0, c2=1)
+    rows = (
+        (((one, a + c), (turn, 2 * b)), ((one, c), (turn, b))),
+        (((one, c), (turn, b)), ((one, c),)),
+    )
+    return Robot(tuple(tuple(scaled(e, factor) for e in row) for row in rows), (), True)
+
+
+def gravity(random: Random, n: int, parameters: int) -> tuple[Terms, ...]:
+    """A torque for each joint, sometimes none at all; now and then of one joint alone."""
+    if random.random() < 0.1:
+        return ((),) * n
+    return tuple(waves(random, n, parameters, 2) for _ in range(random.choice((1, n))))

@@ -1,0 +1,98 @@
+"""Statements about motions as ``lyapcheck bounds`` finds them, with their proofs.
+
+``propose`` does not search for times and levels: they are found together with the statement. So a few
+statements are found here, once; what a generator makes of them is put to the checker with the same proofs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from types import SimpleNamespace
+from typing import Any
+
+from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.settling import Settling
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures.states import setting_of
+from lyapcheck.search.decay import disturbance_bound, settling_bound
+from lyapcheck.verdicts import Verdict
+
+MAX_BOXES = 2_000
+COSINE, WHOLE, TURN = (0, 1), (0, 0, 0, 0), (0, 0, 0, 1)
+Mass = tuple[tuple[Any, ...], ...]
+
+
+def _one(constant: str, wave: str = "0") -> Mass:
+    """One joint."""
+    terms = [((0, 0), Fraction(constant)), (COSINE, Fraction(wave))]
+    return ((tuple(term for term in terms if term[1]),),)
+
+
+def _two(a: str, b: str, c: str) -> Mass:
+    """Two links in a plane."""
+    part, off = (TURN, Fraction(b) / 2), (WHOLE, Fraction(c))
+    first = ((WHOLE, Fraction(a)), (TURN, Fraction(b)))
+    return ((first, (off, part)), ((off, part), (off,)))
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a bound is asked for."""
+
+    mass: Mass
+    viscous: str
+    family: str
+    m: int | None
+    kp: str
+    kv: str
+    start: float
+    rate: float = 0.0
+    torque: str = "0"
+    dry: str = "0"
+
+
+ASKED = (
+    Asked(_one("2", "1"), "1", "tanh", None, "20", "1", 0.5),
+    Asked(_one("1"), "2", "arctan", None, "10", "1/2", 1.0, rate=0.5, torque="1/10"),
+    Asked(_one("3/2", "1/2"), "3/2", "algebraic", None, "15", "1", 0.7, dry="1/5"),
+    Asked(_one("1", "1/4"), "1", "hyperbolic", 2, "20", "1", 0.6, rate=1.0),
+    Asked(_two("3", "1", "1"), "1", "tanh", None, "20", "1", 0.5, torque="1/20", dry="1/20"),
+)
+
+
+@lru_cache(maxsize=len(ASKED))
+def found(index: int) -> tuple[Settling, Any]:
+    """The statement and the proof that the search finds for one of ``ASKED``."""
+    asked = ASKED[index]
+    n = len(asked.mass)
+    each = [Fraction(getattr(asked, name)) for name in ("viscous", "kp", "kv", "torque", "dry")]
+    b, kp, kv, torque, dry = ((x,) * n for x in each)
+    ranges = tuple((x, x) for x in b)
+    setting = setting_of(Decreasing(asked.mass, ranges, (), asked.family, asked.m, kp, kv, Fraction(1), ()))
+    start = ((asked.start,) * n, (asked.rate,) * n)
+    if any(torque) or any(dry):
+        shown = disturbance_bound(setting, *start, torque, dry, max_boxes=MAX_BOXES).shown
+    else:
+        shown = settling_bound(setting, *start, 0.1, max_boxes=MAX_BOXES).shown
+    if shown is None:
+        raise LookupError(f"the search finds no bound for {asked}")
+    return shown.statement, shown.proof
+
+
+def decide_settling(statement: Settling) -> Any:
+    """Proved, if the checker takes one of the proofs that were found for as many joints."""
+    reason = "no proof of this many joints"
+    for index, asked in enumerate(ASKED):
+        if len(asked.mass) == len(statement.mass) and asked.family == statement.family:
+            try:
+                statement.require_well_formed()
+                verify(statement, found(index)[1])
+                return SimpleNamespace(
+                    verdict=Verdict.PROVED, method="falling levels", reason="", witness=None
+                )
+            except Refused as refusal:
+                reason = str(refusal)
+    return SimpleNamespace(verdict=Verdict.UNDECIDED, method="falling levels", reason=reason, witness=None)
