@@ -3,10 +3,11 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report test test-slow test-robots fuzz lint types bench lock clean help
+.PHONY: report study test test-slow test-robots fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
+	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests"
 	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
@@ -18,6 +19,9 @@ help:
 
 report: .venv/.ready
 	$(BIN)/lyapcheck report
+
+study: .venv/.ready
+	$(BIN)/python -m studies.printed_experiment
 
 test: .venv/.ready
 	$(BIN)/pytest -n 2 -m "not slow"

@@ -15,8 +15,8 @@ import pytest
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
+from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import findings
-from lyapcheck.report.jobs import sensitivity_job
 from lyapcheck.report.model import Report
 from lyapcheck.report.words import (
     answer_cell,
@@ -29,8 +29,8 @@ from lyapcheck.report.words import (
 )
 from lyapcheck.report.write import render
 from lyapcheck.robots import load
-from lyapcheck.sensitivity.json import study_json
-from lyapcheck.sensitivity.study import study
+from studies.printed_experiment.json import study_json
+from studies.printed_experiment.study import study
 
 
 @pytest.fixture(scope="module")
@@ -179,5 +179,23 @@ def replace_together(found: dict[str, Any], **changed: Any) -> dict[str, Any]:
 
 
 def test_an_arm_that_the_paper_did_not_run_has_no_such_part() -> None:
-    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    assert sensitivity_job([(file.path, file.gains[0].name)], "reyes-kelly2", 1) is None
+    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
+    assert printed_experiment(gains, load("reyes-kelly2")) is None
+    assert printed_experiment([replace(gains[0], m=9)], load("buap3-small")) is None
+
+
+def test_a_report_takes_the_sets_that_it_is_about_from_the_study() -> None:
+    """The study was run for the arm as it is now: run ``make study`` after a change of its numbers."""
+    model = load("buap3")
+    (first, *_, last) = read_gain_file(paper_gain_file("table2")).gains
+    both = printed_experiment([replace(last, name="mine"), first], model)
+    assert both is not None
+    assert [(one["name"], one["m"]) for one in both["sets"]] == [("tau_m1", 1), ("mine", 3)]
+    assert both["together"] is None
+
+
+def test_another_arm_of_that_name_has_no_such_part() -> None:
+    model = load("buap3")
+    name, number = next(iter(model.numbers.items()))
+    other = replace(model, numbers=model.numbers | {name: replace(number, value=number.value * 2, high=None)})
+    assert printed_experiment(read_gain_file(paper_gain_file("table2")).gains, other) is None

@@ -15,23 +15,24 @@ import pytest
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import RobotModel, load
-from lyapcheck.sensitivity.approach import approach, between
-from lyapcheck.sensitivity.assumptions import Assumption, assumptions
-from lyapcheck.sensitivity.bench_compiled import compiled_bench
-from lyapcheck.sensitivity.bench_graph import graph_bench
-from lyapcheck.sensitivity.bench_runs import PERIOD, BenchRuns, enough_sweeps
-from lyapcheck.sensitivity.design import LEVELS, design, values
-from lyapcheck.sensitivity.json import study_json
-from lyapcheck.sensitivity.numbers import number_study
-from lyapcheck.sensitivity.printed_numbers import START_TORQUES, PrintedNumber, printed_entry
-from lyapcheck.sensitivity.results import Answer, Study
-from lyapcheck.sensitivity.shares import shares
-from lyapcheck.sensitivity.study import study
-from lyapcheck.sensitivity.trials import first_trials
 from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.printed import printed_entry
 from lyapcheck.simulate.task import PAPER_TASK
 from lyapcheck.simulate.trial import experiment
+from studies.printed_experiment.approach import approach, between
+from studies.printed_experiment.assumptions import Assumption, assumptions
+from studies.printed_experiment.bench_compiled import compiled_bench
+from studies.printed_experiment.bench_graph import graph_bench
+from studies.printed_experiment.bench_runs import PERIOD, BenchRuns, enough_sweeps
+from studies.printed_experiment.design import LEVELS, design, values
+from studies.printed_experiment.json import study_json
+from studies.printed_experiment.numbers import number_study
+from studies.printed_experiment.printed_numbers import START_TORQUES, PrintedNumber
+from studies.printed_experiment.results import Answer, Study
+from studies.printed_experiment.shares import shares
+from studies.printed_experiment.study import study
+from studies.printed_experiment.trials import first_trials
 
 ARM = load("buap3")
 ASSUMED = assumptions(ARM)

@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.report.drawings import draw_claims, draw_comparisons, draw_family, draw_sensitivity, draw_set
-from lyapcheck.report.jobs import claims_job, gains_job, sensitivity_job
+from lyapcheck.report.experiment import printed_experiment
+from lyapcheck.report.jobs import claims_job, gains_job
 from lyapcheck.report.model import Data
+from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
@@ -53,16 +55,18 @@ def compute(subject: Subject, tell: Progress) -> Computed:
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         jobs = _submit(subject, pool)
         figures = draw_family(subject.ms) | _drawn(jobs, tell)
+    study = printed_experiment(
+        (one for file in subject.gain_files for one in file.gains), load(subject.robot)
+    )
     parts = [job.result() for job in jobs.sets]
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
-    study = jobs.study.result()
     return Computed(
         claims=_merged([row for job in jobs.published for row in job.result()]),
         instead=tuple(row for job in jobs.instead for row in conclusions(job.result())),
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        figures=figures | draw_comparisons(epsilon, runs, study),
+        figures=figures | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study),
     )
 
 
@@ -77,7 +81,6 @@ class Jobs:
 
     Args:
         sets: ε₀ and simulation of each gain set.
-        study: the sensitivity study of them all.
         published: the claims of the paper for each m.
         instead: those of the other proofs.
         labels: of each job, for who waits.
@@ -85,7 +88,6 @@ class Jobs:
     """
 
     sets: list[Job]
-    study: Job
     published: list[Job]
     instead: list[Job]
     labels: dict[Job, str]
@@ -107,11 +109,10 @@ def _submit(subject: Subject, pool: ProcessPoolExecutor) -> Jobs:
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
     published = [claims(PROOF, m) for m in subject.ms]
-    study = start("sensitivity", sensitivity_job, named, subject.robot, SEED)
     instead = [claims(proof, m) for proof in INSTEAD for m in subject.ms]
     drawings: dict[Job, Callable[[Any], Files]] = dict.fromkeys(sets, draw_set)
     drawings |= {job: partial(draw_claims, m) for m, job in zip(subject.ms, published, strict=True)}
-    return Jobs(sets, study, published, instead, labels, drawings | {study: draw_sensitivity})
+    return Jobs(sets, published, instead, labels, drawings)
 
 
 def _drawn(jobs: Jobs, tell: Progress) -> Files:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +18,6 @@ BOXES = 100_000
 """Budget of branch and bound for one gain set: a report takes half a minute, ``epsilon`` goes further."""
 
 
-SMALL: dict[str, Any] = {"spread": 96, "corners": 32, "search": False}
 """The study of the experiment where nothing can be compiled: a bench run then takes 50 times longer."""
 
 
@@ -62,25 +60,6 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     row = _epsilon(gain_set, model, seed)
     eps0 = float(row["certified"] or row["scalar"] or 0.0)
     return GainData(row, _run_data(_simulated(gain_set, model, eps0)))
-
-
-def sensitivity_job(sets: Sequence[tuple[str, str]], robot: str, seed: int) -> dict[str, Any] | None:
-    """The printed experiment on arms from all over the ranges of what is assumed; none if nothing is printed.
-
-    Args:
-        sets: (gain file, name of the gain set).
-        robot: the arm.
-        seed: of all random choices.
-    """
-    from lyapcheck.compiled.compiler import compiler
-    from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.robots import load
-    from lyapcheck.sensitivity.json import study_json
-    from lyapcheck.sensitivity.study import study
-
-    chosen = [one for path, name in sets for one in read_gain_file(path).gains if one.name == name]
-    found = study(chosen, load(robot), seed=seed, **({} if compiler() else SMALL))
-    return None if found is None else study_json(found)
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from lyapcheck.simulate.gains import Gains
-from lyapcheck.simulate.run import Run
+from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import PAPER_TASK
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.run import Run
+
+PAPER_ARM = "buap3"
 
 
 @dataclass(frozen=True)
@@ -41,9 +48,17 @@ PRINTED = (
 
 def printed_for(run: Run) -> Printed | None:
     """The printed numbers of the same gains, arm and task; none for anything the paper did not run."""
-    if run.robot != "buap3" or run.task != PAPER_TASK:
+    if run.robot != PAPER_ARM or run.task != PAPER_TASK:
         return None
     return next((entry for entry in PRINTED if _same(entry, run.gains)), None)
+
+
+def printed_entry(gain_set: GainSet, model: RobotModel) -> Printed | None:
+    """What the paper prints of these gains on this arm; none for anything it did not run."""
+    if model.name != PAPER_ARM:
+        return None
+    gains = gains_for(gain_set, model.n)
+    return next((entry for entry in PRINTED if _same(entry, gains)), None)
 
 
 def _same(entry: Printed, gains: Gains) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.sensitivity.assumptions import Assumption
+from studies.printed_experiment.assumptions import Assumption
 
 LEVELS = 5
 """Values of each number that is changed alone, both ends included."""

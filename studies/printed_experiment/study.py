@@ -9,22 +9,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Progress
-from lyapcheck.sensitivity.assumptions import assumptions
-from lyapcheck.sensitivity.bench_runs import BenchRuns
-from lyapcheck.sensitivity.design import design, values
-from lyapcheck.sensitivity.numbers import number_study
-from lyapcheck.sensitivity.printed_numbers import figure_gains, printed_entry, printed_numbers
-from lyapcheck.sensitivity.results import FigureGains, SetStudy, Study, Together
-from lyapcheck.sensitivity.together import all_sets, one_set
-from lyapcheck.sensitivity.trials import Trials, first_trials
 from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.printed import printed_entry
 from lyapcheck.simulate.task import PAPER_TASK
+from studies.printed_experiment.assumptions import assumptions
+from studies.printed_experiment.bench_runs import BenchRuns
+from studies.printed_experiment.design import design, values
+from studies.printed_experiment.numbers import number_study
+from studies.printed_experiment.printed_numbers import figure_gains, printed_numbers
+from studies.printed_experiment.results import FigureGains, SetStudy, Study, Together
+from studies.printed_experiment.together import all_sets, one_set
+from studies.printed_experiment.trials import Trials, first_trials
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.sensitivity.design import Design
     from lyapcheck.simulate.printed import Printed
+    from studies.printed_experiment.design import Design
 
 
 SPREAD, CORNERS = 512, 256

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from lyapcheck.sensitivity.results import AtOnce, NumberStudy, SetStudy, Study
+from studies.printed_experiment.results import AtOnce, NumberStudy, SetStudy, Study
 
 
 def study_json(study: Study) -> dict[str, Any]:

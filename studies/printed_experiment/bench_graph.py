@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
-from lyapcheck.sensitivity.bench_step import BenchStep, parameter_count
+from studies.printed_experiment.bench_step import BenchStep, parameter_count
 
 _CALLS: dict[str, Callable[..., Any]] = {
     "copysign": ca.copysign,

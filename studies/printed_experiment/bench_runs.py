@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.sensitivity.assumptions import BAND, Assumption, numbers
-from lyapcheck.sensitivity.bench_compiled import compiled_bench
 from lyapcheck.simulate.batch_runs import settling_times
 from lyapcheck.simulate.gains import Gains, gains_for
+from studies.printed_experiment.assumptions import BAND, Assumption, numbers
+from studies.printed_experiment.bench_compiled import compiled_bench
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -88,7 +88,7 @@ class BenchRuns:
         family, sweeps = gains.family, enough_sweeps(self.model)
         run: Any = compiled_bench(self.model, family, PERIOD, self.substeps, sweeps)
         if run is None:
-            from lyapcheck.sensitivity.bench_graph import graph_bench
+            from studies.printed_experiment.bench_graph import graph_bench
 
             run = graph_bench(self.model, family, PERIOD, self.substeps, sweeps)
         starts = np.tile([*self.task.q0, *self.task.w0], (len(values), 1))

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.sensitivity.approach import approach
-from lyapcheck.sensitivity.design import values
-from lyapcheck.sensitivity.printed_numbers import PrintedNumber
-from lyapcheck.sensitivity.results import AtOnce, Together
-from lyapcheck.sensitivity.trials import Trials
+from studies.printed_experiment.approach import approach
+from studies.printed_experiment.design import values
+from studies.printed_experiment.printed_numbers import PrintedNumber
+from studies.printed_experiment.results import AtOnce, Together
+from studies.printed_experiment.trials import Trials
 
 CHILDREN = 12
 """Of each parent in each round of these searches: there is one goal only, and it is narrow."""

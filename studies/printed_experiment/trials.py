@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.sensitivity.approach import approach, between
-from lyapcheck.sensitivity.bench_runs import BenchRuns, Outcomes
-from lyapcheck.sensitivity.design import values
-from lyapcheck.sensitivity.printed_numbers import PrintedNumber
+from studies.printed_experiment.approach import approach, between
+from studies.printed_experiment.bench_runs import BenchRuns, Outcomes
+from studies.printed_experiment.design import values
+from studies.printed_experiment.printed_numbers import PrintedNumber
 
 Mask = NDArray[np.bool_]
 

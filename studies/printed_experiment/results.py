@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from lyapcheck.sensitivity.assumptions import Assumption
-from lyapcheck.sensitivity.printed_numbers import PrintedNumber
+from studies.printed_experiment.assumptions import Assumption
+from studies.printed_experiment.printed_numbers import PrintedNumber
 
 
 class Answer(StrEnum):

@@ -9,16 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.gains import Gains, gains_for
-from lyapcheck.simulate.printed import PRINTED, Printed
+from lyapcheck.simulate.gains import Gains
+from lyapcheck.simulate.printed import Printed
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
-    from lyapcheck.sensitivity.bench_runs import Outcomes
+    from studies.printed_experiment.bench_runs import Outcomes
 
-
-PAPER_ARM = "buap3"
 
 START_TORQUES: dict[int | None, tuple[str, tuple[float | None, ...]]] = {
     1: ("Fig. 4", (30.82, 78.69, 9.17)),
@@ -56,19 +52,6 @@ class PrintedNumber:
         """(R,) the same number of each run."""
         found: Array = getattr(outcomes, self.quantity)
         return found if self.joint is None else found[:, self.joint]
-
-
-def printed_entry(gain_set: GainSet, model: RobotModel) -> Printed | None:
-    """What the paper prints of these gains on this arm; none for anything it did not run."""
-    if model.name != PAPER_ARM:
-        return None
-    gains = gains_for(gain_set, model.n)
-    return next((entry for entry in PRINTED if _same(entry, gains)), None)
-
-
-def _same(entry: Printed, gains: Gains) -> bool:
-    family = "linear" if entry.m is None else "hyperbolic"
-    return (gains.family.name, gains.family.m, gains.written) == (family, entry.m, (entry.kp, entry.kv))
 
 
 def printed_numbers(entry: Printed) -> tuple[PrintedNumber, ...]:

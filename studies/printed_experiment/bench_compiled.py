@@ -15,7 +15,7 @@ from lyapcheck.compiled.library import library
 from lyapcheck.compiled.straight_line import Code, TooLong
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
-from lyapcheck.sensitivity.bench_step import BenchStep, parameter_count
+from studies.printed_experiment.bench_step import BenchStep, parameter_count
 
 LANES = 8
 """Runs that advance together."""
@@ -58,7 +58,7 @@ def _source(model: RobotModel, family: Family, period: float, substeps: int, swe
     sizes = {"N": model.n, "P": parameter_count(model), "LANES": LANES, "SUBSTEPS": substeps}
     defines = [f"#define {name} {value}" for name, value in (sizes | {"PERIOD": period.hex()}).items()]
     parts = [_controller(model, family, period), _arm(model, family, period, substeps, sweeps)]
-    template = files("lyapcheck.sensitivity").joinpath("bench.c").read_text(encoding="utf-8")
+    template = files("studies.printed_experiment").joinpath("bench.c").read_text(encoding="utf-8")
     return "\n".join([*defines, *parts, template])
 
 

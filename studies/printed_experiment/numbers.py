@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.sensitivity.design import LEVELS, Design, values
-from lyapcheck.sensitivity.printed_numbers import PrintedNumber
-from lyapcheck.sensitivity.results import Answer, NumberStudy
-from lyapcheck.sensitivity.shares import shares
-from lyapcheck.sensitivity.trials import Trials
+from studies.printed_experiment.design import LEVELS, Design, values
+from studies.printed_experiment.printed_numbers import PrintedNumber
+from studies.printed_experiment.results import Answer, NumberStudy
+from studies.printed_experiment.shares import shares
+from studies.printed_experiment.trials import Trials
 
 NEAR, LEAST = 0.01, 0.005
 """A value within 1 % and 0.005 ° or s of a printed one is taken for it."""

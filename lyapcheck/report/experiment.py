@@ -1,0 +1,50 @@
+"""What the study of the printed experiment found, for the gains and the arm of a report."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from hashlib import sha256
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.simulate.printed import PRINTED, printed_entry
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+
+
+def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> dict[str, Any] | None:
+    """The part of the study that is about these gains, under their names.
+
+    Args:
+        gain_sets: those of the report; what the paper did not run is left out.
+        model: the arm.
+
+    Returns:
+        None where the paper ran none of the gains on this arm, or where the arm is another by now.
+    """
+    chosen = {entry.m: one.name for one in gain_sets if (entry := printed_entry(one, model))}
+    if not chosen:
+        return None
+    study: dict[str, Any] = json.loads(_results().read_text(encoding="utf-8"))
+    if study.pop("arm") != arm_digest(model):
+        return None
+    sets = [one | {"name": chosen[one["m"]]} for one in study["sets"] if one["m"] in chosen]
+    together = study["together"] if len(sets) == len(PRINTED) else None
+    return study | {"sets": sets, "together": together}
+
+
+def arm_digest(model: RobotModel) -> str:
+    """Of all numbers of an arm: a study of other numbers is one of another arm."""
+    numbers = sorted((name, number.value, number.bounds) for name, number in model.numbers.items())
+    return sha256(repr((model.name, model.joints, numbers)).encode()).hexdigest()
+
+
+def _results() -> Path:
+    """In an installed package, or in a checkout."""
+    package = Path(str(resources.files("lyapcheck")))
+    inside = package / "report" / "printed_experiment.json"
+    return inside if inside.is_file() else package.parent / "studies" / "printed_experiment" / "results.json"

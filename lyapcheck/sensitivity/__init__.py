@@ -1,1 +1,0 @@
-"""What the assumed numbers of an arm do to the experiment, and whether they explain what is printed."""
