@@ -6,6 +6,7 @@ import csv
 import json
 import re
 from copy import deepcopy
+from dataclasses import replace
 from io import StringIO
 from typing import Any
 from xml.etree import ElementTree

@@ -55,9 +55,8 @@ def compute(subject: Subject, tell: Progress) -> Computed:
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         jobs = _submit(subject, pool)
         figures = draw_family(subject.ms) | _drawn(jobs, tell)
-    study = printed_experiment(
-        (one for file in subject.gain_files for one in file.gains), load(subject.robot)
-    )
+    of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
+    study = printed_experiment(of_the_report, load(subject.robot))
     parts = [job.result() for job in jobs.sets]
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
     return Computed(
