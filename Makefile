@@ -32,7 +32,7 @@ test-slow: .venv/.ready
 # Packages that only these tests need; users never do.
 test-robots: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
-	$(BIN)/pytest tests/against_pinocchio.py
+	$(BIN)/pytest tests/robots/against_pinocchio.py
 
 fuzz: .venv/.ready
 	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md

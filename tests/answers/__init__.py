@@ -1,0 +1,1 @@
+"""What each question is answered, as data and as documents."""

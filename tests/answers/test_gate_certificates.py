@@ -1,0 +1,357 @@
+"""Certificates as conditions, and what the gate says where they and (19) disagree."""
+
+from __future__ import annotations
+
+import json
+import sys
+from fractions import Fraction
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner, Result
+
+from lyapcheck import load_robot, named_family
+from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate.stability import remarks, stable_otherwise
+from lyapcheck.check.loop import proves
+from lyapcheck.cli import main as cli
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.proof import Proof
+from lyapcheck.search.setting import Setting
+from lyapcheck.verdicts import Exit
+
+TABLE2 = paper_gain_file("table2_shoulder_elbow")
+
+
+def judged(path: Path = TABLE2, *deciding: str, strict: bool = False) -> dict[str, GateResult]:
+    found = gate(read_gain_file(path), None, deciding or ("10p", "19"), strict=strict)
+    return {result.name: result for result in found}
+
+
+def gain_file(path: Path, top: str, kv: str = "[0.1, 0.1]", end: str = "") -> Path:
+    path.write_text(f"{top}\n[[gains]]\nname = 'a'\nm = 2\nkp = [1, 1]\nkv = {kv}\n{end}")
+    return path
+
+
+@pytest.fixture(scope="module")
+def scalar() -> dict[str, GateResult]:
+    return judged(TABLE2, "scalar")
+
+
+@pytest.fixture(scope="module")
+def everywhere() -> dict[str, GateResult]:
+    return judged(TABLE2, "global", "19")
+
+
+# --- the scalar certificate --------------------------------------------------------------------
+
+
+def test_the_scalar_value_is_that_of_norms(scalar: dict[str, GateResult]) -> None:
+    """Θ' by its definition, with row sums of M and the Christoffel symbols over a grid of angles."""
+    arm, angles = NumericModel(load_robot("reyes-kelly2")), np.linspace(-np.pi, np.pi, 2001)
+    q = np.stack([np.zeros_like(angles), angles], axis=1)
+    beta = abs(arm.mass(q)).max(axis=0).sum(axis=1).max()
+    k_c = np.sqrt((abs(arm.christoffel(q)).max(axis=0) ** 2).sum())
+    b = np.array([2.288, 0.175])
+    for result in scalar.values():
+        (check,) = [check for check in result.checks if check.id == "scalar"]
+        assert (check.verdict, result.verdict) == ("accepted", "accepted")
+        assert check.value is not None
+        known, kp, kv = named_family("hyperbolic", result.m).constants(), result.gains.kp, result.gains.kv
+        assert known.gamma is not None
+        reach, rho, L = 2**0.5 * float(known.gamma.mid), float(known.rho.mid), float(known.L.mid)
+        G = reach * L / (reach + L)
+        eps = float(check.value)
+        c, d = beta * (rho + G) + reach * k_c, b.max() + L * float(max(kv))
+        theta = np.array(
+            [
+                [eps * float(min(kp)), -eps / 2 * (d + eps * c)],
+                [-eps / 2 * (d + eps * c), b.min() - eps * c],
+            ]
+        )
+        assert np.linalg.eigvalsh(theta)[0] > 0
+        theta[0, 1] = theta[1, 0] = -1.02 * eps / 2 * (d + 1.02 * eps * c)
+        theta[1, 1], theta[0, 0] = b.min() - 1.02 * eps * c, 1.02 * eps * float(min(kp))
+        assert np.linalg.eigvalsh(theta)[0] < 0
+
+
+def test_less_friction_than_the_arms_makes_less_of_it(tmp_path: Path) -> None:
+    def eps0(end: str) -> Fraction:
+        (result,) = judged(
+            gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", end=end), "scalar"
+        ).values()
+        assert result.checks[-1].value is not None
+        return result.checks[-1].value
+
+    plain = eps0("")
+    assert eps0("[bounds]\nviscous_min = 0.175\n") == plain
+    assert 0 < eps0("[bounds]\nviscous_min = 0.05\n") < plain / 2
+
+
+# --- the global certificate --------------------------------------------------------------------
+
+
+def test_the_global_value_is_proved_and_below_what_a_state_refutes(everywhere: dict[str, GateResult]) -> None:
+    """The smallest ε₀ that a state refutes on this arm: 0.8106, 0.9264 and 0.6362."""
+    for result, refuted in zip(everywhere.values(), ("0.8106", "0.9264", "0.6362"), strict=True):
+        value = result.checks[-1].value
+        assert value is not None
+        assert Fraction(1, 10) < value < Fraction(refuted)
+
+
+@pytest.mark.parametrize("name", ["scalar", "global"])
+def test_what_the_checker_refuses_is_not_accepted(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
+) -> None:
+    """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
+    import lyapcheck.answers.gate.prover as room
+
+    monkeypatch.setattr(Proof, "accepted", lambda *_: False)
+    monkeypatch.setattr(room, "CEILINGS", (64, 4))
+    (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
+    assert result.verdict == "undecided"
+    assert "accepted no proof" in result.failures[0].reason
+
+
+def test_the_last_way_is_the_checkers_own_scalar_form() -> None:
+    """A tree of one leaf, which only that form can prove."""
+    setting = Setting(read_gain_file(TABLE2).gains[0], load_robot("reyes-kelly2"))
+    assert proves(setting.closure(Fraction(1, 1000)), ".")
+    assert not proves(setting.closure(Fraction(1)), ".")
+
+
+# --- undecided, never rejected -----------------------------------------------------------------
+
+BOUNDS = "[bounds]\nviscous_min = 0.4\ntorque = [9, 9]\ngravity = [1, 1]\n"
+
+
+@pytest.mark.parametrize("name", ["scalar", "global"])
+def test_without_an_arm_a_certificate_is_undecided(tmp_path: Path, name: str) -> None:
+    (result,) = judged(gain_file(tmp_path / "g.toml", "", end=BOUNDS), name).values()
+    assert (result.verdict, result.checks[-1].value) == ("undecided", None)
+    assert "name one" in result.failures[0].reason
+    assert remarks(result) == [f"(10p) and (19) hold, yet no {name} certificate was found"]
+
+
+def test_another_friction_leaves_the_global_one_undecided(tmp_path: Path) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", end="[bounds]\nviscous_min = 0.1\n")
+    (result,) = judged(path, "global").values()
+    assert result.verdict == "undecided"
+    assert "viscous_min" in result.failures[0].reason
+
+
+def test_an_unbounded_function_has_no_certificate() -> None:
+    (result,) = judged(paper_gain_file("table2_pd"), "scalar", "global").values()
+    assert [check.verdict for check in result.checks[-2:]] == ["undecided", "undecided"]
+    assert all("unbounded" in check.reason for check in result.checks[-2:])
+    assert stable_otherwise(result) is None
+
+
+UNPHYSICAL = """
+title = "M11 < 0 where the elbow is folded"
+source = "a test"
+[model]
+M11 = [[1, ""], [1.05, "c2"]]
+M12 = [[0.1, ""]]
+M22 = [[1, ""]]
+potential = [[-1, "c1"]]
+[[joints]]
+name = "a"
+viscous = 2
+torque_limit = 50
+[[joints]]
+name = "b"
+viscous = 2
+torque_limit = 50
+"""
+
+
+@pytest.mark.parametrize("name", ["scalar", "global"])
+@pytest.mark.parametrize("kv", ["[0.1, 0.1]", "[9, 9]"])
+def test_an_arm_that_cannot_exist_is_never_accepted(tmp_path: Path, name: str, kv: str) -> None:
+    (tmp_path / "arm.toml").write_text(UNPHYSICAL)
+    path = gain_file(tmp_path / "g.toml", "robot = 'arm.toml'", kv)
+    (result,) = judged(path, name).values()
+    assert result.verdict == "undecided"
+    assert "M(q) is not positive definite at q = (" in result.failures[0].reason
+    assert stable_otherwise(result) is None
+    for said in (*remarks(result), *remarks(judged(path)["a"])):
+        assert "stable without" not in said
+
+
+def test_an_unknown_condition_is_refused() -> None:
+    with pytest.raises(InputError, match="scalar, global"):
+        judged(TABLE2, "10p", "lmi")
+
+
+# --- what is said where conditions disagree ----------------------------------------------------
+
+
+def test_stability_is_not_said_where_it_was_not_verified() -> None:
+    result = judged(paper_gain_file())["tau_m2"]
+    assert result.verdict == "rejected"
+    assert stable_otherwise(result) is None
+    assert remarks(result) == ["(19) fails, but it is only sufficient; --condition scalar looks for a proof"]
+
+
+def test_where_it_is_verified_the_flag_that_accepts_it_is_named() -> None:
+    result = judged(paper_gain_file(), "19", "scalar")["tau_m2"]
+    assert result.verdict == "rejected"
+    (said,) = remarks(result)
+    assert said.startswith("(19) fails, yet the gains are proved stable without it: scalar certificate")
+    assert said.endswith("--condition scalar without 19 accepts it")
+    assert judged(paper_gain_file(), "scalar")["tau_m2"].verdict == "accepted"
+
+
+def test_with_a_certificate_both_facts_are_told(everywhere: dict[str, GateResult]) -> None:
+    for result in everywhere.values():
+        assert result.verdict_of(("19",)) == "rejected" == result.verdict
+        (said,) = remarks(result)
+        assert said.startswith("(19) fails, yet the gains are proved stable without it: global certificate")
+        known = stable_otherwise(result)
+        assert known is result.checks[-1]
+        assert (known.id, known.verdict) == ("global", "accepted")
+
+
+def test_where_all_agree_nothing_is_said() -> None:
+    assert remarks(judged(paper_gain_file())["tau_m1"]) == []
+
+
+def test_without_an_arm_stability_is_not_judged(tmp_path: Path) -> None:
+    (result,) = judged(gain_file(tmp_path / "g.toml", "", "[9, 9]", BOUNDS)).values()
+    assert stable_otherwise(result) is None
+    assert "stability is not judged without the arm" in remarks(result)[0]
+
+
+def test_other_functions_are_judged_like_the_hyperbolic_ones(tmp_path: Path) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", "[9, 9]")
+    path.write_text(path.read_text().replace("m = 2", "family = 'tanh'"))
+    (result,) = judged(path).values()
+    assert stable_otherwise(result) is None
+    assert "--condition scalar looks for a proof" in remarks(result)[0]
+    (proved,) = judged(path, "scalar").values()
+    assert "proved stable without it" in remarks(proved)[0]
+    assert remarks(proved)[1].startswith("(10p) fails: a motor may saturate")
+
+
+def test_without_friction_nothing_is_promised(tmp_path: Path) -> None:
+    """(19) fails for every gain, and no proof here does without friction: then no hope is raised."""
+    path = gain_file(tmp_path / "g.toml", "", "[" + ", ".join(["0.1"] * 6) + "]")
+    path.write_text(path.read_text().replace("[1, 1]", "[" + ", ".join(["1"] * 6) + "]"))
+    ur5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+    for deciding in (("10p", "19"), ("19", "scalar", "global")):
+        (result,) = gate(read_gain_file(path), ur5, deciding)
+        assert result.verdict_of(("19",)) == "rejected"
+        assert (stable_otherwise(result), remarks(result)) == (None, [])
+    assert [check.verdict for check in result.checks[-2:]] == ["undecided", "undecided"]
+    assert all("no viscous friction" in check.reason for check in result.checks[-2:])
+
+
+@pytest.mark.parametrize("name", JudgedFormat)
+def test_every_format_tells_the_value_or_the_reason(name: str, everywhere: dict[str, GateResult]) -> None:
+    results = list(everywhere.values())
+    text = GateAnswer(results).written(name)
+    if name in ("text", "markdown", "json"):
+        assert str(float(results[0].checks[-1].value or 0)) in text
+        assert "nominal" in text
+    if name != "csv":
+        assert "yet the gains are proved stable without it" in text
+
+
+def test_json_tells_what_establishes_stability(everywhere: dict[str, GateResult]) -> None:
+    rows = json.loads(
+        GateAnswer([*everywhere.values(), *judged(paper_gain_file()).values()]).written("json")
+    )["results"]
+    for row in rows[3:]:
+        assert row["stable_otherwise"] is None
+    for row in rows[:3]:
+        assert row["stable_otherwise"]["condition"] == "global"
+        assert Fraction(row["stable_otherwise"]["eps0"]) == Fraction(row["checks"][-1]["value"]) > 0
+        assert row["checks"][-1]["limit"] is None
+        assert row["checks"][-1]["line"] is not None
+
+
+# --- strict ------------------------------------------------------------------------------------
+
+
+def test_strict_makes_undecided_a_failure(tmp_path: Path) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'pelican2'", "[0.01, 0.01]")
+    (loose,), (strict,) = judged(path).values(), judged(path, strict=True).values()
+    assert (loose.verdict, strict.verdict) == ("undecided", "undecided")
+    assert (GateAnswer([loose]).exit_code, GateAnswer([strict]).exit_code) == (Exit.UNDECIDED, Exit.REFUTED)
+    counts = []
+    for result in (loose, strict):
+        (suite,) = ET.fromstring(GateAnswer([result]).written("junit"))
+        counts.append((suite.get("tests"), suite.get("failures"), suite.get("skipped")))
+        assert len(suite.findall("testcase/failure")) == int(suite.get("failures") or 0)
+        assert len(suite.findall("testcase/skipped")) == int(suite.get("skipped") or 0)
+    assert counts == [("4", "0", "2"), ("4", "2", "0")]
+    assert (
+        GateAnswer([loose]).written("github").count("::warning ")
+        == GateAnswer([strict]).written("github").count("::error ")
+        == 2
+    )
+    assert [
+        json.loads(GateAnswer([result]).written("json"))["results"][0]["strict"] for result in (loose, strict)
+    ] == [
+        False,
+        True,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "code"), [((), 3), (("--strict",), 1), (("--strict", "--condition=19"), 0)]
+)
+def test_the_command_takes_strict(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, words: tuple[str, ...], code: int
+) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'pelican2'", "[0.01, 0.01]")
+    monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", str(path), *words])
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    assert left.value.code == code
+
+
+# --- written down ------------------------------------------------------------------------------
+
+
+def judged_by_command(*words: str) -> Result:
+    return CliRunner().invoke(cli.build_app(("gate",)), ["gate", *words])
+
+
+def recheck(folder: Path) -> tuple[int, str]:
+    done = CliRunner().invoke(cli.build_app(("recheck",)), ["recheck", str(folder)])
+    return done.exit_code, done.output
+
+
+@pytest.mark.parametrize("words", [(), ("--gamma=printed",), ("--condition", "scalar", "--condition=global")])
+def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tuple[str, ...]) -> None:
+    judged_by_command(str(TABLE2), f"--certificates={tmp_path / 'made'}", *words)
+    made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}
+    assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json"} <= made.keys()
+    assert len(made) == 3 * (7 if len(words) == 3 else 5)
+    for document in made.values():
+        assert document["claim"]["proof"] == "gate"
+    code, said = recheck(tmp_path / "made")
+    assert (code, f"{len(made)} accepted" in said) == (0, True), said
+
+
+@pytest.mark.parametrize("family", ["linear", "arctan", "algebraic", "tanh"])
+def test_other_functions_have_certificates_too(tmp_path: Path, family: str) -> None:
+    path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'")
+    path.write_text(path.read_text().replace("m = 2", f"family = '{family}'"))
+    judged_by_command(str(path), "--certificates", str(tmp_path / "made"))
+    assert len(list((tmp_path / "made").iterdir())) == 5
+    assert recheck(tmp_path / "made")[0] == 0
+
+
+def test_sets_of_two_files_with_one_name_are_refused(tmp_path: Path) -> None:
+    done = judged_by_command(str(TABLE2), str(TABLE2), "--certificates", str(tmp_path / "made"))
+    assert isinstance(done.exception, InputError)
+    assert "one file at a time" in str(done.exception)

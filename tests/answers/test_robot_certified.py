@@ -1,0 +1,206 @@
+"""What ``robot`` calls proved or certified has a certificate, and no false arm gets one."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.answers.robot import build
+from lyapcheck.check.kinds.compared import Compared, MovingPosture, SameHarmonics
+from lyapcheck.check.kinds.coriolis import (
+    CoriolisAtRest,
+    CoriolisTorque,
+    MassSymmetric,
+    RateLessTwiceCoriolis,
+    RateOfMass,
+)
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.inertia import Bisection, CoriolisBelow, MassBelow, PostureWitness
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Monomials, Proof, Statement
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures import propose
+from lyapcheck.cli.main import build_app
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.verdicts import Exit, Verdict
+from tests.robots.test_arm_files import PRINTED
+
+ONE: Monomials = (((0, 0, 0, 0), Fraction(1)),)
+COS2: Monomials = (((0, 0, 0, 1), Fraction(1)),)
+SIN2: Monomials = (((0, 1, 0, 0), Fraction(1)),)
+NONE: Monomials = ()
+MASS = ((COS2, NONE), (NONE, ONE))
+LOPSIDED = ((ONE, COS2), (NONE, ONE))
+
+
+def minus_half(entry: Monomials) -> Monomials:
+    return tuple((powers, -c / 2) for powers, c in entry)
+
+
+HALF_SIN2 = tuple((powers, c / 2) for powers, c in SIN2)
+# the Christoffel symbols of cos q2 · w1² + w2²
+OWN = (
+    ((NONE, minus_half(SIN2), NONE), (minus_half(SIN2), NONE, NONE)),
+    ((HALF_SIN2, NONE, NONE), (NONE, NONE, NONE)),
+)
+# the same torque, but all of it in C11
+MOVED = (((NONE, minus_half(SIN2) * 2, NONE), (NONE, NONE, NONE)), OWN[1])
+# a part that does not vanish at rest
+LEFT = (((NONE, minus_half(SIN2), ONE), (minus_half(SIN2), NONE, NONE)), OWN[1])
+TRUE: list[Compared] = [
+    MassSymmetric(MASS, ()),
+    *(kind(MASS, (), C) for kind in (CoriolisAtRest, RateOfMass, RateLessTwiceCoriolis) for C in ((), OWN)),
+    CoriolisTorque(MASS, (), OWN),
+    CoriolisTorque(MASS, (), MOVED),
+    GravityOfPotential((NONE, SIN2), minus_half(COS2) * 2, ()),
+]
+FALSE: list[Compared] = [
+    MassSymmetric(LOPSIDED, ()),
+    CoriolisAtRest(MASS, (), LEFT),
+    RateOfMass(MASS, (), MOVED),
+    RateOfMass(MASS, (), LEFT),
+    RateOfMass(LOPSIDED, (), OWN),
+    RateLessTwiceCoriolis(MASS, (), MOVED),
+    RateLessTwiceCoriolis(MASS, (), LEFT),
+    CoriolisTorque(MASS, (), LEFT),
+    GravityOfPotential((NONE, COS2), minus_half(COS2) * 2, ()),
+]
+
+
+@pytest.mark.parametrize("statement", TRUE, ids=lambda s: type(s).__name__)
+def test_equal_polynomials_are_proved_and_not_refuted(statement: Compared) -> None:
+    assert propose(statement).verdict is Verdict.PROVED
+    posture = MovingPosture((Fraction(1), Fraction(1, 2)), (), (Fraction(1), Fraction(2)))
+    with pytest.raises(Refused, match="does not show a difference"):
+        verify(statement, posture)
+
+
+@pytest.mark.parametrize("statement", FALSE, ids=lambda s: type(s).__name__)
+def test_different_polynomials_are_refuted_and_not_proved(statement: Compared) -> None:
+    assert propose(statement).verdict is Verdict.REFUTED
+    with pytest.raises(Refused, match="is not the same on both sides"):
+        verify(statement, SameHarmonics())
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        RateOfMass(LOPSIDED, (), ()),
+        RateLessTwiceCoriolis(LOPSIDED, (), ()),
+        CoriolisTorque(LOPSIDED, (), OWN),
+    ],
+    ids=lambda s: type(s).__name__,
+)
+def test_a_matrix_that_is_not_symmetric_has_no_christoffel_symbols(statement: Compared) -> None:
+    """The formula depends on the order of the indices there; the checker keeps one order only."""
+    assert propose(statement).verdict is Verdict.UNDECIDED
+    with pytest.raises(Refused, match="must be symmetric"):
+        statement.require_well_formed()
+
+
+def test_a_printed_matrix_of_another_size_is_refused() -> None:
+    with pytest.raises(Refused, match="must have 2 entries a row, each with 3 polynomials"):
+        verify(RateOfMass(MASS, (), ((OWN[0][0][:2], OWN[0][1]), OWN[1])), SameHarmonics())
+
+
+@pytest.mark.parametrize(
+    ("statement", "proof"),
+    [
+        (MassBelow(MASS, (), Fraction(999, 1000)), Bisection()),
+        (CoriolisBelow(MASS, (), Fraction(1, 3)), Bisection()),
+        (GravityBelow(2, (SIN2,), (), Fraction(999, 1000)), Bisection()),
+        (GravityBelow(2, (SIN2,), (), Fraction(1)), PostureWitness((Fraction(0), Fraction(3, 2)), (), ())),
+        (CoriolisBelow(MASS, (), Fraction(-1)), Bisection()),
+    ],
+)
+def test_false_bounds_are_not_shown(statement: Statement, proof: Proof) -> None:
+    with pytest.raises(Refused):
+        verify(statement, proof)
+
+
+@pytest.mark.parametrize("high", [Fraction(1001, 1000), Fraction(2)])
+def test_boxes_show_bounds_of_all_three(high: Fraction) -> None:
+    bounds = [MassBelow(MASS, (), high), CoriolisBelow(MASS, (), high), GravityBelow(2, (SIN2,), (), high)]
+    assert {verify(bound, Bisection()).verdict for bound in bounds} == {"proved"}
+
+
+def test_uncertain_numbers_count_with_all_their_values() -> None:
+    """p sin q with p up to 3."""
+    torque: Monomials = (((1, 0, 1), Fraction(1)),)
+    bounds = [GravityBelow(1, (torque,), ((Fraction(1), Fraction(3)),), Fraction(x)) for x in (2, 4)]
+    assert verify(bounds[1], Bisection()).verdict == "proved"
+    large = PostureWitness((Fraction(3, 2),), (Fraction(3),), ())
+    assert verify(bounds[0], large).verdict == "refuted"
+    with pytest.raises(Refused, match="must be between 1 and 3"):
+        verify(bounds[0], PostureWitness((Fraction(3, 2),), (Fraction(4),), ()))
+
+
+# The command -----
+
+FALSE_ARM = PRINTED.replace('M11 = [[2.351, ""], [2, "b c2"]]', 'M11 = [[1, ""], [1.05, "c2"]]').replace(
+    'M12 = [[0.102, ""], [1, "b c2"]]', "M12 = []"
+)
+
+
+def test_an_arm_whose_mass_is_not_positive_is_refuted_and_gets_no_false_constant(tmp_path: Path) -> None:
+    (tmp_path / "false.toml").write_text(FALSE_ARM, encoding="utf-8")
+    report = build(load(tmp_path / "false.toml"), 200)
+    assert report.exit_code is Exit.REFUTED
+    first = report.properties[0]
+    assert first.verdict is Verdict.REFUTED
+    assert first.finding.witness is not None
+    assert {"q1", "q2", "x1", "x2"} <= set(first.finding.witness["point"])
+    mass = report.certified["lambda_min"]
+    assert (mass.lower, mass.upper) == (None, Fraction(0))
+    assert report.certified["lambda_max"].lower is None
+    assert report.certified["lambda_max"].upper is not None
+    assert report.certified["lambda_max"].upper >= Fraction("2.05")
+
+
+@pytest.mark.parametrize("name", ["pendulum1", "reyes-kelly2", "buap3"])
+def test_certified_ends_hold_at_random_states_and_are_near_the_numeric_ones(name: str) -> None:
+    report = build(load(name), 400)
+    model, rng = NumericModel(report.model), np.random.default_rng(5)
+    q, x = rng.uniform(-np.pi, np.pi, (500, report.model.n)), rng.normal(size=(500, report.model.n))
+    values, gravity = np.linalg.eigvalsh(model.mass(q)), np.abs(model.gravity(q))
+    turning = np.linalg.norm(model.coriolis(q, x), 2, axis=(-2, -1)) / np.linalg.norm(x, axis=-1)
+    ends = report.certified
+    assert ends["lambda_min"].lower is not None
+    assert ends["lambda_min"].lower <= values[:, 0].min() + 1e-12
+    seen = {"lambda_max": values[:, -1], "k_c": turning, "k_g": np.linalg.norm(gravity, axis=1)}
+    for constant, found in seen.items():
+        assert float(ends[constant].upper or 0) >= found.max() - 1e-12
+    for constant in report.constants:
+        shown, numeric = ends[constant.name], constant.enclosure
+        low, high = shown.lower or Fraction(0), shown.upper
+        assert high is not None
+        assert low <= numeric.upper
+        assert numeric.lower <= high
+        if constant.name != "k_c":
+            assert high - low <= Fraction(1, 20) * high
+
+
+def test_certificates_are_accepted_by_recheck(tmp_path: Path) -> None:
+    app = build_app(("robot", "recheck"))
+    made = tmp_path / "made"
+    result = CliRunner().invoke(
+        app, ["robot", "reyes-kelly2", "--certificates", str(made), "--format", "json", "--max-boxes", "200"]
+    )
+    assert result.exit_code == 0
+    document = json.loads(result.stdout)
+    files = {path.name for path in made.iterdir()}
+    assert {f"2.{k}.json" for k in range(1, 9)} <= files
+    assert {"printed%20C%20rates.json", "printed%20C%20torque.json", "printed%20g.json"} <= files
+    for constant in document["constants"]:
+        assert constant["numeric"] == {"lower": constant["lower"], "upper": constant["upper"]}
+        for side, end in constant["certified"].items():
+            assert (end is not None) == (f"{constant['name']}.{side}.json" in files)
+    checked = CliRunner().invoke(app, ["recheck", str(made)])
+    assert checked.exit_code == 0
+    assert "0 refused, 0 undecided" in checked.stdout

@@ -1,0 +1,301 @@
+"""The constants of an arm of any size, and the command that prints them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from lyapcheck import robots
+from lyapcheck.answers.robot import build
+from lyapcheck.cli.main import build_app
+from lyapcheck.constants import arm_constants
+from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.basis import Products, Sums, basis_of
+from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
+from lyapcheck.constants.waves import derivative, waves
+from lyapcheck.errors import InputError
+from lyapcheck.output.annotations import Level
+from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.robots import trig
+from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.robot_cases import relaxed
+from tests.helpers.urdf_texts import ARMS, TWO, generic
+
+SEEDS = st.integers(0, 10**6)
+
+
+def run(*arguments: str) -> tuple[int, str]:
+    result = CliRunner().invoke(build_app(("robot", "table")), ["robot", *arguments])
+    if isinstance(result.exception, InputError):
+        raise result.exception
+    return result.exit_code, result.stdout
+
+
+# Bounds over boxes -----
+
+
+def arm_of(file: str) -> robots.RobotModel:
+    return (
+        robots.load(ARMS / "panda.urdf", "panda_hand") if file == "panda" else robots.load(ARMS / "ur5.urdf")
+    )
+
+
+@pytest.mark.parametrize(("file", "basis"), [("ur5", Sums), ("panda", Products)])
+def test_reach_holds_what_happens_in_the_box(file: str, basis: type) -> None:
+    """M at random states of random boxes lies within middle + linear part ± radius."""
+    arm = arm_of(file)
+    waves_of_arm = ArmWaves(arm)
+    torus = waves_of_arm.mass
+    assert isinstance(torus._basis, basis)
+    numeric, rng = NumericModel(arm), np.random.default_rng(1)
+    rows, columns = zip(*waves_of_arm.places, strict=True)
+    for size in (0.001, 0.1, 1.0, 3.0):
+        middle, half = rng.uniform(-3, 3, (1, arm.n)), rng.uniform(0, size, (1, arm.n))
+        reach = torus.on(middle, half)
+        t = rng.uniform(-1, 1, (40, arm.n))
+        exact = numeric.mass((middle + half * t) @ torus._basis.back.T)[:, rows, columns]
+        linear = reach.middle + np.einsum("ti,ie->te", t[:, list(torus.angles)], reach.linear[0])
+        assert np.all(np.abs(exact - linear) <= reach.radius)
+
+
+@pytest.mark.parametrize("file", ["ur5", "panda"])
+def test_a_radius_is_not_wider_than_its_order(file: str) -> None:
+    """Small boxes leave an error of second order: a tenth of the width is a hundredth of the radius."""
+    torus = ArmWaves(arm_of(file)).mass
+    middle = np.full((1, torus.n), 0.7)
+    wide, narrow = (torus.on(middle, np.full((1, torus.n), size)).radius.max() for size in (1e-2, 1e-3))
+    assert narrow < wide / 50
+
+
+def test_waves_are_the_same_polynomial() -> None:
+    """sin²q1 cos q2 …, its waves and their derivative, at random states."""
+    ring = trig.trig_ring(2)
+    s1, s2, c1, c2 = ring.gens()
+    poly = 3 * s1**3 * c2 + s1 * c1**2 * s2 * c2 - c2**4 + 7
+    parts = waves(trig.to_terms(poly), 2)
+    rng = np.random.default_rng(2)
+    q = rng.uniform(-3, 3, (20, 2))
+    for entry, exact in ((parts, poly), (derivative(parts, 1), trig.derivative(poly, 1))):
+        basis, rows = basis_of([entry], 2)
+        p = q @ np.linalg.inv(basis.back).T
+        found = sum(float(x) * basis.at(p).values[:, row] for row, x in rows[0].items())
+        expected = [float(trig.evaluate(exact, [*np.sin(x), *np.cos(x)], float)) for x in q]
+        assert np.allclose(found, expected, atol=1e-12)
+
+
+@relaxed
+@given(SEEDS, st.integers(1, 6), st.floats(0, 2))
+def test_eigenvalue_bounds_hold_for_every_matrix_in_reach(seed: int, n: int, size: float) -> None:
+    rng = np.random.default_rng(seed)
+    a, radius = rng.normal(size=(n, n)), size * rng.uniform(size=(n, n))
+    a, radius = a @ a.T, radius + radius.T
+    top, bottom = largest_eigenvalue(a, radius), smallest_eigenvalue(a, radius)
+    for _ in range(20):
+        t = np.triu(rng.choice([-1.0, 1.0], (n, n)))
+        other = np.linalg.eigvalsh(a + radius * (t + np.triu(t, 1).T))
+        assert bottom - 1e-9 <= other[0]
+        assert other[-1] <= top + 1e-9
+
+
+@relaxed
+@given(SEEDS, st.integers(1, 9), st.integers(1, 4), st.floats(0, 2))
+def test_norm_bounds_hold_for_every_matrix_in_reach(seed: int, rows: int, columns: int, size: float) -> None:
+    rng = np.random.default_rng(seed)
+    a, radius = rng.normal(size=(rows, columns)), size * rng.uniform(size=(rows, columns))
+    bound = largest_norm(a, radius)
+    for _ in range(20):
+        other = a + radius * rng.choice([-1.0, 1.0], a.shape)
+        assert np.linalg.norm(other, 2) <= bound * (1 + 1e-9)
+
+
+# Constants -----
+
+
+def whirl(model: NumericModel, q: np.ndarray, x: np.ndarray) -> np.ndarray:
+    size = np.linalg.norm(x, axis=-1)
+    return np.linalg.norm(model.coriolis(q, x), 2, axis=(-2, -1)) / size
+
+
+@pytest.mark.parametrize("name", [*robots.names(), "ur5", "generic4"])
+def test_no_state_lies_outside_the_constants(tmp_path: Path, name: str) -> None:
+    (tmp_path / "generic4.urdf").write_text(generic(4))
+    path = {"ur5": ARMS / "ur5.urdf", "generic4": tmp_path / "generic4.urdf"}.get(name, name)
+    arm = robots.load(path)
+    found = {constant.name: constant for constant in arm_constants(arm, 200)}
+    model, rng = NumericModel(arm), np.random.default_rng(4)
+    q, x = rng.uniform(-np.pi, np.pi, (2000, arm.n)), rng.normal(size=(2000, arm.n))
+    values, gravity = np.linalg.eigvalsh(model.mass(q)), np.abs(model.gravity(q))
+    assert values[:, 0].min() >= found["lambda_min"].enclosure.lower
+    assert values[:, -1].max() <= found["lambda_max"].enclosure.upper
+    assert whirl(model, q, x).max() <= found["k_c"].enclosure.upper
+    assert np.linalg.norm(gravity, axis=1).max() <= found["k_g"].enclosure.upper
+    for i in range(arm.n):
+        assert gravity[:, i].max() <= found[f"k_g{i + 1}"].enclosure.upper
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_masses_and_distances_bound_every_chain(tmp_path: Path, seed: int) -> None:
+    (tmp_path / "arm.urdf").write_text(generic(1 + seed % 4, seed))
+    arm = robots.load(tmp_path / "arm.urdf")
+    model, bounds = NumericModel(arm), arm.chain_bounds
+    assert bounds is not None
+    q = np.random.default_rng(seed).uniform(-np.pi, np.pi, (500, arm.n))
+    values = np.linalg.eigvalsh(model.mass(q))
+    assert 0 < bounds.lambda_min <= values[:, 0].min()
+    assert values[:, -1].max() <= bounds.lambda_max
+    x = np.random.default_rng(seed + 1).normal(size=(500, arm.n))
+    assert bounds.k_c is None or whirl(model, q, x).max() <= bounds.k_c
+    assert all(np.abs(model.gravity(q)).max(axis=0) <= [float(x) + 1e-9 for x in bounds.gravity])
+
+
+@pytest.mark.parametrize("name", [*robots.names(), "ur5"])
+def test_every_constant_is_shown_by_its_state(name: str) -> None:
+    arm = robots.load(ARMS / "ur5.urdf" if name == "ur5" else name)
+    model = NumericModel(arm)
+    for constant in arm_constants(arm, 100):
+        state = np.array(constant.state)
+        q, x = state[: arm.n], state[arm.n :]
+        inside = float(
+            constant.enclosure.upper if constant.name == "lambda_min" else constant.enclosure.lower
+        )
+        values, gravity = np.linalg.eigvalsh(model.mass(q)), model.gravity(q)
+        shown = {"lambda_min": values[0], "lambda_max": values[-1], "k_g": np.linalg.norm(gravity)}
+        shown |= {f"k_g{i + 1}": abs(gravity[i]) for i in range(arm.n)}
+        value = float(whirl(model, q, x)) if constant.name == "k_c" else float(shown[constant.name])
+        assert value == pytest.approx(inside, rel=1e-6, abs=1e-9)
+
+
+def test_known_extremes_of_the_two_joint_arm() -> None:
+    """M is largest stretched and k_g is reached stretched and level: g = (38.465 + 1.825, 1.825)."""
+    found = {
+        constant.name: constant.enclosure for constant in arm_constants(robots.load("reyes-kelly2"), 5000)
+    }
+    stretched = np.linalg.eigvalsh([[2.351 + 0.168, 0.102 + 0.084], [0.102 + 0.084, 0.102]])[-1]
+    assert float(found["lambda_max"].lower) == pytest.approx(stretched, rel=1e-6)
+    assert float(found["lambda_max"].width) < 2e-3 * stretched
+    level = np.hypot(38.46501 + 1.82466, 1.82466)
+    assert found["k_g"].lower <= Fraction(level) * (1 + Fraction(1, 10**9))
+    assert Fraction(level) * (1 - Fraction(1, 10**9)) <= found["k_g"].upper
+
+
+def test_a_larger_budget_is_never_worse() -> None:
+    arm = robots.load(ARMS / "ur5.urdf")
+    names = ("lambda_max", "k_c")
+    few, many = (arm_constants(arm, boxes, names=names) for boxes in (30, 100))
+    assert all(b.enclosure.width <= a.enclosure.width for a, b in zip(few, many, strict=True))
+
+
+# The command -----
+
+
+@pytest.mark.parametrize("name", [name for name in robots.names() if name != "buap3-small"])
+def test_built_in_arms_have_the_properties(name: str) -> None:
+    code, out = run(name, "--format", "json", "--max-boxes", "100")
+    result = json.loads(out)
+    assert (code, result["schema"], result["robot"]) == (0, "lyapcheck/robot/1", name)
+    assert [row["verdict"] for row in result["properties"]] == ["proved"] * 8
+    for constant in result["constants"]:
+        assert Fraction(constant["lower"]) <= Fraction(constant["upper"])
+        assert len(constant["q"]) == result["n"]
+    assert all(
+        {"value", "unit", "source", "assumed"} <= number.keys() for number in result["numbers"].values()
+    )
+
+
+def test_an_arm_without_friction_lacks_a_property() -> None:
+    code, out = run(str(ARMS / "ur5.urdf"), "--format", "json", "--max-boxes", "20")
+    rows = {row["id"]: row for row in json.loads(out)["properties"]}
+    assert code == 1
+    assert rows["2.7"]["verdict"] == "refuted"
+    assert rows["2.7"]["reason"].startswith("positive")
+    assert all(rows[name]["verdict"] == "proved" for name in rows if name != "2.7")
+
+
+def test_friction_that_a_file_does_not_tell_is_not_refuted(tmp_path: Path) -> None:
+    file = tmp_path / "two.urdf"
+    file.write_text(TWO.replace('<dynamics damping="0.25"/>', ""))
+    code, out = run(str(file), "--max-boxes", "300")
+    assert code == 3
+    assert out.startswith("? two: property 2.7 undecided\n")
+    assert "no viscous friction is known of elbow; state it in an arm file" in " ".join(out.split())
+
+
+@pytest.mark.slow
+def test_panda_with_its_hand() -> None:
+    code, out = run(str(ARMS / "panda.urdf"), "--tip", "panda_hand", "--max-boxes", "300", "--format", "json")
+    result = json.loads(out)
+    assert (code, result["n"]) == (0, 7)
+    assert result["properties"][0]["grade"] == "exact"
+    assert Fraction(result["constants"][0]["lower"]) >= 0
+    assert result["joints"][0]["torque_limit"]["value"] == "87"
+    assert any(
+        "held at their zero position: panda_finger_joint1 (prismatic)" in x for x in result["assumptions"]
+    )
+
+
+def test_formats_say_the_same_twice() -> None:
+    for form in ("text", "json", "markdown"):
+        first, second = (run("pelican2", "--format", form, "--max-boxes", "100") for _ in range(2))
+        assert first == second
+        assert "shoulder" in first[1]
+        assert ("| λmin(M) |" in first[1]) == (form == "markdown")
+
+
+def test_what_was_not_proved_is_seen_first_and_fails_at_its_file() -> None:
+    file = str(ARMS / "ur5.urdf")
+    model = robots.load(file)
+    report = replace(build(model, 20), path=file)
+    lines = str(report).splitlines()
+    assert lines[0] == "✗ ur5: property 2.7 refuted"
+    assert any(line.startswith("- property 2.7: refuted") for line in lines[:6])
+    cases = {case.rule: case for case in report.annotations()}
+    assert [case.level for case in cases.values()].count(Level.FAILED) == 1
+    assert (cases["2.7"].level, cases["2.7"].path) == (Level.FAILED, file)
+    assert cases["2.1"].level is Level.PASSED
+    suite = ET.fromstring(report.written("junit"))[0]
+    assert (suite.get("name"), suite.get("tests"), suite.get("failures")) == ("ur5", "8", "1")
+    for form in JudgedFormat:
+        assert report.written(form) == report.written(form)
+    rows = list(csv.DictReader(io.StringIO(report.written("csv")), strict=True))
+    assert [row["id"] for row in rows if row["kind"] == "property"] == [f"2.{k}" for k in range(1, 9)]
+    for row, constant in zip(rows[8:], report.data()["constants"], strict=True):
+        assert (row["kind"], row["id"], row["gap"]) == ("constant", constant["name"], constant["gap"])
+        assert row["numeric_lower"] == constant["lower"]
+    assert max(map(len, lines)) <= 80
+
+
+def test_a_refuted_print_is_a_remark_and_no_failure() -> None:
+    report = build(robots.load("reyes-kelly2"), 40)
+    assert report.document().title == "✓ reyes-kelly2: properties 2.1–2.8 proved"
+    (remark,) = [case for case in report.annotations() if case.level is not Level.PASSED]
+    assert (remark.level, remark.rule) == (Level.REMARK, "print-C-rates")
+    assert remark.message.startswith("refuted: ")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "rule"),
+    [
+        (("nobody",), "neither a built-in arm nor a file"),
+        (("buap3", "--tip", "x"), "buap3 is no URDF file"),
+        (("no.urdf",), "cannot be read"),
+        (
+            (str(ARMS / "ur5.urdf"), "--tip", "tool"),
+            "tip = tool: is no link of this file; name one, for instance tool0",
+        ),
+    ],
+)
+def test_unusable_input(arguments: tuple[str, ...], rule: str) -> None:
+    with pytest.raises(InputError) as caught:
+        run(*arguments)
+    assert rule in str(caught.value)

@@ -1,0 +1,337 @@
+"""Tuned gains: accepted by the gate, the largest of their kind, and a reason where there are none."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import mpmath
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Targets, tune
+from lyapcheck.answers.tune.damping import damping_of
+from lyapcheck.answers.tune.gain_file import gain_file_text
+from lyapcheck.answers.tune.program import propose
+from lyapcheck.answers.tune.room import Room
+from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms
+from lyapcheck.cli.decimals import parse_decimals
+from lyapcheck.cli.main import build_app
+from lyapcheck.cli.tune import TuneFormat
+from lyapcheck.control.gains import Bounds, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots import load
+
+ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}
+TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(("tune", "gate")), ["tune", *arguments])
+
+
+def judged(text, folder):
+    path = folder / "gains.toml"
+    path.write_text(text, encoding="utf-8")
+    return gate(read_gain_file(path))
+
+
+def raised(text, m, key, joint, digits):
+    """The gain file with one gain of one set one unit larger in its last place."""
+    lines, seen = text.splitlines(), None
+    for index, line in enumerate(lines):
+        seen = int(line.split("=")[1]) if line.startswith("m = ") else seen
+        if seen == m and line.startswith(f"{key} = ["):
+            gains = line.split("[")[1].split("]")[0].split(", ")
+            gains[joint] = decimal_text(Fraction(gains[joint]) + Fraction(1, 10**digits), digits)
+            lines[index] = f"{key} = [{', '.join(gains)}]"
+    return "\n".join(lines)
+
+
+def require_largest(tuning, members, folder):
+    """Accepted as it is, rejected with any gain of any set one unit larger."""
+    text = gain_file_text(tuning)
+    assert [result.verdict for result in judged(text, folder)] == ["accepted"] * len(members)
+    for index, m in enumerate(members):
+        for key in ("kp", "kv"):
+            for joint in range(tuning.limits.n):
+                results = judged(raised(text, m, key, joint, tuning.targets.digits), folder)
+                expected = ["accepted"] * len(members)
+                expected[index] = "rejected"
+                assert [result.verdict for result in results] == expected
+
+
+@pytest.mark.parametrize(
+    ("robot", "digits"),
+    [
+        *(("buap3", digits) for digits in (1, 2, 3, 6, 12)),
+        *(("buap3-small", digits) for digits in (2, 3, 9)),
+        *(("reyes-kelly2", digits) for digits in (3, 5)),
+        *(("pendulum1", digits) for digits in (2, 12)),
+    ],
+)
+def test_no_gain_of_the_built_in_arms_can_be_one_unit_larger(robot, digits, tmp_path):
+    members = (1, 2, 3, 12, 500)
+    require_largest(tune(robot, members, Targets(digits)), members, tmp_path)
+
+
+def decimals(low, high, places):
+    scale = 10**places
+    return st.integers(int(low * scale), int(high * scale)).map(lambda k: Fraction(k, scale))
+
+
+@st.composite
+def cases(draw):
+    robot = draw(st.sampled_from(sorted(ARMS)))
+    n = ARMS[robot]
+    gravity = draw(st.tuples(*[decimals(0, 60, 2)] * n))
+    spare = draw(st.tuples(*[decimals(0.5, 300, 3)] * n))
+    torque = tuple(a + b for a, b in zip(gravity, spare, strict=True))
+    targets = Targets(
+        digits=draw(st.integers(2, 9)),
+        kv_share=(draw(decimals(0.05, 1, 2)),),
+        peak_share=(draw(st.sampled_from([Fraction(1), Fraction(4, 5), Fraction(999, 1000)])),),
+    )
+    m = draw(st.one_of(st.integers(1, 6), st.integers(7, 2000)))
+    return robot, m, targets, Bounds(draw(decimals(0.1, 5, 3)), torque, gravity)
+
+
+@settings(max_examples=60, deadline=None)
+@given(case=cases())
+def test_no_gain_of_any_arm_can_be_one_unit_larger(case, tmp_path_factory):
+    robot, m, targets, bounds = case
+    tuning = tune(robot, (m,), targets, bounds)
+    assume(tuning.sets[0].status == "tuned")
+    require_largest(tuning, (m,), tmp_path_factory.mktemp("tuned"))
+
+
+@settings(max_examples=25, deadline=None)
+@given(case=cases(), ratio=decimals(0.01, 2, 3))
+def test_with_a_damping_ratio_no_other_decimals_have_a_larger_kp(case, ratio):
+    robot, m, targets, bounds = case
+    targets = replace(targets, digits=2, damping=(ratio,))
+    tuning = tune(robot, (m,), targets, bounds)
+    assume(tuning.sets[0].status == "tuned")
+    best = exhaustive(load(robot), m, tuning, targets)
+    assert [(joint.kp, joint.kv) for joint in tuning.sets[0].joints] == best
+
+
+def exhaustive(model, m, tuning, targets):
+    """For each joint the largest k_p, then the largest k_v, of all decimals, every k_v tried."""
+    with mpmath.workdps(40):
+        gamma = 1 if m == 1 else largest_of(lambda x: mp_h(m, x))
+        slope = 1 if m == 1 else largest_of(lambda x: mp_h(m, x) / x)
+        root, limits, tiny = mpmath.sqrt(model.n), tuning.limits, mpmath.mpf("1e-25")
+        top = mp(limits.viscous_min) / (root * gamma)
+        first = max(1, int(mpmath.floor((mp(targets.kv_share[0]) * top - tiny) * 100)))
+        best = []
+        for index, damping in enumerate(damping_of(model, m, targets.damping * model.n)):
+            friction, inertia, ratio = map(mp, (damping.friction, damping.inertia, damping.ratio))
+            whole = mp(limits.torque[index] - limits.gravity[index]) / (root * gamma)
+            found = []
+            for k in range(first, int(mpmath.floor((top - tiny) * 100)) + 1):
+                kv = mpmath.mpf(k) / 100
+                damped = (friction + slope * kv) ** 2 / (4 * ratio**2 * inertia * slope)
+                kp = mpmath.floor(100 * min(whole - kv - tiny, damped + tiny))
+                found.append((Fraction(int(kp), 100), Fraction(k, 100)))
+            best.append(max(found))
+    return best
+
+
+def mp(value):
+    return mpmath.mpf(value.numerator) / value.denominator
+
+
+def mp_h(m, x):
+    s = mpmath.sinh(x)
+    return s ** (2 * m - 1) * mpmath.cosh(x) / (1 + s ** (2 * m))
+
+
+def largest_of(function):
+    """The maximum of a function with one peak in (0.5, 4), by golden section."""
+    low, high, share = mpmath.mpf("0.5"), mpmath.mpf(4), (mpmath.sqrt(5) - 1) / 2
+    for _ in range(120):
+        a, b = high - share * (high - low), low + share * (high - low)
+        low, high = (a, high) if function(a) < function(b) else (low, b)
+    return function(low)
+
+
+def rooms(robot="buap3", m=2, **targets):
+    model = load(robot)
+    wanted = _for_each_joint(Targets(**targets), model.n)
+    return _rooms(m, model, _limits(robot, model, wanted, Bounds())[0], wanted)
+
+
+@pytest.mark.parametrize(
+    "targets",
+    [
+        {},
+        {"kv_share": (Fraction(1, 3),), "digits": 6},
+        {"damping": (Fraction(1, 20),), "kv_share": (Fraction(1, 10),)},
+        {"damping": (Fraction(3, 100),), "kv_min": (Fraction(1, 100),), "digits": 5},
+    ],
+)
+def test_the_cone_program_and_exact_search_agree(targets):
+    every = rooms(**targets)
+    proposal = propose(every)
+    assert proposal.status == "optimal"
+    for room, kp in zip(every, proposal.kp, strict=True):
+        exact = best_units(room)[0] * room.unit
+        assert float(exact) == pytest.approx(kp, rel=1e-5, abs=2.1 * float(room.unit))
+
+
+@given(start=st.floats(-1, 1))
+def test_a_wrong_proposal_changes_nothing(start):
+    for room in rooms(damping=(Fraction(3, 100),), kv_share=(Fraction(1, 20),)):
+        assert best_units(room, start) == best_units(room)
+
+
+def test_smaller_gains_are_found_out():
+    room: Room = rooms()[0]
+    kp, kv = best_units(room)
+    binding(room, kp, kv)
+    for worse in ((kp - 1, kv), (kp - 1, kv - 1)):
+        with pytest.raises(ArithmeticError):
+            binding(room, *worse)
+
+
+def test_what_table_2_left_on_the_table():
+    tuning = tune("buap3", (1, 2, 3), against=TABLE2)
+    for item in tuning.sets:
+        theirs = next(gains for gains in TABLE2.gains if gains.m == item.m)
+        for joint, tuned, kp in zip(item.comparison.joints, item.joints, theirs.kp, strict=True):
+            assert joint.kp_left == tuned.kp - kp > 0
+            assert ("19" in joint.broken) == (item.m in (2, 3))
+            assert "10p" not in joint.broken
+
+
+def test_gains_grow_when_a_target_is_relaxed():
+    tight, loose = (tune("buap3", (3,), Targets(peak_share=(Fraction(share),))) for share in ("0.8", "0.9"))
+    for a, b in zip(tight.sets[0].joints, loose.sets[0].joints, strict=True):
+        assert a.kp < b.kp
+        assert a.kv == b.kv
+
+
+def test_the_share_of_the_peak_torque_stands_in_the_gain_file(tmp_path):
+    text = gain_file_text(tune("buap3", (2,), Targets(peak_share=(Fraction(4, 5),))))
+    assert "torque = [40, 120, 12]" in text
+    assert [result.verdict for result in judged(text, tmp_path)] == ["accepted"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (("pelican2",), 3, "give --torque"),
+        (("buap3", "--torque", "50,40,15"), 2, "not above the gravity torque of 40.28 N·m"),
+        (("buap3", "--peak-share", "0.2"), 2, "larger --peak-share"),
+        (("buap3", "--kv-min", "0.3"), 2, "lower --kv-min"),
+        (("buap3", "--digits", "0"), 2, "raise --digits"),
+        (("buap3", "--damping", "100"), 2, "lower --damping"),
+        (("buap3", "--viscous-min", "30"), 2, "lower --kv-share below 0.43"),
+    ],
+)
+def test_without_gains_it_says_why_and_what_to_change(arguments, code, words, tmp_path):
+    out = tmp_path / "gains.toml"
+    found = run(*arguments, "--out", str(out))
+    assert found.exit_code == code
+    assert words in " ".join(found.stdout.split())
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("nowhere",), "built-in arms"),
+        (("buap3", "--digits", "13"), "from 0 to 12"),
+        (("buap3", "--kv-share", "1.5"), "at most 1"),
+        (("buap3", "--peak-share", "0"), "must be positive"),
+        (("buap3", "--peak-share", "0.8,0.9"), "2 values for 3 joints"),
+        (("buap3", "--damping", "nan"), "is not a decimal number"),
+        (("buap3", "--kv-min", "-1"), "must be positive"),
+        (("buap3", "--torque", "50,150"), "2 values for 3 joints"),
+        (("buap3", "--gravity=-1,2,3"), "must not be negative"),
+        (("buap3", "--viscous-min", "0"), "must be positive"),
+        (("buap3", "--viscous-min", "1,2"), "must be one number"),
+        (("buap3", "--m", "0"), "at least 1"),
+        (("buap3", "--out", "/nowhere/at/all.toml"), "no directory"),
+        (("buap3", "--compare", "/nowhere/at/all.toml"), "cannot be read"),
+    ],
+)
+def test_unusable_input_is_refused(arguments, words):
+    found = run(*arguments)
+    assert isinstance(found.exception, InputError)
+    assert words in str(found.exception)
+
+
+@pytest.mark.parametrize("text", ["1e400", "", "1,,2", "0x1", "٣", "1" * 40])
+def test_only_plain_decimals_are_read(text):
+    with pytest.raises(InputError):
+        parse_decimals("--torque", text)
+
+
+def test_the_written_file_passes_the_gate_command(tmp_path):
+    out = tmp_path / "gains.toml"
+    assert run("buap3", "--m", "1:5", "--out", str(out)).exit_code == 0
+    assert CliRunner().invoke(build_app(("tune", "gate")), ["gate", str(out)]).exit_code == 0
+
+
+def test_an_arm_file_is_named_relative_to_the_gain_file(tmp_path, monkeypatch):
+    source = Path(__file__).parents[2] / "lyapcheck" / "robots" / "arms" / "buap3.toml"
+    (tmp_path / "arms").mkdir()
+    (tmp_path / "gains").mkdir()
+    (tmp_path / "arms" / "mine.toml").write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert run("arms/mine.toml", "--out", "gains/mine.toml").exit_code == 0
+    assert 'robot = "../arms/mine.toml"' in Path("gains/mine.toml").read_text(encoding="utf-8")
+    assert [result.verdict for result in gate(read_gain_file("gains/mine.toml"))] == ["accepted"] * 3
+
+
+@pytest.mark.parametrize("form", TuneFormat)
+def test_formats_are_the_same_bytes_each_time(form):
+    first, second = (run("buap3", "--format", form, "--damping", "0.05") for _ in range(2))
+    assert first.exit_code == 0
+    assert first.stdout == second.stdout
+
+
+def test_json_says_what_the_gain_file_says():
+    document = json.loads(run("buap3", "--format", "json", "--m", "2").stdout)
+    assert document["schema"] == "lyapcheck/tune/1"
+    (result,) = document["results"]
+    assert (result["status"], result["program"], result["m"]) == ("tuned", "optimal", 2)
+    limit = Fraction(result["joints"][0]["sum_limit"]["lower"])
+    kp, kv = (Fraction(result["joints"][0][key]) for key in ("kp", "kv"))
+    assert 0 <= limit - kp - kv < Fraction(1, 1000)
+    assert result["comparison"]["joints"][1] | {"used": ""} == {
+        "joint": "shoulder",
+        "kp": "50",
+        "kv": "0.223",
+        "kp_left": decimal_text(Fraction(result["joints"][1]["kp"]) - 50),
+        "kp_left_share": "0.165317",
+        "used": "",
+        "broken": ["19"],
+    }
+
+
+def test_markdown_tables_have_as_many_cells_as_heads():
+    lines = run("buap3", "--format", "markdown").stdout.splitlines()
+    tables = [line.count("|") for line in lines if line.startswith("|")]
+    assert len(tables) == 3 * (5 + 5)
+    assert set(tables) == {8}
+
+
+def test_asking_for_help_or_importing_the_api_loads_no_solver():
+    code = (
+        "import sys, lyapcheck.answers.tune, lyapcheck.cli.tune\n"
+        "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

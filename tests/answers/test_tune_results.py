@@ -1,0 +1,172 @@
+"""What a user sees of tuned gains: every complaint at once, shares in percent, notebooks, other arms."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from decimal import Decimal
+from fractions import Fraction
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Targets, tune
+from lyapcheck.cli.main import build_app
+from lyapcheck.cli.tune import TuneFormat
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+
+UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(("tune", "gate")), ["tune", *arguments])
+
+
+def test_every_bad_option_is_named_in_one_go(tmp_path):
+    bad = {
+        "--m": "0,2.5",
+        "--digits": "77",
+        "--peak-share": "3",
+        "--kv-share": "a,b",
+        "--kv-min": "0",
+        "--damping": ",",
+        "--torque": "1,2",
+        "--gravity": "-1,0,0",
+        "--viscous-min": "x",
+        "--compare": str(tmp_path / "none.toml"),
+        "--out": str(tmp_path / "no" / "gains.toml"),
+    }
+    problems = run("buap3", *(f"{option}={value}" for option, value in bad.items())).exception.problems
+    named = [problem.key for problem in problems]
+    assert {*bad} - {"--compare"} == {key for key in named if key.startswith("--")}
+    assert named.count("--m") == 2
+    assert named.count("--kv-share") == 2
+    assert any("none.toml" in problem.file for problem in problems)
+    assert all(problem.rule and problem.repair for problem in problems)
+
+
+def test_an_unknown_arm_does_not_hide_the_other_mistakes():
+    problems = run("nowhere", "--torque", "1,a", "--viscous-min", "0").exception.problems
+    assert sorted(problem.key for problem in problems) == ["--torque", "--viscous-min", "robot"]
+
+
+@pytest.mark.parametrize(("m", "theirs"), [(1, (28, 60, 5)), (2, (27, 50, 5)), (3, (25, 50, 5))])
+def test_the_share_left_on_the_table_is_that_of_the_largest_gain(m, theirs):
+    (item,) = tune("buap3", [m], against=TABLE2).sets
+    for joint, compared, kp in zip(item.joints, item.comparison.joints, theirs, strict=True):
+        share = 1 - Fraction(kp) / joint.kp
+        assert compared.kp_left_share <= share < compared.kp_left_share + Fraction(1, 10**6)
+        assert f"{float(compared.kp_left_share):.1%}" in str(tune("buap3", [m], against=TABLE2))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "n"),
+    [
+        (("reyes-kelly2",), 2),
+        (("buap3",), 3),
+        ((UR5, "--viscous-min", "6"), 6),
+        ((UR5, "--viscous-min", "6", "--torque", "150,150,150,28,28,28", "--gravity", "0,60,25,2,1,0"), 6),
+    ],
+)
+def test_twenty_members_of_any_arm_are_tuned_and_accepted(arguments, n, tmp_path):
+    out = tmp_path / "gains.toml"
+    assert run(*arguments, "--m", "1:20", "--out", str(out)).exit_code == 0
+    results = gate(read_gain_file(out))
+    assert [result.m for result in results] == [*range(1, 21)]
+    assert {result.verdict for result in results} == {"accepted"}
+    assert {len(result.gains.kp) for result in results} == {n}
+
+
+def test_a_urdf_without_friction_says_what_to_measure():
+    found = run(UR5)
+    assert found.exit_code == 2
+    assert "give --viscous-min" in found.stdout
+
+
+class Seen(HTMLParser):
+    """The tags and the text."""
+
+    def __init__(self):
+        super().__init__()
+        self.tags, self.text = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def test_a_notebook_shows_tables_and_no_markup_of_names():
+    bad = "<img src=x onerror=alert(1)>\u202e"
+    tuning = tune("buap3", [1, 2], against=replace(TABLE2, path=bad))
+    seen = Seen()
+    seen.feed(tuning._repr_html_())
+    assert seen.tags.count("table") == 4
+    assert "img" not in seen.tags
+    assert any("<img src=x onerror=alert(1)>\\u202e" in text for text in seen.text)
+    assert {"63.112", "59.903", "16.5%"} <= set(seen.text)
+    assert "<img" not in tuning.written("markdown")
+
+
+def test_where_there_are_no_gains_a_notebook_says_why():
+    assert "give --torque" in tune("pelican2", [2])._repr_html_()
+
+
+def test_printing_prints_what_the_command_prints():
+    assert f"{tune('reyes-kelly2', [2, 5])}\n" == run("reyes-kelly2", "--m", "2,5").stdout
+
+
+@pytest.mark.parametrize("form", TuneFormat)
+def test_every_format_holds_the_gains(form):
+    assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
+
+
+def test_the_first_line_says_whether_there_are_gains():
+    assert str(tune("buap3", [1])).startswith("✓ buap3: the largest gains within (10p) and (19)\n")
+    assert str(tune("pelican2", [1, 3])).startswith("? pelican2: its limits are not known")
+    assert "for m = 1, 3\n" in str(tune("pelican2", [1, 3]))
+    refused = tune("buap3", [2], Targets.of(kv_min=100)).document()
+    assert refused.title == "✗ buap3: no gains within (10p) and (19) for m = 2"
+    assert "lower --kv-min" in refused.blocks[1].blocks[0].items[0]
+
+
+def test_a_record_is_a_joint_beside_what_it_is_compared_with():
+    first, *others = tune("buap3", [1, 2], against=TABLE2).records()
+    assert (first["name"], first["joint"], first["kp"]) == ("tau_m1", "base", "28.633")
+    assert (first["compared"]["kp"], first["compared"]["broken"]) == ("28", "")
+    assert [row["compared"]["broken"] for row in others[2:]] == ["19"] * 3
+    (missing,) = tune("pelican2", [2]).records()
+    assert missing["status"] == "undecided"
+    assert "give --torque" in missing["reasons"]
+
+
+def test_targets_are_read_as_they_are_written():
+    several = Targets.of(peak_share=["0.8", Decimal("0.9"), 1], kv_min=Fraction(1, 7))
+    assert several.peak_share == (Fraction(4, 5), Fraction(9, 10), Fraction(1))
+    assert several.kv_min == (Fraction(1, 7),)
+    assert several.kv_share is None
+    assert Targets.of() == Targets()
+
+
+@pytest.mark.parametrize("share", [0.8, [0.8], [None]])
+def test_targets_that_are_not_exact_are_refused(share):
+    with pytest.raises(TypeError, match="is not exact"):
+        Targets.of(peak_share=share)
+
+
+def test_the_public_names_are_the_functions_themselves():
+    code = (
+        "import lyapcheck\n"
+        "assert lyapcheck.tune_gains('pendulum1', [2]).sets[0].gains is not None\n"
+        "assert lyapcheck.build_table([2]).rows[0].m == 2\n"
+        "import lyapcheck.answers.tune\n"
+        "assert callable(lyapcheck.tune_gains)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,1 @@
+"""The trusted checker: what it accepts, and above all what it refuses."""

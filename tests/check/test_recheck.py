@@ -1,0 +1,537 @@
+"""The recheck command: what it accepts and refuses, collections of certificates, and its independence."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+import venv
+from dataclasses import replace
+from pathlib import Path
+
+import flint
+import pytest
+
+import lyapcheck
+from lyapcheck.answers.recheck import Recheck
+from lyapcheck.check.__main__ import main
+from lyapcheck.check.certificate import digest_of
+from lyapcheck.check.files import Document, Unreadable, gather
+from lyapcheck.check.finding import Finding
+from lyapcheck.check.granted import GENERAL
+from lyapcheck.check.guard import Guard
+from lyapcheck.check.judging import judged
+from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
+from lyapcheck.check.render import as_json, text
+from lyapcheck.check.trusted import lines
+from lyapcheck.claims import run_proof
+from lyapcheck.claims.certificates import file_name
+from lyapcheck.output.formats import JudgedFormat
+from tests.helpers.json_schema import faults
+
+SCRIPT = """
+from lyapcheck.claims import *
+proof = Proof("mine", "My proof")
+x = var("x")
+proof.add("a", "tanh x ≤ x", for_all(tanh(x) <= x, 0))
+proof.add("b", "1 ≤ 2", Constant(expr(1) <= 2), uses=["a"])
+proof.add("c", "√2 ≤ 3", Constant(sqrt(2) <= 3), uses=["b"])
+proof.add("d", "3 ≤ 1", Constant(expr(3) <= 1), uses=["a"])
+proof.add("e", "open", identity(log((1 + x**2) ** 2), 2 * log(1 + x**2)))
+
+@proof.claim("f", "h_m ≤ 1.06", uses=["c"])
+def _(case):
+    return for_all(h(case.m, x) <= "1.06")
+
+proof.add("P", "2 ≤ 3", Constant(expr(2) <= 3), uses=["b"])
+"""
+
+SCHEMAS = Path(__file__).parents[1] / "schemas"
+
+
+def run(*arguments, folder=None):
+    code = (
+        f"import sys; sys.argv = {['lyapcheck', *map(str, arguments)]!r}; "
+        "from lyapcheck.cli.main import main; main()"
+    )
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=folder, timeout=120, check=False
+    )
+
+
+@pytest.fixture
+def folder(tmp_path):
+    script, made = tmp_path / "mine.py", tmp_path / "made"
+    script.write_text(SCRIPT, encoding="utf-8")
+    made.mkdir()
+    for name, certificate in run_proof(script, ms=(2, 3), n=1).certificates.items():
+        (made / name).write_text(certificate.text(), encoding="utf-8")
+    return made
+
+
+def outcome(*paths):
+    return {one.file: one for one in recheck(gather(paths)).checked}
+
+
+def sealed(data):
+    """The text of a document with the digest of what it says now."""
+    content = {key: value for key, value in data.items() if key != "digest"}
+    return json.dumps({**content, "digest": digest_of(content)})
+
+
+def rewrite(path, change, seal=True):
+    data = json.loads(path.read_text(encoding="utf-8"))
+    change(data)
+    path.write_text(sealed(data) if seal else json.dumps(data), encoding="utf-8")
+
+
+def test_all_of_a_proof_is_accepted_and_undecided_claims_have_no_certificate(folder):
+    found = outcome(folder)
+    assert recheck(gather([folder])).code == 0
+    assert set(found) == {"P.json", "a.json", "b.json", "c.json", "d.json", "f.m2.json", "f.m3.json"}
+    assert all(one.accepted and not one.given for one in found.values())
+    assert [found[name].verdict for name in ("d.json", "f.m2.json", "f.m3.json")] == [
+        "refuted",
+        "proved",
+        "refuted",
+    ]
+    assert found["b.json"].finding.grade == "exact"
+    assert found["b.json"].grade == "enclosure", "the weakest link is that of a"
+
+
+def test_a_certificate_is_undecided_while_one_that_it_uses_is_not_at_hand(folder):
+    alone = recheck(gather([folder / "c.json"]))
+    assert alone.code == 3
+    (found,) = alone.checked
+    assert (found.status, found.given, found.verdict) == ("undecided", ("b",), "")
+    assert found.reason.startswith("rests on b, whose certificate (")
+    both = outcome(folder / "c.json", folder / "b.json")
+    assert both["c.json"].reason == "rests on b, which is undecided"
+    assert both["c.json"].given == both["b.json"].given == ("a",)
+
+
+def test_in_a_directory_it_is_the_same(folder):
+    (folder / "a.json").unlink()
+    found = outcome(folder)
+    assert {name for name, one in found.items() if one.status == "undecided"} == {
+        "b.json",
+        "c.json",
+        "f.m2.json",
+        "P.json",
+    }
+    assert found["d.json"].accepted, "a witness rests on nothing"
+    assert recheck(gather([folder])).code == 3
+    rewrite(folder / "d.json", lambda data: data.update(verdict="proved"))
+    assert recheck(gather([folder])).code == 1, "refused outranks undecided"
+
+
+def test_a_theorem_whose_premises_are_invented_is_undecided(tmp_path):
+    """Digests that nobody can check prove nothing, in a file of its own or beside others."""
+    made = run_proof("scalar.py", ms=(2,)).certificates
+    data = json.loads(made["arms.all.m2.json"].text())
+    data["uses"] = dict.fromkeys(data["uses"], "0" * 64)
+    (tmp_path / "P.json").write_text(sealed(data), encoding="utf-8")
+    for shown in (run("recheck", tmp_path / "P.json"), run("recheck", tmp_path)):
+        assert shown.returncode == 3
+        assert shown.stdout.startswith("undecided  P.json: rests on ")
+        assert all(
+            f"{claim}, whose certificate (000000000000…) is not here" in shown.stdout
+            for claim in data["uses"]
+        )
+        assert "1 undecided" in shown.stdout
+
+
+def test_a_changed_certificate_takes_down_what_rests_on_it(folder):
+    rewrite(folder / "a.json", lambda d: d["claim"].update(n=7), seal=False)
+    found = outcome(folder)
+    assert found["a.json"].reason.startswith("digest")
+    rewrite(folder / "a.json", lambda d: None)
+    found = outcome(folder)
+    assert found["a.json"].accepted, "true as it is, but no longer what b names"
+    assert found["b.json"].status == "undecided"
+    assert "is not here" in found["b.json"].reason
+
+
+@pytest.mark.parametrize("lie", [{"grade": "exact"}, {"statement": {"kind": "Everything"}}, {"more": 1}])
+def test_a_certificate_with_a_right_digest_that_is_refused_takes_down_what_uses_it(folder, lie):
+    rewrite(folder / "a.json", lambda data: data.update(lie))
+    digest = json.loads((folder / "a.json").read_text(encoding="utf-8"))["digest"]
+    rewrite(folder / "b.json", lambda data: data["uses"].update(a=digest))
+    found = outcome(folder)["b.json"]
+    assert (found.status, found.reason) == ("refused", "rests on a, whose certificate is refused")
+
+
+@pytest.mark.parametrize(
+    ("claim", "file", "m", "reason"),
+    [
+        ("x", "d", 2, "about d"),
+        ("d", "d", 2, "which is refuted"),
+        ("f", "f.m2", 3, "for m = 2"),
+        ("f", "f.m2", None, "for m = 2"),
+        ("f", "f.m2", 2, ""),
+    ],
+)
+def test_uses_must_be_proved_and_of_that_claim(folder, claim, file, m, reason):
+    digest = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))["digest"]
+
+    def change(data):
+        data["uses"][claim] = digest
+        data["claim"]["m"] = m
+
+    rewrite(folder / "P.json", change)
+    found = outcome(folder)["P.json"]
+    assert found.accepted if not reason else reason in found.reason
+
+
+# The command ----------------------------------------------------------------------------------------------
+
+
+def test_check_writes_and_recheck_accepts(tmp_path):
+    made = tmp_path / "deep" / "made"
+    checked = run("check", "published.py", "--m", "2", "--only", "9", "--certificates", made, folder=tmp_path)
+    assert checked.returncode == 0, checked.stderr
+    assert sorted(os.listdir(made)) == ["2.8.json", "6.m2.json", "7a.m2.json", "9.m2.json"]
+    rechecked = run("recheck", made, folder=tmp_path)
+    assert rechecked.returncode == 0, rechecked.stderr
+    lines = rechecked.stdout.splitlines()
+    assert lines[-1] == "4 accepted (4 proved, 0 refuted), 0 refused, 0 undecided"
+    assert lines[0].startswith("accepted   2.8.json: proved [exact]: ")
+
+
+def test_exit_codes(folder):
+    assert run("recheck", folder / "a.json", folder / "d.json").returncode == 0
+    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
+    refused = run("recheck", folder / "a.json", folder / "d.json")
+    assert refused.returncode == 1
+    assert refused.stdout.startswith(
+        "refused    a.json: grade = exact: the proof gives enclosure\naccepted   d"
+    )
+
+
+def test_json_is_versioned_and_complete(folder):
+    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
+    (folder / "P.json").write_text("{")
+    data = json.loads(run("recheck", folder, "--format", "json", "--trusted").stdout)
+    schema = json.loads(
+        (Path(__file__).parents[1] / "schemas" / "recheck-2.json").read_text(encoding="utf-8")
+    )
+    assert list(faults(data, schema, schema)) == []
+    assert data["schema"] == "lyapcheck/recheck/2"
+    assert data["counts"] == {"accepted": 5, "refused": 2, "undecided": 0, "proved": 4, "refuted": 1}
+    rows = {row["file"]: row for row in data["certificates"]}
+    assert rows["d.json"]["reason"] == "verdict = proved: the proof gives refuted"
+    assert rows["P.json"]["reason"].startswith("is not JSON in UTF-8 (")
+    assert rows["f.m2.json"] | {"digest": "", "statement_digest": ""} == {
+        "file": "f.m2.json",
+        "status": "accepted",
+        "accepted": True,
+        "reason": "",
+        "id": "f",
+        "m": 2,
+        "n": None,
+        "statement": "h_2(x) ≤ 1.06 for all x in (−∞, ∞)",
+        "statement_digest": "",
+        "comment": "h_m ≤ 1.06",
+        "verdict": "proved",
+        "grade": "enclosure",
+        "granted": [],
+        "rules": rows["f.m2.json"]["rules"],
+        "uses": ["c"],
+        "given": [],
+        "digest": "",
+    }
+    assert "ForAll by pieces of the domain" in rows["f.m2.json"]["rules"]
+
+
+def blocks(document, title):
+    """What stands under a heading."""
+    return next(block.blocks for block in document.blocks if getattr(block, "title", "") == title)
+
+
+def test_the_other_formats_say_what_the_checker_says(folder):
+    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
+    (folder / "a.json").unlink()
+    found = recheck(gather([folder]))
+    document = Recheck(found, trusted=True).document()
+    assert document.title == "✗ 1 refused, 4 undecided, 1 accepted (1 refuted)"
+    (refused,) = blocks(document, "Refused (1)")
+    assert refused.rows == (("✗", "d.json", "verdict = proved: the proof gives refuted"),)
+    (undecided,) = blocks(document, "Undecided (4)")
+    reasons = {row[1]: row[2] for row in undecided.rows if row[1]}
+    assert reasons == {one.file: one.reason for one in found.checked if one.status == "undecided"}
+    (accepted,) = blocks(document, "Accepted (1)")
+    ((sign, file, *verdict, statement), below) = accepted.rows
+    assert (sign, file, *verdict) == ("✓", "f.m3.json", "refuted", "enclosure")
+    assert statement == "h_3(x) ≤ 1.06 for all x in (−∞, ∞)"
+    assert below[-1].endswith("the author's words: f (m = 3): “h_m ≤ 1.06”")
+    rules, modules = blocks(document, "Trusted for all that is refuted")
+    assert "ForAll" in rules.text
+    assert ("lyapcheck.check.verify", str(lines("lyapcheck.check.verify"))) in modules.rows
+    assert blocks(document, "Taken for granted")[1].items == GENERAL
+
+
+def test_systems_that_run_checks_get_a_case_a_certificate(folder):
+    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
+    (folder / "a.json").unlink()
+    cases = {one.group: one for one in Recheck(recheck(gather([folder]))).annotations()}
+    levels = {name: case.level.value for name, case in cases.items()}
+    assert levels.pop("d.json") == "failed"
+    assert levels.pop("f.m3.json") == "passed"
+    assert set(levels.values()) == {"undecided"}
+    assert cases["d.json"].message == "verdict = proved: the proof gives refuted"
+    assert cases["b.json"].path == str(folder / "b.json")
+
+
+@pytest.mark.parametrize("name", JudgedFormat)
+def test_every_format_has_the_exit_code_and_names_the_file(folder, name):
+    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
+    done = run("recheck", folder / "a.json", "--format", name.value)
+    assert done.returncode == 1, done.stderr
+    assert "a.json" in done.stdout
+    assert run("recheck", folder / "x.json", "--format", name.value).returncode == 2
+
+
+def test_a_genuine_certificate_under_other_words_is_shown_by_what_it_states(folder):
+    def boast(data):
+        data["claim"].update(id="Riemann", says="All zeros lie on the line.")
+
+    rewrite(folder / "d.json", boast)
+    shown = run("recheck", folder / "d.json").stdout.splitlines()
+    assert shown[0] == "accepted   d.json: refuted [exact]: 3 ≤ 1"
+    assert shown[1].startswith("           statement ")
+    assert shown[1].endswith("; the author's words: Riemann: “All zeros lie on the line.”")
+    (row,) = json.loads(run("recheck", folder / "d.json", "--format", "json").stdout)["certificates"]
+    assert (row["statement"], row["comment"]) == ("3 ≤ 1", "All zeros lie on the line.")
+
+
+def long(k):
+    """A true statement of which the first 300 characters do not show k."""
+    terms = ["add", *[["var", f"name{i}"] for i in range(90)], ["num", str(k)]]
+    return certificate(
+        {"kind": "Identity", "left": terms, "right": terms, "variables": []}, {"rule": "normal form"}
+    )
+
+
+def test_long_statements_are_cut_but_told_apart_and_whole_if_wanted(tmp_path):
+    for k in (1, 2):
+        (tmp_path / f"{k}.json").write_text(long(k), encoding="utf-8")
+    first, mark1, second, mark2, *_ = run("recheck", tmp_path).stdout.splitlines()
+    assert first.endswith("…")
+    assert len(first) < 350
+    assert first[20:] == second[20:]
+    assert mark1 != mark2
+    whole = run("recheck", tmp_path, "--full").stdout.splitlines()
+    assert " + name89 + 1 for all name0" in whole[0]
+    assert " + name89 + 2 for all name0" in whole[2]
+
+
+# A contradiction ------------------------------------------------------------------------------------------
+
+TRUE = {"kind": "Constant", "relation": {"left": ["num", "1"], "operator": "<=", "right": ["num", "2"]}}
+FALSE = {"kind": "Constant", "relation": {"left": ["num", "2"], "operator": "<=", "right": ["num", "1"]}}
+
+
+def certificate(statement, proof, verdict="proved", grade="exact", **claim):
+    about = {"id": "a", "says": "words", "m": None, "n": None, "proof": "p"} | claim
+    data = {"schema": "lyapcheck/certificate/1", "claim": about, "statement": statement, "proof": proof}
+    return sealed({**data, "verdict": verdict, "grade": grade, "uses": {}, "versions": {}})
+
+
+def shows(file, verdict, *parts):
+    """A certificate that was judged, with what it decides."""
+    finding = Finding(digest=file, verdict=verdict, statement="S", shows=parts)
+    return Checked(Document(file, Path(file)), finding, "accepted", "", "exact")
+
+
+def test_proved_and_refuted_is_an_alarm_that_names_both(monkeypatch):
+    """No rule decides a statement both ways, we hope; so the outcomes are planted."""
+    one = shows("one.json", "proved", ("A", "proved", ""), ("B", "proved", "part 1"))
+    two = shows("two.json", "refuted", ("C", "refuted", ""), ("B", "refuted", "part 2"))
+    three = shows("three.json", "proved", ("C", "proved", ""))
+    made = summed((one, two, three), {}, ("seconds", "memory"))
+    assert made.code == 4
+    assert not made.all_accepted
+    assert made.alarms == (
+        Alarm("B", "part 1 of: S", ("one.json (part 1)",), ("two.json (part 2)",)),
+        Alarm("C", "S", ("three.json",), ("two.json",)),
+    )
+    shown = text(made)
+    assert shown.startswith(
+        "ALARM: one statement is both proved, in one.json (part 1), and refuted, in two.json (part 2)"
+    )
+    assert [alarm["refuted"] for alarm in json.loads(as_json(made))["alarms"]] == [
+        ["two.json (part 2)"],
+        ["two.json"],
+    ]
+    shown = Recheck(made)
+    assert shown.document().title.startswith("✗ ALARM: the checker is wrong; trust none of these verdicts")
+    (said,) = blocks(shown.document(), "Alarms")
+    assert ["one.json (part 1)" in item for item in said.items] == [True, False]
+    assert [case.level.value for case in shown.annotations() if case.rule == "alarm"] == ["failed"] * 2
+    assert summed((one, three), {}, ()).code == 0
+    refused = replace(two, status="refused", reason="rests on x, which is refuted")
+    assert summed((one, refused), {}, ()).code == 4, "its own proof was accepted"
+
+
+def test_a_conjunction_decides_its_parts_and_a_refutation_one_of_them():
+    both = {
+        "kind": "AllOf",
+        "parts": [["one", TRUE], ["two", {"kind": "AllOf", "parts": [["three", FALSE]]}]],
+    }
+    exact = {"rule": "exact numbers"}
+    deep = {"rule": "one part", "part": 1, "proof": {"rule": "one part", "part": 0, "proof": exact}}
+    found = judged(certificate(both, deep, "refuted").encode())
+    assert found.reason == ""
+    assert found.shows == (
+        (digest_of(both), "refuted", ""),
+        (digest_of(both["parts"][1][1]), "refuted", "part 2"),
+        (digest_of(FALSE), "refuted", "part 2.1"),
+    )
+    true = {"kind": "AllOf", "parts": [["one", TRUE]]}
+    found = judged(certificate(true, {"rule": "every part", "parts": [exact]}).encode())
+    assert found.shows == ((digest_of(true), "proved", ""), (digest_of(TRUE), "proved", "part 1"))
+
+
+def test_the_alarm_is_the_exit_code_of_the_command(folder, monkeypatch, capsys):
+    def contradicting(self, content, full):
+        return replace(
+            judged(content, full), shows=(("A", "proved" if b'"id":"a"' in content else "refuted", ""),)
+        )
+
+    monkeypatch.setattr(Guard, "judge", contradicting)
+    assert main([str(folder / "a.json"), str(folder / "d.json")]) == 4
+    assert capsys.readouterr().out.count("ALARM") == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("nowhere.json", None), ("bad.json", b"{"), ("latin.json", b'"\xe9"'), ("empty", b"")],
+)
+def test_a_file_that_cannot_be_read_is_exit_code_2(tmp_path, name, content):
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    run_ = run("recheck", path)
+    assert run_.returncode == 2
+    assert run_.stdout == ""
+    assert name in run_.stderr
+    assert "Traceback" not in run_.stderr
+
+
+def test_every_path_that_cannot_be_used_is_named(tmp_path):
+    (tmp_path / "none").mkdir()
+    with pytest.raises(Unreadable) as caught:
+        gather([tmp_path / "none", tmp_path / "nowhere", "nul\0"])
+    assert len(caught.value.problems) == 3
+
+
+def test_files_of_one_name_are_told_apart(folder, tmp_path):
+    (tmp_path / "other").mkdir()
+    shutil.copy(folder / "a.json", tmp_path / "other")
+    found = outcome(folder, tmp_path / "other")
+    assert {str(folder / "a.json"), str(tmp_path / "other" / "a.json"), "b.json"} <= set(found)
+    assert all(one.accepted for one in found.values())
+    assert [one.status for one in recheck(gather([folder / "a.json"] * 2)).checked] == ["accepted"] * 2
+
+
+@pytest.mark.parametrize(
+    "content", ["[]", "3", '{"schema": 1.5}', '{"schema": "lyapcheck/check/1"}', "[" * 9999]
+)
+def test_json_that_is_no_certificate_is_refused_not_unreadable(tmp_path, content):
+    path = tmp_path / "other.json"
+    path.write_text(content)
+    assert outcome(path)["other.json"].status == "refused"
+
+
+def test_file_names_are_safe_for_any_id():
+    assert file_name("16.6", 2) == "16.6.m2.json"
+    assert file_name("../up", None) == "%2E.%2Fup.json"
+    assert file_name("a b", 1) == "a%20b.m1.json"
+
+
+@pytest.mark.parametrize("target", ["file", "file/below"])
+def test_a_directory_that_cannot_be_made_is_exit_code_2(tmp_path, target):
+    (tmp_path / "file").write_text("")
+    code = run("check", "published.py", "--only", "2.3", "--certificates", tmp_path / target).returncode
+    assert code == 2
+
+
+@pytest.mark.slow
+def test_the_published_proof_is_rechecked_within_seconds(tmp_path):
+    for name, certificate in run_proof("published.py", ms=(2,)).certificates.items():
+        (tmp_path / name).write_text(certificate.text(), encoding="utf-8")
+    begin = time.process_time()
+    assert recheck(gather([tmp_path])).all_accepted
+    assert time.process_time() - begin < 5
+
+
+# Independence ---------------------------------------------------------------------------------------------
+
+ALONE = """
+import sys
+from importlib.abc import MetaPathFinder
+class OnlyTheChecker(MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        root = name.partition(".")[0]
+        if root in sys.stdlib_module_names or root == "flint" or name == "lyapcheck":
+            return None
+        if name == "lyapcheck.check" or name.startswith("lyapcheck.check."):
+            return None
+        raise ImportError(f"the checker must not import {name}")
+sys.meta_path.insert(0, OnlyTheChecker())
+from pathlib import Path
+from lyapcheck.check.__main__ import main
+from lyapcheck.check.judging import judged
+for path in Path(sys.argv[1]).iterdir():
+    assert not judged(path.read_bytes()).reason
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_the_checker_imports_only_the_standard_library_and_flint(folder):
+    alone = subprocess.run(
+        [sys.executable, "-c", ALONE, str(folder)], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert alone.returncode == 0, alone.stderr
+    assert alone.stdout == run("recheck", folder).stdout
+
+
+def test_the_module_has_the_exit_codes_of_the_command(folder):
+    def code(*arguments):
+        command = [sys.executable, "-m", "lyapcheck.check", *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, check=False).returncode
+
+    assert code(folder, "--format", "json") == 0
+    assert code(folder / "x.json") == 2
+    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
+    assert code(folder) == 1
+
+
+@pytest.mark.slow
+def test_an_empty_environment_with_the_checker_alone_rechecks_the_published_proof(tmp_path):
+    """A new environment gets python-flint and lyapcheck/check, nothing else, and judges every certificate."""
+    made = tmp_path / "made"
+    made.mkdir()
+    for name, certificate in run_proof("published.py").certificates.items():
+        (made / name).write_text(certificate.text(), encoding="utf-8")
+    packages = tmp_path / "packages"
+    (packages / "lyapcheck").mkdir(parents=True)
+    source = Path(lyapcheck.__file__).parent
+    shutil.copy(source / "__init__.py", packages / "lyapcheck")
+    shutil.copytree(source / "check", packages / "lyapcheck" / "check")
+    installed = Path(flint.__file__).parent.parent
+    for part in ("flint", "python_flint.libs"):
+        if (installed / part).exists():
+            (packages / part).symlink_to(installed / part)
+    venv.create(tmp_path / "env", with_pip=False)
+    python = tmp_path / "env" / "bin" / "python"
+    (site,) = (tmp_path / "env" / "lib").glob("python*/site-packages")
+    (site / "checker.pth").write_text(f"{packages}\n")
+    missing = subprocess.run([python, "-I", "-c", "import typer"], capture_output=True, check=False)
+    assert missing.returncode == 1, "the environment must be empty"
+    run_ = subprocess.run(
+        [python, "-I", "-m", "lyapcheck.check", str(made)], capture_output=True, text=True, check=False
+    )
+    assert run_.returncode == 0, run_.stdout[-2000:] + run_.stderr
+    assert run_.stdout.count("accepted  ") == len(list(made.iterdir()))

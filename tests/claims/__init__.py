@@ -1,0 +1,1 @@
+"""The language of proofs, and the search for what decides a claim."""

@@ -1,0 +1,63 @@
+"""Proof scripts whose words would steer a terminal, a page, a spreadsheet or a CI system."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.answers.check import ProofResult
+from lyapcheck.answers.explain import explain
+from lyapcheck.answers.recheck import Recheck
+from lyapcheck.check.files import gather
+from lyapcheck.check.recheck import recheck
+from lyapcheck.claims import run_proof
+from lyapcheck.output.formats import Format, JudgedFormat
+from tests.answers.test_hostile_names import CHECKS, NASTY
+
+SCRIPT = """
+from lyapcheck.claims import *
+proof = Proof({title!r}, {title!r})
+for k, words in enumerate({words!r}):
+    about = dict(section=words, place=words)
+    proof.add(f"{{k}} {{words}}", words, Constant(expr(k % 2) <= 0), **about)
+proof.add("last", " ".join({words!r}), Constant(expr(0) <= 1), uses=["1 " + {words!r}[1]])
+"""
+
+
+@pytest.fixture(scope="module")
+def script(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("nasty") / "mine.py"
+    path.write_text(SCRIPT.format(title=" ".join(NASTY), words=NASTY), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def result(script: Path) -> ProofResult:
+    return run_proof(script, ms=(1,), n=1)
+
+
+@pytest.mark.parametrize("form", JudgedFormat)
+def test_no_format_of_check_obeys_an_author(form: str, result: ProofResult) -> None:
+    assert [row.verdict.value for row in result.claims[:2]] == ["proved", "refuted"]
+    check(form, result.written(form))
+
+
+@pytest.mark.parametrize("form", Format)
+def test_no_format_of_explain_obeys_an_author(form: str, script: Path) -> None:
+    check(form, explain("last", str(script)).written(form))
+
+
+@pytest.mark.parametrize("form", JudgedFormat)
+def test_no_format_of_recheck_obeys_an_author(form: str, result: ProofResult, tmp_path: Path) -> None:
+    for k, certificate in enumerate(result.certificates.values()):
+        (tmp_path / f"{k}|<script>_$&%#^~[x]`*.json").write_text(certificate.text(), encoding="utf-8")
+    found = Recheck(recheck(gather([tmp_path])))
+    assert found.outcome.code == 0
+    check(form, found.written(form))
+
+
+def check(form: str, text: str) -> None:
+    """What a format must hold, and nothing that does not print."""
+    assert text.replace("\n", "").isprintable()
+    CHECKS[form](text)

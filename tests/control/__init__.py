@@ -1,0 +1,1 @@
+"""Gains, limits and conditions."""

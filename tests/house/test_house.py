@@ -1,0 +1,59 @@
+"""The architecture: what may import what, and that every module can be the first that is imported."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+TOP = Path(__file__).parents[2] / "lyapcheck"
+
+
+@cache
+def modules() -> dict[str, Path]:
+    """The modules of the package by name."""
+    found = {}
+    for path in TOP.rglob("*.py"):
+        parts = path.relative_to(TOP.parent).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported(module: str) -> Iterator[str]:
+    """The modules of the package that one imports as it is loaded; not those for type checkers alone."""
+    waiting: list[ast.AST] = [ast.parse(modules()[module].read_text(encoding="utf-8"))]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            continue
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            waiting += node.orelse
+            continue
+        if isinstance(node, ast.ImportFrom) and node.module:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in modules() else node.module
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        waiting += ast.iter_child_nodes(node)
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    """So each can be imported first. A package's ``__init__`` is loaded before what is inside it."""
+    graph = {}
+    for module in modules():
+        needed = {name for name in imported(module) if name in modules()}
+        for name in tuple(needed):
+            parents = [name.rsplit(".", k)[0] for k in range(1, name.count(".") + 1)]
+            needed |= {parent for parent in parents if not f"{module}.".startswith(f"{parent}.")}
+        graph[module] = needed - {module}
+    TopologicalSorter(graph).prepare()
+
+
+def test_the_checker_imports_nothing_from_the_rest_of_the_house() -> None:
+    for module in modules():
+        if module.startswith("lyapcheck.check."):
+            outside = [n for n in imported(module) if n.startswith("lyapcheck.") and ".check" not in n]
+            assert not outside, f"{module} imports {outside}"

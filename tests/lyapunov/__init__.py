@@ -1,0 +1,1 @@
+"""V and dV/dt, symbolic, in floating point and compiled."""

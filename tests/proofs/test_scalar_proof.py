@@ -1,0 +1,231 @@
+"""The scalar proof: proved for the paper's arm and gains, against numbers, other derivations and faults."""
+
+import re
+import runpy
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.certificate import judge, parse, read
+from lyapcheck.claims import expr, run_proof
+from lyapcheck.claims.case import Case
+from lyapcheck.claims.run import paper_case
+from lyapcheck.claims.script import find_script
+from lyapcheck.family import hyperbolic
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.lyapunov.scalar import RobotBounds, scalar_form
+from lyapcheck.robots import load
+from lyapcheck.verdicts import Exit, Verdict
+from tests.helpers.script_cases import rewriter, verdicts
+
+SCRIPT = Path(find_script("scalar.py"))
+SOURCE = SCRIPT.read_text(encoding="utf-8")
+NAMES = runpy.run_path(str(SCRIPT))
+
+
+@pytest.fixture(scope="module")
+def result():
+    return run_proof("scalar.py")
+
+
+@pytest.fixture
+def altered(tmp_path):
+    """The script with something replaced."""
+    return rewriter("scalar.py", tmp_path)
+
+
+def test_every_step_is_proved_for_the_gains_of_the_paper(result):
+    assert {row.verdict for row in result.claims} == {Verdict.PROVED}
+    assert result.exit_code is Exit.PROVED
+    concluding = [row for row in result.claims if "asymptotically" in row.statement]
+    kinds = {(row.id, type(row.stated).__name__) for row in concluding}
+    assert kinds == {
+        ("arms.stable", "Theorem"),
+        ("arms.all", "Theorem"),
+        ("arm.stable", "Theorem"),
+        ("arm.states", "Decreasing"),
+        ("arm.ranges", "Decreasing"),
+    }
+    assert {(row.id, row.m) for row in concluding} == {(name, m) for name, _ in kinds for m in (1, 2, 3)}
+
+
+def test_every_conclusion_rests_on_the_chain_below_it(result):
+    uses = {row.id: set(row.uses) for row in result.claims}
+    assert {"rate.form", "arm.theta", "arm.M", "arm.C", "h.bounds", "V.positive"} <= uses["arm.stable"]
+    assert uses["rate.form"] == {f"rate.{k}" for k in range(1, 12)}
+
+
+# Θ' against numbers and against the other derivation --------------------------------------------------------
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+@pytest.mark.parametrize("eps0", [0.03, 1.0])
+def test_the_form_bounds_the_rate_of_v_at_random_states(m, eps0):
+    """The bound holds for every ε₀, whether Θ' is positive definite or not."""
+    case = paper_case(m)
+    known, arm = NAMES["known_of"](case), NAMES["ArmBounds"](case.robot.fixed())
+    kp, kv = ([float(k) for k in gains] for gains in (case.gains.kp, case.gains.kv))
+    family = hyperbolic(m)
+    rng = np.random.default_rng(7)
+    scale = 10.0 ** rng.uniform(-3, 2, (3, 4000, 1))
+    q, e, w = rng.normal(size=(3, 4000, 3)) * scale
+    rate = LyapunovNumeric(case.robot, family, kp, kv, eps0).rate(q, e, w)
+    a, b = np.linalg.norm(family.h(e), axis=1), np.linalg.norm(w, axis=1)
+    eps = eps0 / (1 + np.linalg.norm(e, axis=1))
+    c, d = (float(x) for x in (known.drift(arm.beta, arm.kc), known.cross(arm.b_max, max(case.gains.kv))))
+    corner, side, low = NAMES["theta"](eps, min(kp), float(arm.b_min), c, d)
+    form = -(corner * a**2 + 2 * side * a * b + low * b**2)
+    size = np.abs(corner) * a**2 + 2 * np.abs(side) * a * b + np.abs(low) * b**2
+    assert np.all(rate <= form + 1e-9 * size)
+
+
+@pytest.mark.parametrize("m", [1, 2, 3, 7])
+def test_c_and_d_are_those_of_the_other_derivation(m):
+    """`lyapcheck.lyapunov.scalar` has the same two numbers, with its constants rounded elsewhere."""
+    gains = paper_case(2).gains
+    known = NAMES["known_of"](Case(m, 3))
+    beta, kc, low, high = Fraction(3), Fraction(2), Fraction(1, 2), Fraction(7, 3)
+    form = scalar_form(gains, hyperbolic(m).constants(), RobotBounds(beta, kc, low, high))
+    assert float(known.drift(beta, kc)) == pytest.approx(float(form.drift), rel=1e-3)
+    assert float(known.cross(high, max(gains.kv))) == pytest.approx(float(form.cross), rel=1e-3)
+    assert known.drift(beta, kc) >= form.drift - Fraction(1, 1000)
+
+
+def test_the_constants_of_the_arm_are_above_sampled_ones():
+    from lyapcheck.robots.numeric import NumericModel
+
+    model = load("buap3").fixed()
+    arm, numeric = NAMES["ArmBounds"](model), NumericModel(model)
+    rng = np.random.default_rng(3)
+    q, x = rng.uniform(-4, 4, (2000, 3)), rng.normal(size=(2000, 3))
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    assert np.linalg.norm(numeric.mass(q), 2, axis=(1, 2)).max() <= float(arm.beta)
+    turning = np.linalg.norm(numeric.coriolis(q, x), 2, axis=(1, 2)).max()
+    assert 0.3 * float(arm.kc) < turning <= float(arm.kc)
+
+
+# ε₀ and arms ------------------------------------------------------------------------------------------------
+
+
+def test_an_eps0_that_is_too_large_is_refuted_and_takes_the_conclusion_along(altered):
+    path = altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(101, 100)")
+    found = verdicts(path, ("arm.theta", "arm.stable", "arms.stable"), ms=(1, 2, 3))
+    assert found == {"arm.theta": "refuted", "arm.stable": "undecided", "arms.stable": "proved"}
+
+
+def test_states_know_better_than_norms_until_one_is_found(altered):
+    """Branch and bound proves a larger ε₀ than norms do; far above, a state refutes it."""
+    assert verdicts(altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(12, 10)"), ("arm.states",)) == {
+        "arm.states": "proved"
+    }
+    assert verdicts(altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(60)"), ("arm.states",)) == {
+        "arm.states": "refuted"
+    }
+
+
+def test_another_arm_with_gains_of_its_own():
+    gains = SCRIPT.parent / "table2_shoulder_elbow.toml"
+    assert set(verdicts("scalar.py", robot="reyes-kelly2", gains=gains).values()) == {"proved"}
+
+
+def test_without_friction_nothing_is_concluded_about_the_arm():
+    model = load("buap3")
+    number = replace(model.viscous[0], value=Fraction(0), low=None, high=None)
+    found = verdicts("scalar.py", robot=replace(model, viscous=(number, *model.viscous[1:])))
+    assert found["arm.M"] == found["arm.C"] == "proved"
+    assert found["arm.stable"] == found["arm.theta"] == found["arm.states"] == "undecided"
+    assert found["arms.all"] == "proved"
+
+
+def test_gains_for_another_number_of_joints_leave_the_arm_open():
+    found = verdicts("scalar.py", robot="pendulum1")
+    assert found["arm.stable"] == "undecided"
+    assert found["arms.stable"] == found["arm.M"] == "proved"
+
+
+def test_large_members_and_many_joints_for_every_arm():
+    found = verdicts("scalar.py", ("arms.stable", "arms.all"), ms=(12,), n=4)
+    assert found == {"arms.stable": "proved", "arms.all": "proved"}
+
+
+# Faults -----------------------------------------------------------------------------------------------------
+
+FUNCTION = "h(case.m, x), dh(case.m, x), potential(case.m, x)"
+"""h, h' and U as every property of V takes them."""
+BOUNDS = "FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))"
+LESS = [
+    BOUNDS.replace("gamma(case.m)", "1"),
+    BOUNDS.replace("rho(case.m)", "1"),
+    BOUNDS.replace("secant_bound(case.m)", "expr('0.8')"),
+]
+FAULTS = [
+    (
+        "h.slope",
+        "Bounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))",
+        "Bounds(case.n, gamma(case.m), rho(case.m), expr('0.8'))",
+    ),
+    ("h.bound", "every_entry=for_all(h(case.m, x) <= known.gamma)", "every_entry=for_all(h(case.m, x) <= 1)"),
+    ("h.steep", "dh(case.m, x) <= known.rho", "dh(case.m, x) <= known.gamma"),
+    ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
+    *(("h.bounds", BOUNDS, wrong) for wrong in LESS),
+    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) + 1"),
+    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), 2 * potential(case.m, x)"),
+    ("V.unbounded", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) / 2"),
+    ("V.unbounded", FUNCTION, "x, expr(1), x**2 / 2"),
+    ("V.smooth", FUNCTION, "h(case.m, x), 2 * dh(case.m, x), potential(case.m, x)"),
+    ("V.smooth", FUNCTION, "x**3, 3 * x**2, x**4 / 4"),
+    ("equilibrium", FUNCTION, "-h(case.m, x), -dh(case.m, x), -potential(case.m, x)"),
+    ("equilibrium", FUNCTION, "x**3 - x, 3 * x**2 - 1, x**4 / 4 - x**2 / 2"),
+    ("rate", "total(loops.terms(s))", "total(loops.terms(s)[1:])"),
+    ("rate", "rate(dot(s.e, s.e))", "rate(dot(s.e, s.w))"),
+    ("rate.1", '["h.odd"], [], ["damping"]', '["h.odd"], ["w"]'),
+    ("rate.2", "-b_min * b**2", "-2 * b_min * b**2"),
+    ("rate.3", "eps * known.rho * beta * b**2", "eps * known.rho * beta * b"),
+    ("rate.4", "eps * known.G * beta * b**2", "eps * known.G / 2 * beta * b**2"),
+    ("rate.6", "-eps * k * a**2", "-2 * eps * k * a**2"),
+    ("rate.7", '["h", "B", "w"]', '["h", "w"]'),
+    ("rate.8", "eps * known.L * kv_max", "eps * '0.8' * kv_max"),
+    ("rate.9", "eps**2 * known.reach * kc", "eps * known.reach * kc"),
+    ("rate.form", "        eps * b_max * a * b,\n", "        expr(0),\n"),
+    ("rate.form", "return eps * k, -eps / 2", "return eps * k, -eps / 3"),
+    ("arms.theta", "d + eps0 * c) ** 2 / 4 < k", "d + eps0 * c) ** 2 / 8 < k"),
+    ("arms.small", "side**2 < corner * low", "corner * low < side**2"),
+    ("arm.M", "arm.mass_above()", "arm.mass_above(1000)"),
+    ("arm.M", "arm.mass_below()", "type(arm.mass_below())(arm.mass, (), arm.beta / 2)"),
+    (
+        "arm.C",
+        "ArmBounds(case.robot).coriolis_below()",
+        "(lambda arm: type(arm.coriolis_below())(arm.mass, (), arm.kc / 100))(ArmBounds(case.robot))",
+    ),
+    ("arm.stable", '"b_min": arm.b_min', '"b_min": 2 * arm.b_min'),
+    ("arm.stable", '"b_max": arm.b_max', '"b_max": arm.b_max / 2'),
+    ("arm.stable", '"kp": min(case.gains.kp)', '"kp": 2 * min(case.gains.kp)'),
+    ("arm.stable", '"kv_max": max(case.gains.kv)', '"kv_max": max(case.gains.kv) / 2'),
+    ("arm.stable", '"eps0": eps0_of(case)', '"eps0": 2 * eps0_of(case)'),
+    ("arm.stable", "arm=ArmBounds(case.robot).under(case.gains), ", ""),
+    ("arm.properties", "plus(turning, transpose(turning))", "plus(turning, turning)"),
+]
+
+
+@pytest.mark.parametrize(("claim", "right", "wrong"), FAULTS, ids=[f"{row[0]}: {row[2]}" for row in FAULTS])
+def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
+    assert verdicts(altered(right, wrong), (claim,))[claim] in ("refuted", "undecided")
+
+
+def test_no_verdict_is_written_in_the_script():
+    assert re.findall(r"\b(proved|refuted|undecided|Verdict|Decision)\b", SOURCE) == []
+
+
+def test_its_certificates_are_accepted_from_their_text(result):
+    made = result.certificates
+    assert len(made) == len(result.claims)
+    for certificate in made.values():
+        assert judge(read(parse(certificate.text()))).verdict == "proved"
+
+
+def test_floats_are_refused_as_everywhere():
+    with pytest.raises(TypeError, match="not exact"):
+        expr(0.02)

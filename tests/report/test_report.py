@@ -1,0 +1,330 @@
+"""The report: one object, several documents, written whole."""
+
+from __future__ import annotations
+
+import csv
+import json
+import pickle
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+from lyapcheck.cli.main import build_app
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError, argument_error
+from lyapcheck.report.build import Subject, build
+from lyapcheck.report.drawings import file_stem
+from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
+from lyapcheck.report.figures.claims import claims_plot, layout, tied
+from lyapcheck.report.figures.motion import draw_errors, draw_torques
+from lyapcheck.report.figures.plot import Plot
+from lyapcheck.report.findings import findings
+from lyapcheck.report.model import Report
+from lyapcheck.report.text import bracket, listed, number, span_words, together, witness_words
+from lyapcheck.report.write import render, require_folder, write
+
+VOID = {"meta", "link", "img", "br"}
+
+
+@pytest.fixture(scope="module")
+def report() -> Report:
+    """A small real report: the two-joint arm, m = 1."""
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    return build(Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),)))
+
+
+@pytest.fixture(scope="module")
+def everything(report: Report) -> dict[str, str | bytes]:
+    return render(report)
+
+
+@pytest.fixture(scope="module")
+def files(everything: dict[str, str | bytes]) -> dict[str, str]:
+    """All of it as text; what is not is known by its name only."""
+    return {name: content if isinstance(content, str) else "" for name, content in everything.items()}
+
+
+class Balance(HTMLParser):
+    """Complains about tags that are closed in the wrong order, and collects links."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.targets: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.targets += [value or "" for key, value in attrs if key in ("href", "src")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_every_format_is_there(files: dict[str, str]) -> None:
+    assert {"index.html", "m1.html", "style.css", "report.md", "m1.md", "report.json"} <= set(files)
+    assert "figures/family.svg" in files
+
+
+def test_every_figure_is_there_in_three_forms(everything: dict[str, str | bytes]) -> None:
+    figures = {Path(name) for name in everything if name.startswith("figures/")}
+    stems = {figure.stem for figure in figures}
+    assert {"family", "claims_m1", "indices", "epsilon", "tau_m1_errors"} <= stems
+    assert {figure.name for figure in figures} == {
+        f"{s}.{form}" for s in stems for form in ("svg", "png", "csv")
+    }
+    for name, content in everything.items():
+        if name.endswith(".png"):
+            assert isinstance(content, bytes)
+            picture = Image.open(BytesIO(content))
+            assert picture.size[0] > 1000
+            assert picture.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
+            assert set(picture.info) <= {"dpi"}
+
+
+def test_the_data_beside_a_figure_are_those_of_the_run(report: Report, files: dict[str, str]) -> None:
+    run = report.runs[0]
+    rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
+    for joint, peak in zip(run["joints"], run["peak_torque"], strict=True):
+        assert max(abs(float(row[f"{joint} [N·m]"])) for row in rows) == pytest.approx(peak, rel=1e-6)
+    assert float(rows[-1]["t [s]"]) == run["time"]
+
+
+def test_pages_are_balanced_and_their_links_lead_somewhere(files: dict[str, str]) -> None:
+    for name, page in files.items():
+        if name.endswith(".html"):
+            reader = Balance()
+            reader.feed(page)
+            assert reader.open == []
+            assert {target.partition("#")[0] for target in reader.targets} <= set(files)
+            assert "<script" not in page
+
+
+def test_markdown_links_lead_somewhere(files: dict[str, str]) -> None:
+    for name, page in files.items():
+        if name.endswith(".md"):
+            assert set(re.findall(r"\]\(([^)]+)\)", page)) <= set(files)
+
+
+def test_markdown_tables_have_as_many_cells_in_every_row(files: dict[str, str]) -> None:
+    for page in (page for name, page in files.items() if name.endswith(".md")):
+        width = 0
+        for line in page.splitlines():
+            cells = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
+            assert not (cells and width) or cells == width, line
+            width = cells
+
+
+def test_equations_and_figures_are_wellformed_xml(files: dict[str, str]) -> None:
+    equations = re.findall(r"<math.*?</math>", files["index.html"], re.DOTALL)
+    assert len(equations) >= 5
+    for fragment in [*equations, *(text for name, text in files.items() if name.endswith(".svg"))]:
+        ElementTree.fromstring(fragment)
+
+
+def test_json_holds_every_claim_and_the_numbers_of_epsilon(report: Report, files: dict[str, str]) -> None:
+    document = json.loads(files["report.json"])
+    assert document["schema"] == "lyapcheck/report/1"
+    assert sum(document["counts"].values()) == len(report.claims) > 80
+    row = document["epsilon"][0]
+    assert float(row["scalar"]) <= float(row["certified"]) < float(row["falsified"])
+    assert row["worst_states"]
+    assert all(state["relative"] < 0 for state in row["worst_states"])
+
+
+def test_every_claim_is_on_the_page_of_its_member(report: Report, files: dict[str, str]) -> None:
+    for row in report.claims:
+        assert f'<tr id="{row["id"]}">' in files["m1.html"]
+        assert f"| {row['id']} |" in files["m1.md"]
+
+
+def test_assumptions_versions_and_seed_are_on_every_page(report: Report, files: dict[str, str]) -> None:
+    for page in (files["report.md"], files["m1.md"]):
+        assert all(text in page for text in report.robot["assumptions"])
+        assert f"casadi {report.versions['casadi']}" in page
+        assert f"Seed {report.seed}" in page
+
+
+def test_no_clock_and_no_path_of_this_machine(files: dict[str, str]) -> None:
+    here = str(Path(__file__).resolve().parents[2])
+    for text in files.values():
+        assert here not in text
+        assert "<dc:date>" not in text
+
+
+def claim(claim_id: str, m: int | None, verdict: str) -> dict[str, Any]:
+    witness = {"point": {"x": "3/2"}, "left": ["1.0", "1.0"], "operator": "<=", "right": ["0", "0"]}
+    return {"id": claim_id, "m": m, "verdict": verdict, "comment": "one is small", "witness": witness}
+
+
+def test_refuted_claims_become_one_finding_for_all_their_members() -> None:
+    rows = [claim("a", 1, "refuted"), claim("a", 2, "refuted"), claim("b", 1, "proved")]
+    found = findings(rows, [], [])
+    assert [(item.subject, item.ms) for item in found] == [("claim a", (1, 2))]
+    assert "1 is not ≤ 0 at x = 3/2" in found[0].text
+
+
+def epsilon_row(**numbers: str | None) -> dict[str, Any]:
+    blank = {"published": None, "scalar": None, "certified": None, "falsified": None}
+    return {"name": "a", "m": 2, **blank, **numbers}
+
+
+@pytest.mark.parametrize(
+    ("row", "kinds"),
+    [
+        (epsilon_row(published="0.1", certified="0.2", falsified="0.3"), []),
+        (epsilon_row(published="0.4", certified="0.2", falsified="0.3"), ["refuted"]),
+        (epsilon_row(certified="0.2", falsified="0.3"), ["empty"]),
+        (epsilon_row(), ["empty"]),
+    ],
+)
+def test_published_epsilons_are_held_against_the_others(row: dict[str, Any], kinds: list[str]) -> None:
+    assert [item.kind for item in findings([], [], [row])] == kinds
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"),
+    [
+        ({"lower": "1.0535692", "upper": "1.0535693"}, "1.053569"),
+        ({"lower": "1", "upper": "1"}, "1"),
+        ({"lower": "0.1", "upper": "0.2"}, "[0.1, 0.2]"),
+        (None, "–"),
+    ],
+)
+def test_bracket_shows_only_digits_that_both_ends_share(ends: Any, expected: str) -> None:
+    assert bracket(ends) == expected
+
+
+def test_numbers_of_any_size_fit_a_cell() -> None:
+    assert listed([1e-7, -0.0, 123456.0]) == "1e-07, 0, 1.235e+05"
+    assert number(None) == "–"
+    assert span_words(["1", "2"]) == "1 to 2"
+
+
+def test_a_long_witness_is_left_to_the_table() -> None:
+    row = claim("a", 1, "refuted")
+    row["witness"]["point"] = {f"x{i}": "1" for i in range(4)}
+    assert "x0" not in witness_words(row)
+
+
+@pytest.mark.parametrize("name", ["../../etc/passwd", "a/b", "tau m1", "τ₃", "x" * 10])
+def test_names_of_gain_sets_never_become_paths(name: str) -> None:
+    assert re.fullmatch(r"[\w-]+", file_stem(name))
+
+
+def test_figures_are_the_same_bytes_twice() -> None:
+    t = np.linspace(0, 5, 50)
+    e = np.stack([np.exp(-t), np.cos(t)], axis=1)
+
+    def draw() -> list[dict[str, str | bytes]]:
+        plots = [
+            Plot(draw_errors("a", t, e, ["one", "two"]), ["t"], t[:, None]),
+            Plot(draw_torques("a", t, e, ["one", "two"], [1.0, None]), ["t"], t[:, None]),
+            indices_plot(["a", "b"], {"simulated": [1.0, None]}),
+            epsilon_plot(["a"], {"scalar": [0.1], "certified": [None]}),
+        ]
+        return [plot.files("a") for plot in plots]
+
+    assert draw() == draw()
+
+
+def test_a_refused_write_leaves_the_old_report_whole(tmp_path: Path) -> None:
+    write({"report.md": "old"}, tmp_path)
+    (tmp_path / "figures").write_text("in the way")
+    with pytest.raises(InputError, match="cannot be written"):
+        write({"figures/a.svg": "new", "report.md": "new"}, tmp_path)
+    assert (tmp_path / "report.md").read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["figures", "report.md"]
+
+
+def test_a_folder_that_is_a_file_is_refused_before_any_work(tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("")
+    with pytest.raises(InputError, match="is a file"):
+        require_folder("--out", tmp_path / "out")
+    require_folder("--out", tmp_path / "new" / "deep")
+
+
+def test_a_refusal_in_another_process_comes_back_whole() -> None:
+    refused = argument_error("--robot", "x", "is wrong", "mend it")
+    again = pickle.loads(pickle.dumps(refused))
+    assert isinstance(again, InputError)
+    assert again.problems == refused.problems
+    assert str(again) == str(refused)
+
+
+BROKEN = [
+    (["--m", "0"], "at least 1"),
+    (["--m", "x"], "whole number"),
+    (["--m", "1:40"], "at most 20"),
+    (["--m", "1", "2", "-3"], "No such option"),
+    (["--format", "docx"], "is not a format"),
+    (["--format", "html,pdf"], "print-to-pdf"),
+    (["--robot", "nobody"], "nobody"),
+    (["--robot", "reyes-kelly2"], "3 joints"),
+    (["--gains", "missing.toml"], "missing.toml"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "expected"), BROKEN)
+def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = CliRunner().invoke(build_app(("report", "table")), ["report", "--out", str(out), *arguments])
+    said = str(result.exception) if isinstance(result.exception, InputError) else result.output
+    assert expected in said
+    assert result.exit_code != 0
+    assert not out.exists()
+
+
+def test_claims_stand_right_of_what_they_use() -> None:
+    names = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["x"], "e": []}
+    rows = [{"id": name, "uses": uses, "broken": []} for name, uses in names.items()]
+    chosen = tied(rows)
+    places = layout(chosen)
+    assert sorted(places) == ["a", "b", "c"]
+    assert places["a"][0] < places["b"][0] < places["c"][0]
+    assert len(set(places.values())) == 3
+
+
+def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
+    about = {"uses": [], "broken": []}
+    rows = [
+        {"id": "a", "verdict": "proved", "grade": "exact", **about},
+        {"id": "b", "verdict": "proved", "grade": "enclosure", "uses": ["a"], "broken": []},
+        {"id": "c", "verdict": "refuted", "grade": "enclosure", "uses": ["a"], "broken": ["a"]},
+    ]
+    files = claims_plot(rows).files("claims")
+    drawn = str(files["claims.svg"])
+    for word in ("✓ proved", "✗ refuted", "exact", "enclosure", "broken link", "✗ c"):
+        assert word in drawn
+    assert "? undecided" not in drawn
+    assert "numeric" not in drawn
+    assert str(files["claims.csv"]).splitlines()[1:] == [
+        "a,proved,exact,,",
+        "b,proved,enclosure,a,",
+        "c,refuted,enclosure,a,a",
+    ]
+    assert files == claims_plot(rows).files("claims")
+
+
+def test_conclusions_for_several_m_are_one_row_as_long_as_they_agree() -> None:
+    about = {"proof": "p", "grade": "exact", "details": [], "statement": "s"}
+    rows = [{**about, "id": "a", "m": m, "verdict": "proved"} for m in (1, 2)]
+    rows += [
+        {**about, "id": "a", "m": 3, "verdict": "undecided"},
+        {**about, "id": "b", "m": None, "verdict": "proved"},
+    ]
+    assert [(row["id"], row["m"], row["verdict"]) for row in together(rows)] == [
+        ("a", "1, 2", "proved"),
+        ("a", "3", "undecided"),
+        ("b", "", "proved"),
+    ]

@@ -1,0 +1,1 @@
+"""Arms: files, models, every arithmetic."""

@@ -1,0 +1,153 @@
+"""M, g and C w of URDF arms and built-in arms against Pinocchio, to 1e-12.
+
+Not part of the ordinary tests: it needs the packages ``pin`` and ``example-robot-data`` (0.9 GB). Run it as
+``pytest tests/robots/against_pinocchio.py``; without the packages it fails. ROBOT_DATA names another
+folder of URDFs laid out like example-robot-data.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.robots.numeric import NumericModel
+
+STATES = 50
+TOLERANCE = 1e-12
+RIGHT = np.pi / 2
+
+
+def data_folder() -> Path:
+    """Where example-robot-data keeps its robots."""
+    given = os.environ.get("ROBOT_DATA")
+    if given:
+        return Path(given)
+    prefix = next(path for path in Path(pin.__file__).parents if path.name == "cmeel.prefix")
+    return prefix / "share" / "example-robot-data" / "robots"
+
+
+ARMS = [
+    ("ur_description/urdf/ur5_robot.urdf", None, 6),
+    ("ur_description/urdf/ur3_robot.urdf", None, 6),
+    ("ur_description/urdf/ur10_robot.urdf", None, 6),
+    ("panda_description/urdf/panda.urdf", "panda_hand", 7),
+    ("kinova_description/robots/kinova.urdf", None, 6),
+    ("xarm_description/urdf/xarm7.urdf", None, 7),
+    ("so_arm_description/urdf/so101.urdf", None, 6),
+    ("talos_data/robots/talos_left_arm.urdf", None, 7),
+    ("asr_twodof_description/urdf/TwoDofs.urdf", None, 2),
+    ("double_pendulum_description/urdf/double_pendulum.urdf", None, 2),
+    ("double_pendulum_description/urdf/double_pendulum_continuous.urdf", None, 2),
+    ("finger_edu_description/robots/finger_edu.urdf", None, 3),
+    ("allegro_hand_description/urdf/allegro_left_hand.urdf", "link_3.0_tip", 4),
+    ("baxter_description/urdf/baxter.urdf", "left_gripper_base_link", 7),
+]
+
+
+@pytest.mark.parametrize(("file", "tip", "n"), ARMS, ids=[file.split("/")[-1] for file, _, _ in ARMS])
+def test_urdf_arms(file: str, tip: str | None, n: int) -> None:
+    path = data_folder() / file
+    arm = robots.load(path, tip)
+    assert arm.n == n
+    compare(arm, pin.buildModelFromXML(with_right_angles(path.read_text())))
+
+
+@pytest.mark.parametrize("name", ["pelican2", "pendulum1"])
+def test_built_in_arms(name: str) -> None:
+    """The links of the arm file, read by another reader and written as a URDF for Pinocchio."""
+    file = Path(robots.__file__).parent / "arms" / f"{name}.toml"
+    data = tomllib.loads(file.read_text())
+    other = pin.buildModelFromXML(as_urdf(data))
+    other.gravity.linear = np.array([value(x) for x in data["gravity"]])
+    compare(robots.load(name), other)
+
+
+def compare(arm: robots.RobotModel, full: pin.Model) -> None:
+    """M, g and C w at random states; joints that are not of the chain are locked at zero."""
+    locked = [full.getJointId(name) for name in full.names[1:] if name not in arm.joints]
+    other = pin.buildReducedModel(full, locked, pin.neutral(full))
+    data, mine = other.createData(), NumericModel(arm)
+    joints = [other.joints[other.getJointId(name)] for name in arm.joints]
+    order = [joint.idx_v for joint in joints]
+    rng = np.random.default_rng(20190301)
+    for _ in range(STATES):
+        q, w = rng.uniform(-3, 3, arm.n), rng.uniform(-2, 2, arm.n)
+        there, rates = configuration(other, joints, q), np.zeros(other.nv)
+        rates[order] = w
+        upper = np.triu(pin.crba(other, data, there))
+        mass = (upper + np.triu(upper, 1).T)[np.ix_(order, order)]
+        gravity = pin.computeGeneralizedGravity(other, data, there).copy()
+        whirl = (pin.nle(other, data, there, rates) - gravity)[order]
+        assert_close(mine.mass(q), mass)
+        assert_close(mine.gravity(q), gravity[order])
+        assert_close(mine.coriolis(q, w) @ w, whirl)
+
+
+def assert_close(found: np.ndarray, expected: np.ndarray) -> None:
+    scale = max(float(np.max(np.abs(expected))), 1e-3)
+    assert float(np.max(np.abs(found - expected))) <= TOLERANCE * scale
+
+
+def configuration(model: pin.Model, joints: Sequence[Any], q: np.ndarray) -> np.ndarray:
+    """Pinocchio keeps a continuous joint as cosine and sine."""
+    there = pin.neutral(model)
+    for joint, angle in zip(joints, q, strict=True):
+        there[joint.idx_q : joint.idx_q + joint.nq] = (
+            [np.cos(angle), np.sin(angle)] if joint.nq == 2 else [angle]
+        )
+    return there
+
+
+def with_right_angles(text: str) -> str:
+    """The URDF with every angle that is written like a multiple of π/2 in all digits of a double."""
+
+    def exact(word: str) -> str:
+        angle = RIGHT * round(float(word) / RIGHT)
+        return repr(angle) if abs(float(word) - angle) <= 1e-5 else word
+
+    return re.sub(
+        r'rpy\s*=\s*"([^"]*)"', lambda found: f'rpy="{" ".join(exact(w) for w in found[1].split())}"', text
+    )
+
+
+def value(entry: Any) -> float:
+    return float(entry["value"] if isinstance(entry, dict) else entry)
+
+
+def as_urdf(data: dict[str, Any]) -> str:
+    """The links of an arm file, at nominal values."""
+    parts = ['<robot name="arm"><link name="base"/>']
+    before = "base"
+    for link in data["links"]:
+        name, axis = link["name"], [value(x) for x in link["axis"]]
+        inertia = link["inertia"]
+        if not isinstance(inertia, dict) or "value" in inertia:
+            keys = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+            places = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+            inertia = {
+                key: value(inertia) * axis[i] * axis[k] for key, (i, k) in zip(keys, places, strict=True)
+            }
+        moments = " ".join(
+            f'{key}="{value(inertia.get(key, 0))!r}"' for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+        )
+        parts.append(
+            f'<link name="{name}_body"><inertial><origin xyz="{words(link["com"])}"/>'
+            f'<mass value="{value(link["mass"])!r}"/><inertia {moments}/></inertial></link>'
+            f'<joint name="{name}" type="continuous"><parent link="{before}"/><child link="{name}_body"/>'
+            f'<origin xyz="{words(link["origin"])}"/><axis xyz="{words(link["axis"])}"/></joint>'
+        )
+        before = f"{name}_body"
+    return "".join([*parts, "</robot>"])
+
+
+def words(vector: Sequence[Any]) -> str:
+    return " ".join(repr(value(x)) for x in vector)

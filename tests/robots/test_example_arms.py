@@ -1,0 +1,58 @@
+"""The example arms UR5 and Panda end to end: read, gated, and ε₀ certified."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.cli.main import build_app
+from lyapcheck.robots import load
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ARMS = [("ur5", 6), ("panda", 7)]
+
+
+def run(*arguments: str) -> tuple[int, str]:
+    result = CliRunner().invoke(build_app(), list(arguments))
+    return result.exit_code, result.stdout
+
+
+@pytest.mark.parametrize(("name", "n"), ARMS)
+def test_the_friction_is_stated_and_says_so(name: str, n: int) -> None:
+    arm = load(EXAMPLES / f"{name}.toml")
+    assert arm.n == n
+    assert all(number.assumed and number.value > 0 for number in arm.viscous)
+    assert sum("viscous" in sentence for sentence in arm.assumptions) == n + 1
+
+
+@pytest.mark.parametrize(("name", "n"), ARMS)
+def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
+    code, out = run("gate", str(EXAMPLES / f"{name}_gains.toml"))
+    assert code == 0
+    assert "3 accepted" in out
+
+
+@pytest.mark.parametrize(("name", "n"), ARMS)
+def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) -> None:
+    """Numbers alone: the path of the arm depends on where the file is written."""
+    code, _ = run("tune", str(EXAMPLES / f"{name}.toml"), "--m", "1:3", "--out", str(tmp_path / "gains.toml"))
+    assert code == 0
+    found, kept = (
+        [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith(("kp", "kv"))]
+        for file in (tmp_path / "gains.toml", EXAMPLES / f"{name}_gains.toml")
+    )
+    assert len(found) == 6
+    assert found == kept
+
+
+@pytest.mark.slow
+def test_epsilon_of_the_ur5() -> None:
+    gains = str(EXAMPLES / "ur5_gains.toml")
+    code, out = run("epsilon", gains, "--m", "1", "--starts", "2", "--format", "json")
+    (row,) = json.loads(out)["results"]
+    assert code == 0
+    assert float(row["published"]) < float(row["scalar"]) < float(row["certified"]) < float(row["falsified"])
+    assert float(row["certified"]) > 0.5 * float(row["falsified"])

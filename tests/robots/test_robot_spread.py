@@ -1,0 +1,93 @@
+"""Numbers of an arm within ± a share: what gets a range, and what a certificate over it is about."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lyapcheck.answers.epsilon import epsilon
+from lyapcheck.check.loop import proves
+from lyapcheck.cli.main import build_app
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.robots import load, names
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
+
+F = Fraction
+GAINS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
+
+
+@pytest.mark.parametrize("name", names())
+def test_numbers_without_a_range_get_one_and_the_others_keep_theirs(name: str) -> None:
+    exact, spread = load(name), load(name, spread=F(1, 20))
+    for key, number in spread.parameters.items():
+        before = exact.numbers[key]
+        if before.ranged:
+            assert number.bounds == before.bounds
+        else:
+            assert number.bounds == tuple(sorted((before.value * F(19, 20), before.value * F(21, 20))))
+    for number, before in zip(spread.viscous, exact.viscous, strict=True):
+        assert number.ranged
+        assert number.value == before.value
+    assert spread.fixed().mass == exact.fixed().mass
+
+
+def test_no_spread_is_the_arm_itself() -> None:
+    assert load("reyes-kelly2", spread=F(0)) is load("reyes-kelly2")
+
+
+def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes() -> None:
+    model = load("reyes-kelly2", spread=F(1, 20))
+    closure = Setting(GAINS[0], model, ranges=True).closure(F(1, 10))
+    free = [low < high for low, high in closure.parameters]
+    assert dict(zip(model.parameters, free, strict=True)) == {
+        name: name.startswith("inertia") for name in model.parameters
+    }
+
+
+def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
+    narrow, wide = (
+        Setting(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
+    )
+    outcome = certify(Problem(narrow.closure(F(6, 10)), narrow.ranged), 60_000)
+    assert outcome.proved
+    assert proves(narrow.closure(F(6, 10)), outcome.tree)
+    assert not proves(wide.closure(F(6, 10)), outcome.tree)
+
+
+def test_a_wider_spread_certifies_and_refutes_less() -> None:
+    found = [
+        epsilon(GAINS[0], load("reyes-kelly2", spread=x), ranges=True, starts=3, max_boxes=1500)
+        for x in (F(1, 100), F(1, 10))
+    ]
+    assert found[0].certified is not None
+    assert found[1].certified is not None
+    assert found[0].falsified is not None
+    assert found[1].falsified is not None
+    assert found[1].certified < found[0].certified
+    assert found[1].falsified < found[0].falsified < F("0.8106")
+    assert any(number != load("reyes-kelly2").numbers.get(name) for name, number in found[1].corner.items())
+
+
+@pytest.mark.parametrize("percent", ["0", "100", "-5", "nan"])
+def test_percentages_out_of_range_are_refused(percent: str) -> None:
+    gains = str(paper_gain_file("table2_shoulder_elbow"))
+    result = CliRunner().invoke(build_app(("epsilon", "table")), ["epsilon", gains, f"--spread={percent}"])
+    assert isinstance(result.exception, InputError)
+    assert "above 0 and below 100" in str(result.exception)
+
+
+def test_urdf_files_have_exact_numbers_only(tmp_path: Path) -> None:
+    urdf = Path(__file__).parents[1] / "arms" / "ur5.urdf"
+    with pytest.raises(InputError, match="taken as exact"):
+        load(urdf, spread=F(1, 20))
+    overlay = tmp_path / "arm.toml"
+    overlay.write_text(f'title = "UR5"\nurdf = "{urdf}"\n')
+    with pytest.raises(InputError, match="exact numbers only"):
+        load(overlay, spread=F(1, 20))

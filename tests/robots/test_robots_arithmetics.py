@@ -1,0 +1,150 @@
+"""SymPy, CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import casadi as ca
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from lyapcheck import robots
+from lyapcheck.robots import graph, symbolic
+from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.robot_cases import BUILT_IN
+
+
+@pytest.fixture(params=BUILT_IN)
+def arm(request: pytest.FixtureRequest) -> RobotModel:
+    return robots.load(request.param)
+
+
+def states(n: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+    random = np.random.default_rng(20190301)
+    return random.uniform(-np.pi, np.pi, (count, n)), random.normal(0, 3, (count, n))
+
+
+def test_numpy_agrees_with_the_polynomials(arm: RobotModel) -> None:
+    q, x = states(arm.n, 20)
+    fast = NumericModel(arm)
+    for state, rate, mass, coriolis, gravity in zip(
+        q, x, fast.mass(q), fast.coriolis(q, x), fast.gravity(q), strict=True
+    ):
+        sin, cos = list(np.sin(state)), list(np.cos(state))
+        np.testing.assert_allclose(mass, arm.mass_at(sin, cos, float), rtol=1e-13, atol=1e-14)
+        np.testing.assert_allclose(
+            coriolis, arm.coriolis_at(sin, cos, list(rate), float), rtol=1e-12, atol=1e-13
+        )
+        np.testing.assert_allclose(gravity, arm.gravity_at(sin, cos, float), rtol=1e-13, atol=1e-13)
+
+
+def test_numpy_batches_any_leading_axes(arm: RobotModel) -> None:
+    q, x = states(arm.n, 24)
+    fast, n = NumericModel(arm), arm.n
+    grid_q, grid_x = q.reshape(2, 3, 4, n), x.reshape(2, 3, 4, n)
+    assert fast.mass(grid_q).shape == (2, 3, 4, n, n)
+    np.testing.assert_array_equal(fast.coriolis(grid_q, grid_x).reshape(24, n, n), fast.coriolis(q, x))
+    np.testing.assert_allclose(fast.gravity(grid_q)[1, 2, 3], fast.gravity(q[-1]), rtol=1e-14)
+    assert fast.potential(grid_q).shape == (2, 3, 4)
+    assert fast.mass(q[:0]).shape == (0, n, n)
+
+
+def test_numpy_blocks_do_not_show(arm: RobotModel) -> None:
+    """More states than one block holds give what they give one by one."""
+    q, x = states(arm.n, 5000)
+    fast = NumericModel(arm)
+    for index in (0, 4095, 4096, 4999):
+        np.testing.assert_allclose(
+            fast.coriolis(q, x)[index], fast.coriolis(q[index], x[index]), rtol=1e-13, atol=1e-14
+        )
+
+
+def test_casadi_agrees_with_numpy(arm: RobotModel) -> None:
+    q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
+    outputs = [graph.mass(arm, q), graph.coriolis(arm, q, x), graph.gravity(arm, q), graph.potential(arm, q)]
+    function, fast = ca.Function("model", [q, x], outputs), NumericModel(arm)
+    for state, rate in zip(*states(arm.n, 10), strict=True):
+        mass, coriolis, gravity, potential = (np.array(value) for value in function(state, rate))
+        np.testing.assert_allclose(mass, fast.mass(state), rtol=1e-12, atol=1e-14)
+        np.testing.assert_allclose(coriolis, fast.coriolis(state, rate), rtol=1e-12, atol=1e-13)
+        np.testing.assert_allclose(gravity[:, 0], fast.gravity(state), rtol=1e-12, atol=1e-13)
+        assert float(potential.item()) == pytest.approx(float(fast.potential(state)), abs=1e-12)
+
+
+def test_casadi_gradient_of_the_potential_is_gravity(arm: RobotModel) -> None:
+    q = ca.SX.sym("q", arm.n)
+    function = ca.Function("slope", [q], [ca.gradient(graph.potential(arm, q), q), graph.gravity(arm, q)])
+    for state in states(arm.n, 5)[0]:
+        slope, gravity = function(state)
+        np.testing.assert_allclose(np.array(slope), np.array(gravity), rtol=1e-12, atol=1e-12)
+
+
+def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotModel) -> None:
+    """(3) by automatic differentiation, apart from the polynomial derivative."""
+    q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
+    coriolis = graph.coriolis(arm, q, x)
+    rate = ca.reshape(ca.jtimes(ca.vec(graph.mass(arm, q)), q, x), arm.n, arm.n)
+    function = ca.Function("gap", [q, x], [rate - coriolis - coriolis.T])
+    for state, speed in zip(*states(arm.n, 10), strict=True):
+        np.testing.assert_allclose(np.array(function(state, speed)), 0, atol=1e-12)
+
+
+def test_sympy_agrees_with_numpy(arm: RobotModel) -> None:
+    q, x = sp.symbols(f"q1:{arm.n + 1}"), sp.symbols(f"x1:{arm.n + 1}")
+    expressions = [symbolic.mass(arm, q), symbolic.coriolis(arm, q, x), symbolic.gravity(arm, q)]
+    function, fast = sp.lambdify([q, x], expressions, "numpy"), NumericModel(arm)
+    for state, rate in zip(*states(arm.n, 10), strict=True):
+        mass, coriolis, gravity = function(state, rate)
+        np.testing.assert_allclose(mass, fast.mass(state), rtol=1e-12, atol=1e-14)
+        np.testing.assert_allclose(coriolis, fast.coriolis(state, rate), rtol=1e-12, atol=1e-13)
+        np.testing.assert_allclose(gravity[:, 0], fast.gravity(state), rtol=1e-12, atol=1e-13)
+
+
+def test_sympy_coefficients_are_exact() -> None:
+    q1, q2 = sp.symbols("q1 q2")
+    mass = symbolic.mass(robots.load("reyes-kelly2"), [q1, q2])
+    assert mass[0, 0] == sp.Rational(2351, 1000) + sp.Rational(168, 1000) * sp.cos(q2)
+    assert not mass.atoms(sp.Float)
+
+
+def test_sympy_and_casadi_take_parameters() -> None:
+    arm, base = robots.load("buap3"), sp.Symbol("J")
+    assert base in symbolic.mass(arm, sp.symbols("q1:4"), {"base_inertia": base})[0, 0].free_symbols
+    symbol = ca.SX.sym("J")
+    function = ca.Function("m11", [symbol], [graph.mass(arm, ca.SX.zeros(3), {"base_inertia": symbol})[0, 0]])
+    assert float(function(1.25)) == pytest.approx(1.25, rel=1e-14)
+
+
+def test_numpy_takes_exact_parameters() -> None:
+    model = NumericModel(robots.load("buap3"), {"base_inertia": Fraction(5, 4)})
+    assert model.mass(np.zeros(3))[0, 0] == pytest.approx(1.25, rel=1e-14)
+
+
+def test_viscous_friction_is_the_same_everywhere(arm: RobotModel) -> None:
+    expected = np.diag([float(number.value) for number in arm.viscous])
+    np.testing.assert_array_equal(np.diag(NumericModel(arm).viscous), expected)
+    np.testing.assert_array_equal(np.array(graph.viscous(arm)), expected)
+    assert symbolic.viscous(arm)[0, 0] == sp.Rational(str(arm.viscous[0].value))
+
+
+def test_free_motion_conserves_energy(arm: RobotModel) -> None:
+    """Without friction and torque ½q̇ᵀMq̇ + U stays what it was; a C with a wrong sign would leak."""
+    fast, n = NumericModel(arm), arm.n
+
+    def energy(state: np.ndarray) -> float:
+        q, w = state[:n], state[n:]
+        return float(w @ fast.mass(q) @ w / 2 + fast.potential(q))
+
+    def motion(_: float, state: np.ndarray) -> np.ndarray:
+        q, w = state[:n], state[n:]
+        return np.concatenate([w, np.linalg.solve(fast.mass(q), -fast.coriolis(q, w) @ w - fast.gravity(q))])
+
+    start = np.concatenate([np.linspace(0.4, 1.1, n), np.linspace(2, -3, n)])
+    run = solve_ivp(motion, (0, 1.0), start, method="DOP853", rtol=1e-11, atol=1e-11)
+    assert run.success
+    assert abs(energy(run.y[:, -1]) - energy(start)) < 1e-8 * (1 + abs(energy(start)))
+    assert math.dist(run.y[:n, -1], start[:n]) > 0.1

@@ -1,0 +1,246 @@
+"""What every robot model must satisfy: the built-in arms and random chains of links, exactly."""
+
+from __future__ import annotations
+
+import pickle
+from fractions import Fraction
+from itertools import product
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck import robots
+from lyapcheck.errors import InputError
+from lyapcheck.robots import trig
+from lyapcheck.robots.model import RobotModel
+from tests.helpers.robot_cases import BUILT_IN, angles, circle, exact, model_of, plain_links, rates, relaxed
+
+Circle = list[tuple[Fraction, Fraction]]
+models = st.one_of(st.sampled_from(BUILT_IN).map(robots.load), plain_links().map(model_of))
+
+
+@pytest.fixture(params=BUILT_IN)
+def arm(request: pytest.FixtureRequest) -> RobotModel:
+    return robots.load(request.param)
+
+
+def check_symmetric(model: RobotModel) -> None:
+    assert all(model.mass[i][j] == model.mass[j][i] for i, j in product(range(model.n), repeat=2))
+
+
+def check_mass_rate(model: RobotModel) -> None:
+    """(3): ∂M_ij/∂q_k = c_ijk + c_jik for every k is Ṁ = C + Cᵀ for every velocity."""
+    c = model.christoffel
+    for i, j, k in product(range(model.n), repeat=3):
+        assert trig.derivative(model.mass[i][j], k) == c[i][j][k] + c[j][i][k]
+
+
+def check_exchange(model: RobotModel) -> None:
+    """C(q,x)y = C(q,y)x."""
+    c = model.christoffel
+    for i, j, k in product(range(model.n), repeat=3):
+        assert c[i][j][k] == c[i][k][j]
+
+
+@pytest.mark.parametrize("check", [check_symmetric, check_mass_rate, check_exchange])
+def test_identities_of_built_in_arms(arm: RobotModel, check: object) -> None:
+    check(arm)
+
+
+@settings(relaxed, max_examples=25)
+@given(plain_links().map(model_of))
+def test_identities_of_random_chains(model: RobotModel) -> None:
+    check_symmetric(model)
+    check_mass_rate(model)
+    check_exchange(model)
+
+
+def test_everything_is_in_normal_form(arm: RobotModel) -> None:
+    entries = [*(m for row in arm.mass for m in row), arm.potential, *arm.gravity]
+    entries += [c for table in arm.christoffel for row in table for c in row]
+    assert all(entry == trig.normal_form(entry) for entry in entries)
+
+
+@settings(relaxed, max_examples=60)
+@given(st.data())
+def test_mass_is_positive_definite(data: st.DataObject) -> None:
+    model = data.draw(models)
+    sin, cos = zip(*data.draw(angles(model.n)), strict=True)
+    mass = model.mass_at(sin, cos, Fraction)
+    w = data.draw(rates(model.n).filter(any))
+    assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
+
+
+@settings(relaxed, max_examples=40)
+@given(st.data())
+def test_coriolis_torque_does_no_work_beyond_the_mass_rate(data: st.DataObject) -> None:
+    """wᵀ(½Ṁ − C)w = 0 at any state, with Ṁ from the derivative of M along w."""
+    model = data.draw(models)
+    n, lift = model.n, Fraction
+    sin, cos = zip(*data.draw(angles(n)), strict=True)
+    w = data.draw(rates(n))
+    values = model.point(sin, cos, lift)
+    coriolis = model.coriolis_at(sin, cos, w, lift)
+    for i, j in product(range(n), repeat=2):
+        slope = sum(
+            trig.evaluate(trig.derivative(model.mass[i][j], k), values, lift) * w[k] for k in range(n)
+        )
+        assert slope == coriolis[i][j] + coriolis[j][i]
+    power = sum(
+        w[i] * (slope_of(model, values, w, i, j) / 2 - coriolis[i][j]) * w[j]
+        for i, j in product(range(n), repeat=2)
+    )
+    assert power == 0
+
+
+def slope_of(model: RobotModel, values: list[Fraction], w: list[Fraction], i: int, j: int) -> Fraction:
+    slopes = [trig.evaluate(trig.derivative(model.mass[i][j], k), values, Fraction) for k in range(model.n)]
+    return sum((s * x for s, x in zip(slopes, w, strict=True)), Fraction(0))
+
+
+@settings(relaxed, max_examples=40)
+@given(plain_links(), st.data())
+def test_chain_agrees_with_jacobians(links: list[dict], data: st.DataObject) -> None:
+    """M = Σ m JvᵀJv + Jωᵀ R I Rᵀ Jω and U = −Σ m gᵀp in the base frame, in exact arithmetic at a state."""
+    gravity = tuple(data.draw(rates(3)))
+    model = model_of(links, gravity)
+    sin, cos = zip(*data.draw(angles(model.n)), strict=True)
+    mass, potential = by_jacobians(links, gravity, sin, cos)
+    assert model.mass_at(sin, cos, Fraction) == mass
+    assert model.potential_at(sin, cos, Fraction) == potential
+
+
+def test_seven_joints_agree_with_jacobians() -> None:
+    """A chain of seven with axes in all directions, at one state."""
+    axes = [
+        (0, 0, 1),
+        (0, 1, 0),
+        (0, 0, 1),
+        (0, -1, 0),
+        (1, 0, 0),
+        (0, Fraction(3, 5), Fraction(4, 5)),
+        (0, 0, 1),
+    ]
+    links = [
+        {
+            "axis": axis,
+            "origin": (Fraction(i, 50), 0, Fraction(3, 10)),
+            "mass": Fraction(9 - i, 2),
+            "com": (Fraction(1, 20), Fraction(-i, 100), Fraction(1, 7)),
+            "inertia": [
+                [Fraction(1, 5), Fraction(1, 90), 0],
+                [Fraction(1, 90), Fraction(1, 6), 0],
+                [0, 0, Fraction(1, 8)],
+            ],
+        }
+        for i, axis in enumerate(axes)
+    ]
+    sin, cos = zip(*[circle(Fraction(i - 3, 2)) for i in range(7)], strict=True)
+    model = model_of(links)
+    mass, potential = by_jacobians(links, (0, 0, Fraction(-981, 100)), sin, cos)
+    assert model.mass_at(sin, cos, Fraction) == mass
+    assert model.potential_at(sin, cos, Fraction) == potential
+
+
+def by_jacobians(links: list[dict], gravity: tuple, sin: tuple, cos: tuple) -> tuple[list, Fraction]:
+    n = len(links)
+    turn = [[Fraction(i == k) for k in range(3)] for i in range(3)]
+    place = [Fraction(0)] * 3
+    joints: list[tuple[list, list]] = []
+    mass = [[Fraction(0)] * n for _ in range(n)]
+    potential = Fraction(0)
+    for k, link in enumerate(links):
+        place = [p + x for p, x in zip(place, apply(turn, link["origin"]), strict=True)]
+        turn = times(turn, rodrigues(link["axis"], sin[k], cos[k]))
+        joints.append((apply(turn, link["axis"]), place))
+        com = [p + x for p, x in zip(place, apply(turn, link["com"]), strict=True)]
+        spin = times(times(turn, link["inertia"]), [list(column) for column in zip(*turn, strict=True)])
+        speed = [cross(axis, [c - p for c, p in zip(com, origin, strict=True)]) for axis, origin in joints]
+        for i, j in product(range(k + 1), repeat=2):
+            mass[i][j] += link["mass"] * dot(speed[i], speed[j]) + dot(
+                joints[i][0], apply(spin, joints[j][0])
+            )
+        potential -= link["mass"] * dot(gravity, com)
+    return mass, potential
+
+
+def rodrigues(a: tuple, s: Fraction, c: Fraction) -> list:
+    skew = [[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]]
+    squared = times(skew, skew)
+    return [[Fraction(i == k) + s * skew[i][k] + (1 - c) * squared[i][k] for k in range(3)] for i in range(3)]
+
+
+def dot(a: object, b: object) -> Fraction:
+    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+
+
+def cross(a: object, b: object) -> list:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def apply(a: list, x: object) -> list:
+    return [dot(row, x) for row in a]
+
+
+def times(a: list, b: list) -> list:
+    return [[dot(row, column) for column in zip(*b, strict=True)] for row in a]
+
+
+def test_a_wrong_coriolis_matrix_would_be_noticed(arm: RobotModel) -> None:
+    """Negative control: lumping the velocity products into one column keeps the torque and breaks (3)."""
+    if all(c == 0 for table in arm.christoffel for row in table for c in row):
+        return
+    n, c = arm.n, arm.christoffel
+    lumped = [
+        [[c[i][j][k] * 2 if j < k else c[i][j][k] * (j == k) for k in range(n)] for j in range(n)]
+        for i in range(n)
+    ]
+    same_torque = all(
+        lumped[i][j][k] + lumped[i][k][j] == c[i][j][k] + c[i][k][j]
+        for i, j, k in product(range(n), repeat=3)
+    )
+    keeps_rate = all(
+        trig.derivative(arm.mass[i][j], k) == lumped[i][j][k] + lumped[j][i][k]
+        for i, j, k in product(range(n), repeat=3)
+    )
+    assert same_torque
+    assert not keeps_rate
+
+
+def test_pickle_brings_the_same_model_back(arm: RobotModel) -> None:
+    copy = pickle.loads(pickle.dumps(arm))
+    assert (copy.name, copy.mass, copy.gravity, copy.numbers) == (
+        arm.name,
+        arm.mass,
+        arm.gravity,
+        arm.numbers,
+    )
+
+
+def test_any_arithmetic_gives_the_same_mass(arm: RobotModel) -> None:
+    sin, cos = [Fraction(3, 5)] * arm.n, [Fraction(4, 5)] * arm.n
+    fractions = arm.mass_at(sin, cos, Fraction)
+    flints = arm.mass_at([exact(x) for x in sin], [exact(x) for x in cos], exact)
+    assert [[exact(x) for x in row] for row in fractions] == flints
+
+
+def test_parameters_default_to_nominal_and_can_be_given() -> None:
+    arm = robots.load("buap3")
+    sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
+    assert arm.mass_at(sin, cos, Fraction)[0][0] == Fraction(1, 2)
+    assert arm.mass_at(sin, cos, Fraction, {"base_inertia": Fraction(2)})[0][0] == 2
+
+
+def test_fixed_removes_the_parameters() -> None:
+    arm = robots.load("buap3")
+    fixed = arm.fixed(base_inertia=Fraction(3, 4))
+    sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
+    assert not fixed.parameters
+    assert fixed.mass_at(sin, cos, Fraction)[0][0] == Fraction(3, 4)
+    assert arm.fixed().mass_at(sin, cos, Fraction) == arm.mass_at(sin, cos, Fraction)
+
+
+def test_fixing_an_unknown_parameter_is_refused() -> None:
+    with pytest.raises(InputError, match=r"no such parameter.*base_inertia"):
+        robots.load("buap3").fixed(tail_inertia=1)

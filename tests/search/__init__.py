@@ -1,0 +1,1 @@
+"""All that proposes: boxes, states, constants."""

@@ -1,0 +1,342 @@
+"""The search for certificates: P over boxes, covers, and what must never be proved."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from lyapcheck.check.loop import leaves, proves
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.family import named
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search import certified, schur
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.cover import EXHAUSTED, RESISTS, cover
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.setting import Setting
+
+F = Fraction
+Array = NDArray[np.float64]
+GAINS = {
+    "buap3": read_gain_file(paper_gain_file("table2")).gains,
+    "reyes-kelly2": read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains,
+    "pendulum1": tuple(GainSet(f"m{m}", m, (F(20),), (F(1, 5),)) for m in (1, 2, 3)),
+}
+CASES = [(robot, index) for robot in GAINS for index in range(3)]
+FALSIFIED = (F("0.81057"), F("0.92638"), F("0.63621"))
+"""For the three gain sets on the two-joint arm, just above ε₀ at which test_falsify.py has states."""
+
+
+@cache
+def setting(robot: str, index: int) -> Setting:
+    return Setting(GAINS[robot][index], load(robot))
+
+
+def problem(robot: str, index: int, eps0: Fraction) -> Problem:
+    case = setting(robot, index)
+    return Problem(case.closure(eps0), case.ranged)
+
+
+class Terms:
+    """X and Y without damping, from NumPy and the definitions alone."""
+
+    def __init__(self, case: Setting, eps0: float, q: Array, e: Array) -> None:
+        family, model = named(case.gains.family, case.gains.m), NumericModel(case.model)
+        h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
+        M, self.B = model.mass(q), np.diag(model.viscous)
+        unit = e / r if r else np.zeros_like(e)
+        C, pushed = model.coriolis(q, h), np.outer(M @ h, unit) / (1 + r)
+        self.eps0, self.eps = eps0, eps0 / (1 + r)
+        self.Kp, self.Kv = np.diag(case.kp), np.diag(case.kv)
+        self.L = float(family.constants().L.upper)
+        self.X = self.B + self.eps * (C + pushed - M @ np.diag(dh))
+        K = np.diag(dh) @ M - pushed.T - C
+        self.Y = self.B - self.eps * (K + K.T) / 2
+
+    def Q(self, D: Array) -> Array:
+        damped = self.Kv @ np.diag(D)
+        beside = -np.sqrt(self.eps) / 2 * (self.X + damped)
+        return np.block([[self.Kp, beside], [beside.T, self.Y + damped]])
+
+    @property
+    def softened(self) -> Array:
+        """K̃."""
+        return np.asarray(self.Kp - self.eps0 * self.L / 4 * self.Kv)
+
+    def P(self) -> Array:
+        return np.asarray(self.Y - self.eps / 4 * self.X.T @ np.linalg.inv(self.softened) @ self.X)
+
+
+def random_state(generator: np.random.Generator, n: int) -> tuple[Array, Array]:
+    return generator.uniform(-np.pi, np.pi, n), generator.normal(size=n) * 10.0 ** generator.uniform(-4, 1)
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_P_is_what_Q_needs_whatever_the_rates(robot: str, index: int) -> None:
+    """Q(D) ⪰ Q̃ for 0 ≤ D ≤ L, and P is the Schur complement of Q̃: so P ≻ 0 gives Q(D) ≻ 0."""
+    case, generator = setting(robot, index), np.random.default_rng(index)
+    positive = 0
+    for _ in range(200):
+        eps0 = float(10.0 ** generator.uniform(-3, 0.3))
+        terms = Terms(case, eps0, *random_state(generator, case.n))
+        if np.min(np.diag(terms.softened)) <= 0:
+            continue
+        P, reduced = terms.P(), terms.Q(np.zeros(case.n))
+        reduced[: case.n, : case.n] = terms.softened
+        assert np.linalg.det(reduced) == pytest.approx(
+            np.linalg.det(terms.softened) * np.linalg.det(P), rel=1e-6, abs=1e-9
+        )
+        least = np.linalg.eigvalsh(P)[0]
+        positive += least > 1e-9
+        for _ in range(4):
+            share = np.round(generator.uniform(0, 1, case.n), generator.integers(0, 3))
+            Q = terms.Q(terms.L * share)
+            assert np.linalg.eigvalsh(Q - reduced)[0] > -1e-9
+            # of all vectors (·, w) the reduced form is least at wᵀ P w
+            assert least <= 1e-9 or np.linalg.eigvalsh(Q)[0] > 0
+    assert positive > 20
+
+
+@pytest.mark.parametrize(("robot", "index"), CASES)
+def test_P_over_boxes_holds_P_of_every_state(robot: str, index: int) -> None:
+    eps0 = F(1, 4)
+    task, case = problem(robot, index, eps0), setting(robot, index)
+    generator, first = np.random.default_rng(index), len(task.closure.angles)
+    sides = first + case.n
+    width = 10.0 ** generator.uniform(-6, 0.5, (100, 1)) * generator.choice([0.0, 1.0], (100, sides))
+    middle = generator.uniform(-2.5, 2.5, (100, sides)) * generator.choice([0.0, 1.0, 1.0], (100, sides))
+    boxes = np.stack([middle - width, middle + width], axis=1)
+    found = task.schur(task.sides(boxes))
+    tight = 0
+    for k, box in enumerate(boxes):
+        for _ in range(3):
+            point = np.clip(generator.uniform(box[0], box[1]), box[0], box[1])
+            q = generator.uniform(-3, 3, case.n)
+            q[list(task.closure.angles)] = point[:first]
+            P = Terms(case, float(eps0), q, point[first:]).P()
+            for i in range(case.n):
+                for j in range(i + 1):
+                    low, high = found[i][j].lo[k], found[i][j].hi[k]
+                    assert low - 1e-12 <= P[i, j] <= high + 1e-12
+                    tight += high - low < 1e-9
+    assert tight > 20
+
+
+def test_a_wrong_sign_of_coriolis_would_be_noticed() -> None:
+    """Without Coriolis terms, or with their sign changed, intervals at points miss P."""
+    task, case = problem("reyes-kelly2", 0, F(1, 4)), setting("reyes-kelly2", 0)
+    q, e = np.array([0.0, 1.0]), np.array([0.5, -0.3])
+    point = np.concatenate([q[1:], e])
+    exact = Terms(case, 0.25, q, e).P()
+    sides = task.sides(np.stack([point, point])[None])
+    for sign, agrees in ((F(1), True), (F(0), False), (F(-1), False)):
+        symbols = {
+            place: {p: {k: (sign * a, sign * b) for k, (a, b) in part.items()} for p, part in entry.items()}
+            for place, entry in task.arm.christoffel.items()
+        }
+        changed = problem("reyes-kelly2", 0, F(1, 4))
+        changed.arm.christoffel = symbols
+        entry = changed.schur(sides)[1][0]
+        assert bool(entry.lo[0] - 1e-12 <= exact[1, 0] <= entry.hi[0] + 1e-12) is agrees
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_proved_below_the_falsified_and_never_above(index: int) -> None:
+    assert certify(problem("reyes-kelly2", index, FALSIFIED[index] * F(9, 10)), 20_000).proved
+    above = certify(problem("reyes-kelly2", index, FALSIFIED[index] * F(101, 100)), 20_000)
+    assert not above.proved
+    assert above.tree == ""
+    assert above.reason == RESISTS
+    assert above.point is not None
+    q, e = np.zeros(2), above.point[1:]
+    q[1] = above.point[0]
+    assert (
+        np.linalg.eigvalsh(Terms(setting("reyes-kelly2", index), float(FALSIFIED[index]) * 1.01, q, e).P())[0]
+        < 1e-6
+    )
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+@pytest.mark.parametrize("broken", ["friction", "inertia"])
+def test_a_weaker_arm_is_not_proved(index: int, broken: str) -> None:
+    """A tenth of the friction of one joint, or ten times the inertia, at an ε₀ that the real arm bears."""
+    case = setting("reyes-kelly2", index)
+    model, eps0 = case.fixed, FALSIFIED[index] * F(9, 10)
+    if broken == "friction":
+        first, *others = model.viscous
+        model = replace(model, viscous=(replace(first, value=first.value / 10), *others))
+    else:
+        model = replace(model, mass=tuple(tuple(10 * entry for entry in row) for row in model.mass))
+    weak = Setting(case.gains, model)
+    assert not certify(Problem(weak.closure(eps0), weak.ranged), 20_000).proved
+    assert certify(Problem(weak.closure(eps0 / 40), weak.ranged), 20_000).proved
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_every_state_lies_in_a_proved_leaf_or_in_the_tail(index: int) -> None:
+    task = problem("reyes-kelly2", index, FALSIFIED[index] * F(9, 10))
+    closure, outcome = task.closure, certify(task, 20_000)
+    boxes = np.array([np.array(leaf).T for leaf in leaves(closure.start, outcome.tree)])
+    assert task.proved(boxes).all()
+    generator = np.random.default_rng(index)
+    symmetric = [s for s in np.ndindex(2, 2) if s[0] == s[1]]
+    seen = 0
+    for _ in range(500):
+        q, e = random_state(generator, 2)
+        if np.linalg.norm(e) >= closure.radius:
+            continue
+        images = [(q * (1 - 2 * s[0]), e * (1 - 2 * s[0])) for s in symmetric]
+        points = [np.array([a[1], *b]) for a, b in images]
+        inside = [np.all((boxes[:, 0] <= p) & (p <= boxes[:, 1]), axis=1).any() for p in points]
+        assert any(inside)
+        seen += 1
+    assert seen > 300
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (-0.6, 0.8), (0.6, 0.8)])
+def test_errors_are_left_to_the_tail_from_its_radius_on(
+    direction: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Seen with a P that is never found positive definite: only the tail is left to prove anything."""
+    monkeypatch.setattr(schur, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
+    task = problem("reyes-kelly2", 0, F(1, 2))
+    for share, left in ((0.5, False), (0.999, False), (1.001, True)):
+        point = np.array([0.0, *(share * task.closure.radius * np.array(direction))])
+        assert task.proved(np.stack([point, point])[None]).item() is left
+
+
+def test_certified_epsilon_comes_near_the_falsified_and_not_beyond() -> None:
+    found = certified_epsilon(setting("reyes-kelly2", 0), FALSIFIED[0] * F(11, 10), 50_000)
+    assert found.proof is not None
+    assert found.eps0 is not None
+    assert F(9, 10) < found.eps0 / FALSIFIED[0] < 1
+    assert proves(found.proof.closure, found.proof.by.tree)
+    assert "more boxes would not help" in found.reason
+    assert found.looked_at >= found.proof.boxes
+
+
+@pytest.mark.parametrize("budget", [0, 1, 20])
+def test_a_spent_budget_is_said(budget: int) -> None:
+    found = certified_epsilon(setting("reyes-kelly2", 1), FALSIFIED[1], budget)
+    assert found.proof is None
+    assert f"within {budget} boxes" in found.reason
+
+
+def test_gains_out_of_reach_are_said() -> None:
+    """K̃ = K_p − ¼ ε₀ L K_v is not positive: an answer, not an exception."""
+    case = setting("reyes-kelly2", 0)
+    stiff = Setting(replace(case.gains, kv=(F(1000), F(1000))), case.model)
+    found = certified_epsilon(stiff, F(1), 1000)
+    assert found.proof is None
+    assert "K_p is too small beside K_v" in found.reason
+    linear = GainSet("pd", None, (F(60), F(5)), (F(1), F(1)), family="linear")
+    assert "unbounded" in certified_epsilon(Setting(linear, case.model), F(1), 1000).reason
+
+
+def test_boxes_that_the_checker_refuses_are_no_certificate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An arithmetic that proves everything gets no further than the checker."""
+    monkeypatch.setattr(Problem, "proved", lambda self, boxes: np.ones(len(boxes), dtype=bool))
+    found = certified_epsilon(setting("reyes-kelly2", 0), 100 * FALSIFIED[0], 1000)
+    assert found.eps0 is None
+    assert "refused by the checker" in found.reason or "K_p is too small" in found.reason
+
+
+def test_shares_rise_to_just_below_the_falsified() -> None:
+    assert list(certified.SHARES) == sorted(set(certified.SHARES))
+    assert certified.SHARES[-1] < 1
+
+
+# Covers, with properties of which everything is known
+
+
+def longest(boxes: Array) -> NDArray[np.intp]:
+    return np.asarray(np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
+
+
+START = np.array([[[-1.0, -1.0], [1.0, 2.0]]])
+
+
+def away_from_circle(boxes: Array) -> NDArray[np.bool_]:
+    """Whether x² + y² stays below 1 or above 1 on a box: nobody can prove that where the circle passes."""
+    low = np.where((boxes[:, 0] <= 0) & (boxes[:, 1] >= 0), 0.0, np.min(np.abs(boxes), axis=1))
+    high = np.max(np.abs(boxes), axis=1)
+    return np.asarray((np.sum(low**2, axis=1) > 1) | (np.sum(high**2, axis=1) < 1))
+
+
+def small(boxes: Array) -> NDArray[np.bool_]:
+    """True of points and of boxes with sides below 0.1."""
+    return np.asarray(np.max(boxes[:, 1] - boxes[:, 0], axis=1) < 0.1)
+
+
+def test_the_leaves_of_a_cover_fill_the_start() -> None:
+    progress: list[float] = []
+    outcome = cover(START, small, longest, 10_000, lambda share, note: progress.append(share))
+    assert outcome.proved
+    side = [(-1.0, 1.0), (-1.0, 2.0)]
+    boxes = np.array([np.array(leaf).T for leaf in leaves(tuple(side), outcome.tree)])
+    assert small(boxes).all()
+    assert np.sum(np.prod(boxes[:, 1] - boxes[:, 0], axis=1)) == 6.0
+    points = np.random.default_rng(1).uniform(START[0, 0], START[0, 1], (300, 2))
+    inside = np.all((boxes[None, :, 0] <= points[:, None]) & (points[:, None] <= boxes[None, :, 1]), axis=2)
+    assert inside.any(axis=1).all()
+    assert progress == sorted(progress)
+    assert progress[-1] == pytest.approx(1.0)
+
+
+def test_a_chunked_search_gives_the_same_boxes_as_a_whole_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = cover(START, small, longest, 100_000)
+    monkeypatch.setattr("lyapcheck.search.cover.CHUNK", 7)
+    assert cover(START, small, longest, 100_000).tree == whole.tree
+
+
+def test_what_is_false_somewhere_is_not_proved() -> None:
+    outcome = cover(START, away_from_circle, longest, 10**6)
+    assert not outcome.proved
+    assert outcome.tree == ""
+    assert outcome.reason == RESISTS
+    assert outcome.point is not None
+    assert np.sum(outcome.point**2) == pytest.approx(1.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("budget", [0, 1, 2, 10, 1000])
+def test_a_budget_ends_in_not_proved(budget: int) -> None:
+    sizes: list[int] = []
+
+    def prove(boxes: Array) -> NDArray[np.bool_]:
+        points = bool(np.all(boxes[:, 0] == boxes[:, 1]))
+        sizes.append(0 if points else len(boxes))  # points are probes, not boxes of the cover
+        return small(boxes * 100.0)
+
+    outcome = cover(START, prove, longest, budget)
+    assert sum(sizes) <= budget
+    assert not outcome.proved
+    assert outcome.reason == EXHAUSTED
+    assert outcome.tree == ""
+
+
+def test_undefined_values_never_prove() -> None:
+    """Where a value is NaN the comparison is false, and a box with an undefined end resists at once."""
+    nan = cover(START, lambda boxes: np.full(len(boxes), np.nan) > 0, longest, 1000)
+    assert (nan.proved, nan.reason) == (False, RESISTS)
+    undefined = np.full((1, 2, 3), np.nan)
+    task = problem("reyes-kelly2", 0, F(1, 10))
+    assert not task.proved(undefined).any()
+    for column in range(3):
+        for end in range(2):
+            partly = np.stack([np.full(3, 0.1), np.full(3, 0.1)])[None].copy()
+            assert task.proved(partly).all()
+            partly[0, end, column] = np.nan
+            assert not task.proved(partly).any()
+
+
+def test_a_box_without_volume_is_covered() -> None:
+    flat = np.array([[[0.0, 0.0], [0.0, 1.0]]])
+    assert cover(flat, small, longest, 1000, lambda share, note: None).proved

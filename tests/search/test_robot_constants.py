@@ -1,0 +1,241 @@
+"""λmin(M), λmax(M) and k_c of the arms: enclosures against dense samples, closed forms and spent budgets."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import comb, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
+from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.constant import Task
+from lyapcheck.constants.coriolis import coriolis_task
+from lyapcheck.constants.gravity import gravity_task
+from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
+from lyapcheck.constants.maximise import maximise
+from lyapcheck.constants.quartic import quartic
+from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.robot_cases import BUILT_IN, relaxed
+from tests.helpers.urdf_texts import ARMS
+
+F = Fraction
+Array = NDArray[np.float64]
+
+
+def angles(n: int, count: int = 20_000) -> Array:
+    """Random angles, and every combination of quarter turns, where extremes often are."""
+    quarters = np.stack(np.meshgrid(*[np.arange(4) * np.pi / 2] * n, indexing="ij"), axis=-1).reshape(-1, n)
+    return np.concatenate([quarters, np.random.default_rng(n).uniform(-np.pi, np.pi, (count, n))])
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_no_sampled_state_lies_outside(name: str) -> None:
+    found, model = robot_constants(load(name)), NumericModel(load(name))
+    q = angles(model.n)
+    eigenvalues = np.linalg.eigvalsh(model.mass(q))
+    assert eigenvalues.min() >= found.lambda_min.lower * (1 - F(1, 10**12))
+    assert eigenvalues.max() <= found.lambda_max.upper * (1 + F(1, 10**12))
+    x = np.random.default_rng(0).normal(size=q.shape)
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    norms = np.linalg.norm(model.coriolis(q, x), ord=2, axis=(1, 2))
+    assert norms.max() <= found.k_c.upper + F(1, 10**12)
+    # and the bounds are not merely safe
+    assert eigenvalues.min() < found.lambda_min.upper * F(11, 10)
+    assert eigenvalues.max() > found.lambda_max.lower * F(9, 10)
+    assert norms.max() >= found.k_c.lower * F(8, 10)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_states_handed_back_show_the_inside_bounds(name: str) -> None:
+    found, model = robot_constants(load(name)), NumericModel(load(name))
+    least = np.linalg.eigvalsh(model.mass(np.array(found.lambda_min_at)))[0]
+    largest = np.linalg.eigvalsh(model.mass(np.array(found.lambda_max_at)))[-1]
+    assert least == pytest.approx(float(found.lambda_min.upper), rel=1e-9)
+    assert largest == pytest.approx(float(found.lambda_max.lower), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_gaps_are_small(name: str) -> None:
+    found = robot_constants(load(name))
+    for enclosure in (found.lambda_min, found.lambda_max, found.k_c):
+        assert enclosure.lower <= enclosure.upper
+        assert enclosure.width <= F(1, 1000) * enclosure.upper
+    assert found.lambda_min.lower > 0
+
+
+def test_a_pendulum_has_its_inertia_and_no_coriolis() -> None:
+    model = load("pendulum1")
+    found = robot_constants(model)
+    inertia = F(int(model.mass[0][0].coefficient(0).p), int(model.mass[0][0].coefficient(0).q))
+    for enclosure in (found.lambda_min, found.lambda_max):
+        assert enclosure.lower <= inertia <= enclosure.upper
+        assert enclosure.width < F(1, 10**11)
+    assert found.k_c == Enclosure.exact(0)
+
+
+@pytest.mark.parametrize(("name", "bend"), [("reyes-kelly2", 0.084), ("pelican2", None)])
+def test_two_joints_in_closed_form(name: str, bend: float | None) -> None:
+    """M = [[a + 2k cos q₂, b + k cos q₂], [·, b]], C(q,x) = −k sin q₂ [[x₂, x₁ + x₂], [−x₁, 0]].
+
+    Both eigenvalues are extreme at q₂ = 0, where a + 2k + b is largest and the determinant least.
+    """
+    model = load(name)
+    M = NumericModel(model).mass(np.array([[0.0, 0.0], [0.0, np.pi / 2]]))
+    k = M[0, 0, 1] - M[1, 0, 1]
+    assert bend is None or k == pytest.approx(bend)
+    (a, b), (_, d) = M[0]
+    root = sqrt((a - d) ** 2 + 4 * b * b)
+    found = robot_constants(model)
+    expected = {"lambda_min": (a + d - root) / 2, "lambda_max": (a + d + root) / 2}
+    turn = np.linspace(0, np.pi, 20_001)
+    x1, x2, zero = np.cos(turn), np.sin(turn), np.zeros_like(turn)
+    shape = np.stack([np.stack([x2, x1 + x2], -1), np.stack([-x1, zero], -1)], -2)
+    expected["k_c"] = k * float(np.linalg.norm(shape, ord=2, axis=(1, 2)).max())
+    for constant, value in expected.items():
+        enclosure = getattr(found, constant)
+        assert enclosure.lower * (1 - F(1, 10**8)) <= value <= enclosure.upper * (1 + F(1, 10**8))
+
+
+def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
+    model = load("reyes-kelly2")
+    found, bounds = robot_constants(model), robot_bounds(model)
+    assert (bounds.beta_M, bounds.k_c) == (found.lambda_max.upper, found.k_c.upper)
+    assert bounds.lambda_min_M == found.lambda_min.lower
+    assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
+
+
+@pytest.mark.parametrize("budget", [0, 1, 40, 300])
+@pytest.mark.parametrize("name", ["buap3", "reyes-kelly2"])
+def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str, budget: int) -> None:
+    known = {constant.name: constant.enclosure for constant in arm_constants(load(name))}
+    for constant in arm_constants(load(name), budget):
+        assert constant.boxes <= max(budget, 1)
+        assert constant.enclosure.lower <= known[constant.name].upper
+        assert constant.enclosure.upper >= known[constant.name].lower
+
+
+def test_only_the_constants_asked_for() -> None:
+    found = arm_constants(load("pelican2"), names=("k_g2", "lambda_max"))
+    assert [constant.name for constant in found] == ["lambda_max", "k_g2"]
+
+
+def test_the_constants_of_a_model_are_found_once() -> None:
+    model = load("pelican2")
+    assert robot_constants(model) is robot_constants(model)
+
+
+def test_an_indefinite_inertia_is_not_called_positive() -> None:
+    """Data errors happen: the enclosure then lies below zero, it does not end there."""
+    model = load("reyes-kelly2")
+    (a, b), (_, d) = model.mass
+    wrong = replace(model, mass=((a, 20 * b), (20 * b, d)))
+    found = robot_constants(wrong)
+    assert found.lambda_min.upper < 0
+    assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= found.lambda_min.lower
+
+
+# Bounds on single boxes -----
+
+
+def arm_of(name: str) -> RobotModel:
+    return load(ARMS / "ur5.urdf" if name == "ur5" else name)
+
+
+TASKS = {
+    "lambda_min": lambda_min_task,
+    "lambda_max": lambda_max_task,
+    "k_c": coriolis_task,
+    "k_g": lambda arm: gravity_task(arm, "k_g", range(arm.n)),
+}
+
+
+@pytest.mark.parametrize("size", [1e-3, 0.1, 0.5, 2.0])
+@pytest.mark.parametrize("constant", TASKS)
+@pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
+def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: float) -> None:
+    """Boxes around the state of the largest value would pass even without their linear part; these do not."""
+    task: Task = TASKS[constant](ArmWaves(arm_of(name)))
+    rng = np.random.default_rng(5)
+    middle, half = rng.uniform(-3, 3, (8, task.torus.n)), rng.uniform(0.2, 1, (8, task.torus.n)) * size
+    low, high = task.bounds(middle, half)
+    assert np.all(low <= high)
+    corners = rng.choice([-1.0, 1.0], (100, 1, task.torus.n))
+    inside = rng.uniform(-1, 1, (100, 1, task.torus.n))
+    for t in (corners, inside):
+        values = task.at((middle + half * t).reshape(-1, task.torus.n)).reshape(100, 8)
+        assert np.all(values <= high)
+
+
+@pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
+def test_bounds_close_up_on_single_states(name: str) -> None:
+    """Without a width nothing but rounding and the bound of k_c at one state remains."""
+    arm = ArmWaves(arm_of(name))
+    middle = np.random.default_rng(6).uniform(-3, 3, (8, arm.n))
+    for constant, make in TASKS.items():
+        low, high = make(arm).bounds(middle, np.zeros_like(middle))
+        assert np.allclose(low, high, rtol=3e-3 if constant == "k_c" else 1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 6])
+def test_relations_vanish_on_every_vector(n: int) -> None:
+    """xxᵀ satisfies each of them, and there are as many as products of pairs exceed quartic monomials."""
+    forms = quartic(n)
+    x = np.random.default_rng(n).normal(size=(50, n))
+    pairs = forms.stack(x[:, :, None] * x[:, None, :])
+    size = np.sum(x**2, axis=1)
+    assert np.allclose(np.linalg.norm(pairs, axis=1), size)
+    assert np.all(
+        np.abs(np.einsum("si,rij,sj->sr", pairs, forms.relations, pairs)) <= 1e-13 * size[:, None] ** 2
+    )
+    count = comb(n + 1, 2)
+    assert len(forms.relations) == comb(count + 1, 2) - comb(n + 3, 4)
+
+
+@relaxed
+@given(st.integers(0, 10**6), st.integers(1, 5))
+def test_any_relation_bounds_the_quartic_form(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    tensor = rng.normal(size=(1, n, n, n))
+    tensor = tensor + np.swapaxes(tensor, -1, -2)
+    forms = quartic(n)
+    stack = forms.stack(tensor)
+    square = np.swapaxes(stack, -1, -2) @ stack
+    x = rng.normal(size=(500, n))
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    found = np.sum(np.einsum("ijk,sj,sk->si", tensor[0], x, x) ** 2, axis=1).max()
+    # a target that is wrong costs sharpness alone
+    for target in (found, 0.0, 3 * found):
+        relation = forms.relation(square, np.array([target]))
+        top = np.linalg.eigvalsh(square + relation)[0, -1]
+        assert found <= top * (1 + 1e-9)
+        assert top <= np.linalg.eigvalsh(square)[0, -1] * (1 + 1e-9)
+
+
+def test_relations_leave_no_gap_in_closed_form() -> None:
+    """‖(2x₁x₂, x₁²)‖² = 4u(1 − u) + u² with u = x₁² is at most 4/3; without relations the bound is 2."""
+    tensor = np.array([[[[0.0, 1.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 0.0]]]])
+    forms = quartic(2)
+    stack = forms.stack(tensor)
+    square = np.swapaxes(stack, -1, -2) @ stack
+    assert np.linalg.eigvalsh(square)[0, -1] == pytest.approx(2)
+    relation = forms.relation(square, np.array([4 / 3]))
+    assert np.linalg.eigvalsh(square + relation)[0, -1] == pytest.approx(4 / 3, rel=1e-6)
+
+
+def test_an_undefined_bound_is_no_bound() -> None:
+    """−x² is at most 0; a box where the bound is not a number keeps that of the whole."""
+
+    def bounds(middle: Array, half: Array) -> tuple[Array, Array]:
+        high = np.where(half[:, 0] < 1, np.nan, 7.0)
+        return -(middle[:, 0] ** 2), high
+
+    found = maximise(np.ones(1), bounds, lambda m, half: half, (np.zeros(1), 0.0), 50, 1e-3)
+    assert (found.inside, found.outside) == (0.0, 7.0)

@@ -1,0 +1,93 @@
+"""Sign symmetries: what they leave unchanged, and the errors that they let the search skip."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from lyapcheck.check.loop import Closure
+from lyapcheck.control.gains import GainSet
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.setting import Setting
+from tests.helpers.robot_cases import BUILT_IN
+
+F = Fraction
+Array = NDArray[np.float64]
+EXPECTED = {"pendulum1": (0,), "reyes-kelly2": (0,), "pelican2": (0,)}
+"""One joint: M is constant. Two joints: M depends on cos q₂ and M₁₂ ≠ 0, so both signs change together."""
+
+
+def setting(name: str, m: int = 2) -> Setting:
+    model = load(name)
+    gains = GainSet("some", m, (F(40), F(30), F(20))[: model.n], (F(3, 10), F(1, 5), F(1, 10))[: model.n])
+    return Setting(gains, model)
+
+
+def closure(name: str) -> Closure:
+    return setting(name).closure(F(1, 10))
+
+
+def seen_symmetries(name: str) -> list[Array]:
+    """All σ for which M(σq) = Σ M(q) Σ at random angles, in doubles."""
+    model, generator = NumericModel(load(name)), np.random.default_rng(3)
+    q = generator.uniform(-np.pi, np.pi, (50, model.n))
+    M, found = model.mass(q), []
+    for signs in product((1.0, -1.0), repeat=model.n):
+        s = np.array(signs)
+        if np.allclose(model.mass(q * s), s[:, None] * M * s, rtol=0, atol=1e-12):
+            found.append(s)
+    return found
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_every_error_has_an_image_with_the_one_sided_signs(name: str) -> None:
+    symmetries, sided = seen_symmetries(name), list(closure(name).one_sided)
+    for signs in product((1.0, -1.0, 0.0), repeat=load(name).n):
+        assert any(np.all((np.array(signs) * s)[sided] >= 0) for s in symmetries)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_as_many_errors_are_halved_as_there_are_independent_symmetries(name: str) -> None:
+    assert 2 ** len(closure(name).one_sided) == len(seen_symmetries(name))
+    assert closure(name).one_sided == EXPECTED.get(name, closure(name).one_sided)
+
+
+@pytest.mark.parametrize("m", [1, 3])
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_V_and_its_rate_keep_their_values(name: str, m: int) -> None:
+    case = setting(name, m)
+    V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
+    generator = np.random.default_rng(m)
+    q, e, w = (generator.normal(size=(200, case.n)) * scale for scale in (2.0, 1.0, 3.0))
+    for s in seen_symmetries(name):
+        np.testing.assert_allclose(V.V(s * q, s * e, s * w), V.V(q, e, w), rtol=1e-12)
+        np.testing.assert_allclose(V.rate(s * q, s * e, s * w), V.rate(q, e, w), rtol=1e-9, atol=1e-9)
+
+
+def test_other_signs_do_change_the_rate() -> None:
+    """The test above would be empty if every change of signs passed it."""
+    case = setting("reyes-kelly2")
+    V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
+    generator = np.random.default_rng(0)
+    q, e, w = generator.normal(size=(3, 200, 2))
+    s = np.array([1.0, -1.0])
+    assert not any(np.array_equal(s, known) for known in seen_symmetries("reyes-kelly2"))
+    assert np.max(np.abs(V.rate(s * q, s * e, s * w) - V.rate(q, e, w))) > 0.1
+
+
+def test_a_sine_in_the_inertia_breaks_the_symmetry() -> None:
+    """M₁₁ with sin q₂: the mirror image is another arm, and nothing may be skipped."""
+    case = closure("reyes-kelly2")
+    assert case.one_sided == (0,)
+    (a, b), (c, d) = case.arm.mass
+    tilted = (((*a, ((0, 1, 0, 0), F(1, 10))), b), (c, d))
+    assert replace(case, arm=replace(case.arm, mass=tilted)).one_sided == ()
+    square = (((*a, ((0, 2, 0, 0), F(1, 10))), b), (c, d))
+    assert replace(case, arm=replace(case.arm, mass=square)).one_sided == (0,)
