@@ -10,17 +10,18 @@ from lyapcheck.check.refusal import plain
 
 @dataclass(frozen=True)
 class Finding:
-    """Why a certificate is refused (``reason``), or what it shows; all text in it is safe to print.
+    """Why a certificate is refused (``reason``), or what it shows; all text but ``claim`` is safe to print.
 
-    ``label`` and ``says`` are its author's words, ``statement`` is rendered from data, ``shows`` lists
-    (digest, verdict, which part) for the statement and the parts of it that the proof decides, ``theorems``
-    lists (name, where it is proved), ``granted`` what the statement takes for granted, ``rules`` lists
-    (rule, its module).
+    ``claim`` is the id as it is written, ``label`` the same to be printed; ``label`` and ``says`` are its
+    author's words, ``statement`` is rendered from data, ``shows`` lists (digest, verdict, which part) for the
+    statement and the parts of it that the proof decides, ``theorems`` lists (name, where it is proved),
+    ``granted`` what the statement takes for granted, ``rules`` lists (rule, its module).
     """
 
     reason: str = ""
     unreadable: bool = False
     digest: str = ""
+    claim: str = ""
     label: str = ""
     says: str = ""
     m: int | None = None
@@ -41,5 +42,10 @@ class Finding:
 
 
 def shortened(text: str, full: bool) -> str:
-    """The text on one line, without what could steer a terminal; cut unless the whole is wanted."""
-    return plain(text) if full or len(text) <= SHOWN else plain(text[: SHOWN - 1]) + "…"
+    """The text on one line, without what could steer a terminal; unless all is wanted cut in its middle.
+
+    What a statement supposes stands at its end, and a cut is marked as one.
+    """
+    if full or len(text) <= SHOWN:
+        return plain(text)
+    return f"{plain(text[: 2 * SHOWN // 3])} … (cut, --full shows all) … {plain(text[-SHOWN // 3 :])}"

@@ -73,8 +73,9 @@ def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
     claim = certificate.claim
     return Finding(
         digest=data["digest"],
-        label=claim.id,
-        says=shortened(claim.says, full),
+        claim=claim.id,
+        label=plain(claim.id),
+        says=shortened(" ".join(claim.says.split()).replace("”", "’’"), full),
         m=claim.m,
         n=claim.n,
         verdict=certificate.verdict,
@@ -91,13 +92,21 @@ def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full
     return replace(
         found,
         grade=grade,
-        statement=shortened(statement.text(), full),
+        statement=shortened(_text(statement, certificate.proof), full),
         statement_digest=shows[0][0],
         shows=shows,
         theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement) if shown),
         granted=statement.granted,
         rules=tuple(sorted(set(_rules(certificate)))),
     )
+
+
+def _text(statement: Statement, proof: Proof) -> str:
+    """The statement; of a conjunction that one part refutes, that part first."""
+    if isinstance(statement, AllOf) and isinstance(proof, OnePart) and len(statement.parts) > 1:
+        part = statement.parts[proof.part][1]
+        return f"({proof.part + 1}) {_text(part, proof.proof)}, which is part of: {statement.text()}"
+    return statement.text()
 
 
 def decided_by(

@@ -182,7 +182,7 @@ def _fault(one: Checked, used: Checked, claim: str) -> str | None:
     if used.status == "refused":
         return "whose certificate is refused"
     mine, its = one.finding, used.finding
-    if its.label != plain(claim):
+    if its.claim != claim:
         return f"but the certificate is about {its.label}"
     for name in ("m", "n"):
         wanted, found = getattr(mine, name), getattr(its, name)

@@ -11,6 +11,7 @@ from typing import ClassVar
 from lyapcheck.check.expressions.domain import REALS, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.refusal import require
 
 
 @dataclass(frozen=True)
@@ -76,11 +77,14 @@ class Statement(ABC):
 
 @dataclass(frozen=True)
 class Variable:
-    """A real variable; ``low`` bounds it from below, strictly when ``strict``."""
+    """A real variable; ``low`` bounds it from below, strictly when ``strict``; without it that stays true."""
 
     name: str
     low: Fraction | None = None
     strict: bool = True
+
+    def __post_init__(self) -> None:
+        require(self.strict or self.low is not None, "variable", self.name, "has no end that it could reach")
 
     @property
     def interval(self) -> Interval:

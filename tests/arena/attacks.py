@@ -384,6 +384,208 @@ ON_SMALL: list[Attack] = [
         "another entry without value",
     ),
 ]
+ON_LETTERS_AND_NAMES: list[Attack] = [
+    (
+        "rate-log",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [],
+                    "kind": "BoundEveryN",
+                    "least": [],
+                    "left": ["neg", ["rate", ["log", ["add", ["var", "s"], ["num", "-1"]]]]],
+                    "norms": [],
+                    "rates": [[["var", "s"], ["num", "1"]]],
+                    "right": ["num", "0"],
+                    "symmetric": [],
+                },
+            ),
+            (at(P), {"n": 1, "point": [["s", "1/2"]], "rule": "entries"}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "a rate of a logarithm that has no value",
+    ),
+    (
+        "rate-undef",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [],
+                    "kind": "EveryN",
+                    "left": ["rate", ["div", ["num", "1"], ["num", "0"]]],
+                    "positive": [],
+                    "rates": [],
+                    "right": ["num", "1"],
+                    "symmetric": [],
+                },
+            ),
+            (at(P), {"n": 1, "point": [], "rule": "entries"}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "exact"),
+        ],
+        "the rate of 1/0",
+    ),
+    (
+        "rate-pow0",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [],
+                    "kind": "BoundEveryN",
+                    "least": [],
+                    "left": ["add", ["num", "1"], ["rate", ["pow", ["div", ["num", "1"], ["var", "s"]], 0]]],
+                    "norms": [[[["var", "s"]], ["num", "0"]]],
+                    "rates": [[["var", "s"], ["num", "1"]]],
+                    "right": ["num", "0"],
+                    "symmetric": [],
+                },
+            ),
+            (at(P), {"n": 1, "point": [["s", "0"]], "rule": "entries"}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "the rate of (1/s)⁰ at s = 0",
+    ),
+    (
+        "given-name",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [{"equals": ["sum"], "matrix": "M", "vector": "z = M·z; w"}],
+                    "kind": "EveryN",
+                    "left": ["dot", ["vec", "w"], ["vec", "w"]],
+                    "positive": [],
+                    "rates": [],
+                    "right": ["num", "0"],
+                    "symmetric": [],
+                },
+            ),
+            (
+                at(P),
+                {
+                    "n": 1,
+                    "point": [["w[1]", "1"], ["M[1,1]", "1"], ["z = M·z; w[1]", "0"]],
+                    "rule": "entries",
+                },
+            ),
+            (at("verdict"), "refuted"),
+            (at("grade"), "exact"),
+        ],
+        "a sentence for the name of a vector",
+    ),
+    (
+        "given-proved",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [
+                        {"equals": ["sum"], "matrix": "M", "vector": "z = 0, and then wᵀ·w = 1, whatever M·z"}
+                    ],
+                    "kind": "EveryN",
+                    "left": ["dot", ["vec", "w"], ["vec", "w"]],
+                    "positive": [],
+                    "rates": [],
+                    "right": ["dot", ["vec", "w"], ["vec", "w"]],
+                    "symmetric": [],
+                },
+            ),
+            (at(P), {"rule": "normal form"}),
+            (at("verdict"), "proved"),
+            (at("grade"), "exact"),
+        ],
+        "a sentence for the name of a vector",
+    ),
+    (
+        "n-number",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "given": [],
+                    "kind": "BoundEveryN",
+                    "least": [],
+                    "left": ["dot", ["vec", "x"], ["vec", "x"]],
+                    "norms": [[[["diag", "x"]], ["num", "1"]]],
+                    "rates": [],
+                    "right": ["var", "n"],
+                    "symmetric": [],
+                },
+            ),
+            (at(P), {"n": 1, "point": [["x[1]", "1"], ["n", "1/2"]], "rule": "entries"}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "a number with the name of the dimension",
+    ),
+    (
+        "allof-text",
+        "ext.boxes",
+        [
+            (
+                at(S),
+                {
+                    "kind": "AllOf",
+                    "parts": [
+                        [
+                            "a",
+                            {
+                                "kind": "Constant",
+                                "relation": {
+                                    "left": ["var", "the origin is a globally stable equilibrium of (11)"],
+                                    "operator": "<=",
+                                    "right": ["var", "true for all gains"],
+                                },
+                            },
+                        ],
+                        [
+                            "b",
+                            {
+                                "kind": "Constant",
+                                "relation": {"left": ["num", "1"], "operator": "<", "right": ["num", "0"]},
+                            },
+                        ],
+                    ],
+                },
+            ),
+            (at(P), {"part": 1, "proof": {"rule": "exact numbers"}, "rule": "one part"}),
+            (at("verdict"), "refuted"),
+            (at("grade"), "exact"),
+        ],
+        "a sentence for a variable in another part",
+    ),
+    (
+        "trig-name",
+        "ext.boxes",
+        [
+            (at(S), {"entries": [[["sin", ["var", "γ₂"]], "19/20"]], "kind": "TrigonometricBound"}),
+            (
+                at(P),
+                {
+                    "bits": 192,
+                    "entry": 0,
+                    "lower": False,
+                    "point": [["γ₂", "3/2"]],
+                    "rule": "witness of an entry",
+                },
+            ),
+            (at("verdict"), "refuted"),
+            (at("grade"), "enclosure"),
+        ],
+        "a variable that looks like γ_2",
+    ),
+]
 ON_LISTS_AND_SYMBOLS: list[Attack] = [
     (
         "torque-lower",
@@ -527,6 +729,7 @@ SINGLE = [
     *ON_PROPERTIES,
     *ON_SMALL,
     *ON_LISTS_AND_SYMBOLS,
+    *ON_LETTERS_AND_NAMES,
 ]
 
 FREE, ARM, TIME = "sca.arms.all.m1", "sca.arm.stable.m1", "tra.21.m1"

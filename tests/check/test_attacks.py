@@ -11,13 +11,18 @@ import pytest
 import lyapcheck.check.recheck as rechecking
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.files import content, gather
+from lyapcheck.check.finding import shortened
+from lyapcheck.check.judging import judged
+from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
+from lyapcheck.check.kinds.for_all import ForAll, Pieces, Sturm
 from lyapcheck.check.kinds.for_small import ForSmall
-from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, MassBelow, PostureWitness
+from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import THEOREMS, Application, Theorem
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound
 from lyapcheck.check.refusal import Refused
@@ -189,3 +194,62 @@ def test_a_theorem_is_judged_from_the_bytes_whose_premises_are_judged(tmp_path, 
     monkeypatch.setattr(rechecking, "content", changing)
     found = {one.file: one.status for one in rechecking.recheck(gather([tmp_path])).checked}
     assert found == {"c.json": "accepted", "T.json": "refused"}
+
+
+def test_what_stands_under_a_rate_must_have_a_value():
+    """−1/(s − 1) ≤ 0 is no refutation of d/dt ln(s − 1) ≥ 0 at s = 1/2, where there is no logarithm."""
+    s = ("var", "s")
+    log = BoundEveryN(("neg", ("rate", ("log", ("add", s, num(-1))))), num(0), (), ((s, num(1)),), (), (), ())
+    gone = EveryN(("rate", ("div", num(1), num(0))), num(1))
+    for statement, point in ((log, (("s", F(1, 2)),)), (gone, ())):
+        with pytest.raises(Refused, match="is not shown to have a value"):
+            verify(statement, EntriesWitness(1, point))
+
+
+def test_letters_shared_without_end_are_refused_at_once():
+    t, w, v, z = num(1), ("vec", "w"), ("vec", "v"), ("vec", "z")
+    for _ in range(60):
+        t = ("dot", ("scale", t, ("sum", w, v)), z)
+    with pytest.raises(Refused, match="parts with all powers written out"):
+        verify(EveryN(t, t), NormalForm())
+    for _ in range(14):
+        w = ("apply", ("sum", ("mat", "A"), ("mat", "B")), w)
+    with pytest.raises(Refused, match="words"):
+        verify(EveryN(("dot", w, w), ("dot", w, w)), NormalForm())
+
+
+def test_a_power_without_end_is_no_polynomial():
+    statement = ForAll(Relation(num(0), "<", ("exp", ("mul", num(10**11), X))))
+    with pytest.raises(Refused):
+        verify(statement, Pieces((Sturm(),)))
+
+
+def test_the_text_of_a_refuted_conjunction_begins_with_the_part_that_fails():
+    true, false = Constant(Relation(num(0), "<", num(1))), Constant(Relation(num(1), "<", num(0)))
+    both = AllOf((("a", true), ("b", false)))
+    proof = OnePart(1, ExactNumbers())
+    made = Certificate(About("c", "", None, None, "p"), both, "refuted", "exact", proof)
+    assert judged(made.text().encode()).statement.startswith("(2) 1 < 0, which is part of: (1) 0 < 1")
+
+
+def test_a_cut_is_marked_and_leaves_what_is_supposed():
+    assert shortened("a" * 400 + " if b", False).endswith("if b")
+    assert "--full shows all" in shortened("a" * 400, False)
+    assert shortened("a" * 400, True) == "a" * 400
+
+
+@pytest.mark.parametrize("name", ["γ₂", "ρ1", "π′", "h₂", "γ_2a", "sin", "ln", "ν", "x'"])
+def test_a_name_does_not_look_like_something_else(name):
+    with pytest.raises(Refused):
+        Identity(("var", name), ("var", name)).require_well_formed()
+
+
+def test_ends_at_infinity_are_neither_open_nor_reached():
+    with pytest.raises(Refused, match="infinity"):
+        ForAll(Relation(X, "<", num(1)), None, F(0), open_low=True).require_well_formed()
+    with pytest.raises(Refused, match="no end"):
+        Variable("x", None, strict=False)
+
+
+def test_the_bound_of_a_norm_stands_in_brackets():
+    assert "(−1 + 2)·‖x‖" in NormBound(X, 1, ("add", num(-1), num(2)), 1).text()

@@ -17,12 +17,12 @@ MAX_M = 10_000
 MAX_EXPONENT = 50_000
 MAX_SIZE = 1_000_000
 RATIONAL = re.compile(r"0|-?[1-9][0-9]*(/[1-9][0-9]*)?")
-NAME = re.compile(r"[A-Za-zα-ξπ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα-ξπ-ωΓΔΘΛΞΠΣΦΨΩ0-9₀-₉_]*[′']*")
-"""Latin and Greek letters, without omicron and the capitals that look Latin: no name can pass for another, or
-for part of a statement."""
+NAME = re.compile(r"[A-Za-zα-θκ-μξπ-τφ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα-θκ-μξπ-τφ-ωΓΔΘΛΞΠΣΦΨΩ0-9₀-₉_]*′*")
+"""Latin and Greek letters, without those that look like Latin ones (ι, ν, ο, υ and most capitals): no name
+can pass for another, or for part of a statement."""
 
-CONSTANT_NAME = re.compile(r"π|(γ|ρ|L|h|U)_[0-9₀-₉]+[′']*")
-"""What the text of an expression writes for constants and functions of the family."""
+CONSTANT_NAME = re.compile(r"π.*|(γ|ρ|L|h|U)_?[0-9₀-₉].*")
+"""What the text of an expression writes for constants and functions of the family, or looks like it."""
 
 Parts = list[Any]
 
@@ -139,7 +139,7 @@ def require_name(name: str) -> None:
 def is_name(name: str) -> bool:
     """Whether text names a variable, and does not read as a constant."""
     plain = len(name) <= MAX_NAME and NAME.fullmatch(name) is not None
-    return plain and CONSTANT_NAME.fullmatch(name) is None
+    return plain and CONSTANT_NAME.fullmatch(name) is None and name not in {"ln", *FUNCTIONS}
 
 
 def is_rational_text(value: Any) -> bool:

@@ -18,6 +18,7 @@ from fractions import Fraction
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpq_series
 
 from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, ball, evaluate, taylor
+from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import Ratio, normal_form
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.numbers.enclosure import ball_of
@@ -205,7 +206,10 @@ def _one_generator(terms: Terms) -> tuple[fmpq_poly, str]:
     kind = "both" if in_x and in_y else "x" if in_x else "y" if in_y else "constant"
     if kind == "both":
         return fmpq_poly(), kind
-    coefficients = [fmpq(0)] * (1 + max((i + j for i, j in terms), default=0))
+    degree = max((i + j for i, j in terms), default=0)
+    if degree > MAX_EXPONENT:
+        raise Unsupported(f"a power above {MAX_EXPONENT}")
+    coefficients = [fmpq(0)] * (1 + degree)
     for (i, j), c in terms.items():
         coefficients[i + j] = c
     return fmpq_poly(coefficients), kind

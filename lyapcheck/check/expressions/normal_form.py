@@ -234,13 +234,22 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     return Ratio(algebra.reduced(ratio.top), algebra.reduced(ratio.bottom)), algebra
 
 
-@lru_cache(maxsize=32)
 def is_zero(tree: Tree) -> bool:
     """Whether the normal form of an expression is zero; ``False`` says nothing.
+
+    Raises:
+        Unsupported: where the expression has no such form.
 
     Soundness: every relation that is used (squares of roots, sin² + cos² = 1, products of exponentials) holds
     for the real functions, so a zero normal form is a zero function wherever no denominator vanishes.
     """
+    if written_out(tree, {}) > MAX_SIZE:  # before it is compared with others: parts may be shared without end
+        raise Unsupported(f"more than {MAX_SIZE} parts with all powers written out")
+    return _is_zero(tree)
+
+
+@lru_cache(maxsize=32)
+def _is_zero(tree: Tree) -> bool:
     return bool(normal_form(tree)[0].top == 0)
 
 

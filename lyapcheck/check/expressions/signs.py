@@ -27,6 +27,7 @@ from lyapcheck.check.expressions.expression import (
     nodes,
     variables,
 )
+from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational
@@ -212,7 +213,8 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
         return frozenset([0])
     top, bottom = (_of_terms(part, algebra, domain) for part in (ratio.top, ratio.bottom))
     found = frozenset(a * b for a, b in product(top, bottom - {0}))
-    if len(found) > 1 and not algebra.uses and len(algebra.names) == 1:
+    short = max(map(max, (*ratio.top.monoms(), *ratio.bottom.monoms())), default=0) <= MAX_EXPONENT
+    if len(found) > 1 and short and not algebra.uses and len(algebra.names) == 1:
         interval = domain.get(algebra.names[0], REALS)
         found &= _by_sturm(_in_one(ratio.top) * _in_one(ratio.bottom), interval)
     return found

@@ -20,6 +20,8 @@ class AllOf(Statement):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
+        for _, part in self.parts:
+            part.require_well_formed()
 
     def terms(self) -> list[tuple[Tree, Domain]]:
         """None of its own."""

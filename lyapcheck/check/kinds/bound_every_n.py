@@ -30,6 +30,7 @@ from lyapcheck.check.kinds.every_n import (
     Equation,
     EveryN,
     Given,
+    beside,
     known_of,
     rates_fit,
     solved_at,
@@ -40,7 +41,7 @@ from lyapcheck.check.kinds.every_n import at_size as identity_at_size
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.signs import Signs
 from lyapcheck.check.letters.entries import Entries
-from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
+from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
 from lyapcheck.check.letters.points import Norms, compared, drawn
 from lyapcheck.check.letters.points import Point as Drawn
 from lyapcheck.check.letters.words import Words
@@ -93,6 +94,7 @@ class BoundEveryN(Statement):
         sizes = (self.right, *(size for _, size in (*self.norms, *self.least)))
         require_expressions(sizes)
         used |= {("var", name) for size in sizes for name in variables(size)}
+        require(("var", DIMENSION) not in used, "letter", DIMENSION, "is the dimension")
         require_distinct("letters", sorted(name for _, name in used))
 
     def terms_with_values(self) -> Iterator[Tree]:
@@ -187,7 +189,7 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     for name in sorted(statement.numbers):
         require(point[name] >= 0, name, point[name], "must not be negative")
     norms = norms_at(statement, proof.n)
-    terms = chain(sides, *equations, norms.terms(), norms.entries.moving.values())
+    terms = chain(sides, *equations, norms.terms(), beside(statement.identity, proof.n))
     for tree in terms:
         require_defined_at(tree, point)
     given = all(compared(*pair, point, certain=True) == 0 for pair in equations)

@@ -63,6 +63,7 @@ class EveryN(Statement):
                 used |= letters(tree)
         for known in self.given:
             require_sort(("mat", known.matrix), "matrix")
+            require_sort(("vec", known.vector), "vector")
             require_sort(known.equals, "vector")
             used |= letters(known.equals) | {("mat", known.matrix), ("vec", known.vector)}
             solved = {("vec", other.vector) for other in self.given}
@@ -131,8 +132,7 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
     point = coordinates(proof.point, names_of(statement, proof.n))
     for name in statement.positive:
         require(point[name] > 0, name, point[name], "must be positive")
-    moving = Entries(proof.n, statement.symmetric, dict(statement.rates)).moving
-    for tree in chain(sides, *given, moving.values()):
+    for tree in chain(sides, *given, beside(statement, proof.n)):
         require_defined_at(tree, point)
     for left, right in given:
         require(exact(left, point) == exact(right, point), "point", proof.n, "breaks what is given")
@@ -168,10 +168,17 @@ def at_size(statement: EveryN, n: int) -> tuple[Equation, list[Equation]]:
     return (entries.number(statement.left), entries.number(statement.right)), given
 
 
+def beside(statement: EveryN, n: int) -> list[Tree]:
+    """What must have a value at one n beside both sides: all derivatives, and what stands under d/dt."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    sides = (statement.left, statement.right)
+    return [*entries.moving.values(), *(tree for side in sides for tree in entries.differentiated(side))]
+
+
 def names_of(statement: EveryN, n: int) -> set[str]:
-    """The variables of a statement at one n, also of derivatives that nothing asks for."""
-    moving = Entries(n, statement.symmetric, dict(statement.rates)).moving
-    return names_at(*at_size(statement, n)) | {name for tree in moving.values() for name in variables(tree)}
+    """The variables of a statement at one n, also of what both sides there do not show."""
+    names = (variables(tree) for tree in beside(statement, n))
+    return names_at(*at_size(statement, n)).union(*names)
 
 
 def names_at(sides: Equation, given: list[Equation]) -> set[str]:

@@ -44,6 +44,8 @@ class ForAll(Statement):
         """Refuse what the rules should not have to look at."""
         require_relations([self.relation], [self.variable])
         low, high = self.low, self.high
+        endless = (low is None and self.open_low) or (high is None and self.open_high)
+        require(not endless, "interval", "open", "is no end at infinity; leave it false there")
         if low is not None and high is not None:
             closed = not self.open_low and not self.open_high
             require(low < high or (low == high and closed), "interval", f"{low}, {high}", "is empty")

@@ -46,9 +46,9 @@ class NormBound(Statement):
 
     def text(self) -> str:
         """The statement in one line."""
-        power = "" if self.power == 0 else "·‖x‖" if self.power == 1 else f"·‖x‖^{self.power}"
-        entry, bound = expression_text(self.component), expression_text(self.bound)
-        return f"‖({entry})ᵢ‖ ≤ {bound}{power} for all x in R^{self.n}, x = xᵢ in the i-th entry"
+        size = self.bound if self.power == 0 else ("mul", self.bound, ("var", "‖x‖"))
+        entry, bound = expression_text(self.component), expression_text(size)
+        return f"‖({entry})ᵢ‖ ≤ {bound} for all x in R^{self.n}, x = xᵢ in the i-th entry"
 
 
 @dataclass(frozen=True)

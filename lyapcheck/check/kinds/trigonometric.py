@@ -5,6 +5,7 @@ References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -47,7 +48,7 @@ class TrigonometricBound(Statement):
             else f"|{expression_text(tree)}| ≤ {number_text(bound)}"
             for tree, bound in self.entries
         ]
-        return f"{'; '.join(parts)}, for all angles"
+        return f"{'; '.join(parts)}, for all {_angles(tree for tree, _ in self.entries)}"
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,14 @@ class TrigonometricPositive(Statement):
 
     def text(self) -> str:
         """The statement in one line."""
-        return f"{'; '.join(f'{expression_text(tree)} > 0' for tree in self.entries)}, for all angles"
+        shown = "; ".join(f"{expression_text(tree)} > 0" for tree in self.entries)
+        return f"{shown}, for all {_angles(self.entries)}"
+
+
+def _angles(trees: Iterable[Tree]) -> str:
+    """The angles by name."""
+    names = sorted(set().union(*map(variables, trees)))
+    return f"angles {', '.join(names)}" if names else "angles"
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,12 @@ class Entries:
             return self._rate(self.number(rest[0]))
         return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
 
+    def differentiated(self, tree: Tree) -> list[Tree]:
+        """What stands under d/dt; where it has no value, its rate has none."""
+        if tree[0] == "rate":
+            return [self.number(tree[1])]
+        return [found for part in tree[1:] if isinstance(part, tuple) for found in self.differentiated(part)]
+
     def vector(self, tree: Tree) -> Vector:
         """The entries of a vector."""
         kind, *rest = tree

@@ -14,6 +14,8 @@ from lyapcheck.check.expressions.grammar import MAX_DEPTH, MAX_NAME, SHAPES, is_
 from lyapcheck.check.refusal import require
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+DIMENSION = "n"
+"""What the text of a statement for every n calls the dimension: no letter has that name."""
 LETTERS = {"number": "var", "vector": "vec", "matrix": "mat"}
 """The operation that makes a letter of each sort."""
 
@@ -48,6 +50,7 @@ def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPT
         known = len(parts) == 1 and isinstance(parts[0], str) and len(parts[0]) <= MAX_NAME
         plain = known and NAME.fullmatch(parts[0]) is not None and is_name(parts[0])
         require(plain, "letter", parts, "is not a name")
+        require(parts[0] != DIMENSION, "letter", parts[0], "is the dimension, over which the statement runs")
         return
     require(operation != "rate" or rate, "rate", tree, "may not occur here")
     for part, wanted in zip(parts, _sorts(operation, parts, sort), strict=True):

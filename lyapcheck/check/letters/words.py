@@ -23,7 +23,7 @@ Word = tuple[Letter, ...]
 Sum = dict[Word, Tree]
 """A vector or matrix as Σ coefficient · word; a word of a vector ends in its ``vec``."""
 
-MAX_WORDS = 20_000
+MAX_WORDS, MAX_PAIRS = 20_000, 200_000
 ONE: Tree = ("num", "1")
 TURNED = {"mat": "transposed", "transposed": "mat"}
 
@@ -127,10 +127,10 @@ def _in_order(word: Word) -> Word:
 def _collected(pairs: Iterable[tuple[Word, Tree]]) -> Sum:
     """The sum of the coefficients of each word."""
     found: dict[Word, list[Tree]] = {}
-    for word, c in pairs:
+    for count, (word, c) in enumerate(pairs):
         found.setdefault(word, []).append(c)
-    if len(found) > MAX_WORDS:
-        raise Unsupported(f"more than {MAX_WORDS} words")
+        if len(found) > MAX_WORDS or count > MAX_PAIRS:
+            raise Unsupported(f"more than {MAX_WORDS} words, or {MAX_PAIRS} before they are added up")
     return {word: _total(parts) for word, parts in found.items()}
 
 
