@@ -48,4 +48,4 @@ def shortened(text: str, full: bool) -> str:
     """
     if full or len(text) <= SHOWN:
         return plain(text)
-    return f"{plain(text[: 2 * SHOWN // 3])} … (cut, --full shows all) … {plain(text[-SHOWN // 3 :])}"
+    return f"{plain(text[: 2 * SHOWN // 3])} … (cut) … {plain(text[-SHOWN // 3 :])}"

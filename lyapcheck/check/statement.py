@@ -74,6 +74,10 @@ class Statement(ABC):
     def text(self) -> str:
         """The statement in the words of mathematics, from its data alone."""
 
+    def attempts(self) -> Iterable[Proof]:
+        """Proofs worth trying in turn, where the kind has no search of its own; the rules judge them."""
+        return ()
+
 
 @dataclass(frozen=True)
 class Variable:

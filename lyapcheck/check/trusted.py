@@ -32,6 +32,8 @@ CORE = tuple(
     )
 )
 """Command line and rendering are not among them: they decide nothing."""
+FOLDERS = (f"{PACKAGE}.numbers.functions",)
+"""Packages of which every file is imported; so each counts."""
 
 
 def modules(rules: Iterable[tuple[str, str]]) -> dict[str, int]:
@@ -55,8 +57,10 @@ def closure(module: str) -> frozenset[str]:
 
 @cache
 def imported(module: str) -> frozenset[str]:
-    """The modules of the checker that one names in its imports, wherever they stand."""
-    return frozenset(_named(ast.parse(source(module).read_bytes())))
+    """The modules of the checker that one names in its imports, wherever they stand, or has in its folder."""
+    inside = source(module).parent.glob("[!_]*.py") if module in FOLDERS else ()
+    named = _named(ast.parse(source(module).read_bytes()))
+    return frozenset((*named, *(f"{module}.{file.stem}" for file in inside)))
 
 
 def _named(tree: ast.Module) -> Iterator[str]:

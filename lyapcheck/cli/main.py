@@ -7,8 +7,10 @@ import io
 import os
 import sys
 
+from lyapcheck import cli
 from lyapcheck.cli.stopping import Stopping
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.extensions import defining
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
@@ -18,19 +20,7 @@ if TYPE_CHECKING:
 
     import typer
 
-COMMANDS = (
-    "bounds",
-    "check",
-    "epsilon",
-    "explain",
-    "gate",
-    "recheck",
-    "report",
-    "robot",
-    "simulate",
-    "table",
-    "tune",
-)
+COMMANDS = defining("command", cli.__path__)
 
 CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""

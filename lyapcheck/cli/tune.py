@@ -17,6 +17,7 @@ from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
+from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -28,16 +29,16 @@ ONE = (Fraction(1),)
 PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 
 
-class TuneFormat(StrEnum):
-    """What every answer can be written in, and the gain file alone."""
+if TYPE_CHECKING:
 
-    TEXT = "text"
-    MARKDOWN = "markdown"
-    HTML = "html"
-    LATEX = "latex"
-    CSV = "csv"
-    JSON = "json"
-    TOML = "toml"
+    class TuneFormat(StrEnum):
+        """What every answer can be written in, and the gain file alone."""
+
+        TEXT = "text"
+        TOML = "toml"
+
+else:
+    TuneFormat = StrEnum("TuneFormat", {name.upper(): name for name in (*Format, "toml")}, module=__name__)
 
 
 def command(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.members import member
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -101,21 +102,25 @@ class Family(ABC):
         """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""
         return self.casadi(x)
 
-    @abstractmethod
     def ball_h(self, x: arb) -> arb:
-        """A ball that contains h over the ball x."""
+        """A ball that contains h over the ball x; by default that of the checker."""
+        return member(self.name, self.m).h(x)
 
-    @abstractmethod
     def ball_dh(self, x: arb) -> arb:
-        """A ball that contains h' over the ball x."""
+        """A ball that contains h' over the ball x; by default that of the checker."""
+        return member(self.name, self.m).dh(x)
 
-    @abstractmethod
     def ball_potential(self, x: arb) -> arb:
-        """A ball that contains U over the ball x."""
+        """A ball that contains U over the ball x; by default that of the checker."""
+        return member(self.name, self.m).potential(x)
 
-    @abstractmethod
     def ball_secant(self, x: arb) -> arb:
-        """A ball that contains h(x)/x over the ball x."""
+        """A ball that contains h(x)/x over the ball x; by default that of the checker."""
+        return member(self.name, self.m).secant(x)
+
+    def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
+        """The x > 0 at which h, and those at which h', may stop being monotone; none by default."""
+        return (), ()
 
     @abstractmethod
     def constants(self, digits: int = 30) -> FamilyConstants:

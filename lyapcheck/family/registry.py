@@ -1,4 +1,7 @@
-"""The families by name: each file in ``members`` is one, and nothing else need know of a new one."""
+"""The families by name: each file in ``members`` is one, and nothing else need know of a new one.
+
+``members`` is a folder here and, of the same name, in a folder of the user's own, see ``extensions``.
+"""
 
 from __future__ import annotations
 

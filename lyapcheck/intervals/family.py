@@ -10,7 +10,6 @@ import numpy as np
 from flint import arb
 
 from lyapcheck._types import Array
-from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.intervals.functions import widened
@@ -64,15 +63,9 @@ def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Ar
 @lru_cache(maxsize=256)
 def _turning_points(family: Family) -> tuple[tuple[Extreme, ...], tuple[Extreme, ...]]:
     """The x ≥ 0 at which h, and at which h', may stop being monotone."""
-    h_turns, dh_turns = [], [_extreme(family.ball_dh, arb(0))]
-    if family.name == "hyperbolic" and family.m is not None and family.m > 1:
-        h_turns += [_extreme(family.ball_h, _position(peak_of_h(family.m)))]
-        dh_turns += [_extreme(family.ball_dh, _position(u)) for u in peaks_of_dh(family.m)]
-    return tuple(h_turns), tuple(dh_turns)
-
-
-def _position(u: arb) -> arb:
-    return u.sqrt().asinh()
+    h_turns, dh_turns = family.turning_points()
+    h = tuple(_extreme(family.ball_h, where) for where in h_turns)
+    return h, tuple(_extreme(family.ball_dh, where) for where in (arb(0), *dh_turns))
 
 
 def _extreme(function: Callable[[arb], arb], where: arb) -> Extreme:

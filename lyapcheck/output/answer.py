@@ -11,6 +11,8 @@ from lyapcheck.output.annotations import Annotation
 from lyapcheck.output.document import Document
 from lyapcheck.output.escapes import document_text
 
+DOCUMENTS = ("markdown", "html", "latex")
+
 
 class Answer(ABC):
     """An answer to a question, ready for every format.
@@ -41,15 +43,17 @@ class Answer(ABC):
     def written(self, format: str, colour: bool = False) -> str:  # noqa: A002
         """The answer in a format, the same bytes for the same answer.
 
+        Its ``render`` gets the answer; those of ``text`` and ``DOCUMENTS`` only the document of the answer.
+
         Args:
-            format: a value of :class:`~lyapcheck.output.formats.JudgedFormat`.
+            format: a value of :class:`~lyapcheck.output.formats.JudgedFormat`: a file of ``output``.
             colour: with the escape sequences of a terminal; for text alone.
         """
         renderer = import_module(f"lyapcheck.output.{format}")
         if format == "text":
             shown: str = renderer.render(self.document(), colour)
             return shown
-        whole = self.document() if format in ("markdown", "html", "latex") else self
+        whole = self.document() if format in DOCUMENTS else self
         return document_text(renderer.render(whole))
 
     def __str__(self) -> str:

@@ -9,14 +9,15 @@ from importlib import resources
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
+from lyapcheck.extensions import folders
 from lyapcheck.robots.armfile import EXACT, read_arm
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.urdf import read_urdf
 
 
 def names() -> tuple[str, ...]:
-    """The built-in arms, sorted: one for each file in ``arms/``."""
-    return tuple(sorted(path.stem for path in _arms().iterdir() if path.suffix == ".toml"))
+    """The built-in arms, sorted: one for each file in ``arms/``, here or in a folder of the user's own."""
+    return tuple(sorted(_arms()))
 
 
 def load(name_or_path: str | Path, tip: str | None = None, spread: Fraction = EXACT) -> RobotModel:
@@ -55,8 +56,13 @@ def _advice(name: str) -> str:
 
 @lru_cache(maxsize=64)
 def _builtin(name: str, spread: Fraction) -> RobotModel:
-    return read_arm(_arms() / f"{name}.toml", f"{name}.toml", spread)
+    return read_arm(_arms()[name], f"{name}.toml", spread)
 
 
-def _arms() -> Path:
-    return Path(str(resources.files("lyapcheck.robots"))) / "arms"
+def _arms() -> dict[str, Path]:
+    """The files of the arms by name; lyapcheck's own before others of that name."""
+    own = str(resources.files("lyapcheck.robots") / "arms")
+    files = [
+        file for folder in (*folders("lyapcheck.robots.arms"), own) for file in Path(folder).glob("*.toml")
+    ]
+    return {file.stem: file for file in files}

@@ -21,7 +21,7 @@ NAME = re.compile(r"[A-Za-zα-θκ-μξπ-τφ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα
 """Latin and Greek letters, without those that look like Latin ones (ι, ν, ο, υ and most capitals): no name
 can pass for another, or for part of a statement."""
 
-CONSTANT_NAME = re.compile(r"π.*|(γ|ρ|L|h|U)_?[0-9₀-₉].*")
+CONSTANT_NAME = re.compile(r"π.*|[γρ]_?[0-9₀-₉].*|[LhU](_[0-9₀-₉]|[₀-₉]).*")
 """What the text of an expression writes for constants and functions of the family, or looks like it."""
 
 Parts = list[Any]

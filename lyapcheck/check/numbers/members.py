@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import cache, lru_cache
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 
 from flint import arb
-
-from lyapcheck.check.numbers import balls
-from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.enclosure import Enclosure
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,7 @@ class Functions:
 
 @dataclass(frozen=True)
 class Member:
-    """An odd, bounded h with its bounds from above.
+    """An odd, bounded h, positive for x > 0 and once continuously differentiable, with its bounds from above.
 
     Args:
         h: contains h over a ball, dimensionless.
@@ -56,90 +55,31 @@ class Member:
 
 @lru_cache(maxsize=256)
 def member(name: str, m: int | None = None) -> Member:
-    """A function by name: ``hyperbolic`` with its m, ``tanh``, ``arctan`` or ``algebraic`` (x/√(1+x²)).
+    """A function by name: that of a file in ``functions``, such as ``hyperbolic`` with its m, or ``arctan``.
 
     Raises:
         ValueError: no such function, or an m where there is none to choose, or none where there is.
     """
-    if name == "hyperbolic" and isinstance(m, int) and m >= 1:
-        return _hyperbolic(m)
-    if m is None and name in _SINGLE:
-        return _SINGLE[name]()
-    raise ValueError(f"no bounded function {name!r} with m = {m} is known to the checker")
+    create = _creators().get(name)
+    if create is None:
+        raise ValueError(f"no bounded function {name!r} is known to the checker")
+    return create(m)
 
 
-def _hyperbolic(m: int) -> Member:
-    found = hyperbolic_constants(m)
-    bounds = found.gamma.upper, found.rho.upper, found.L.upper
-    h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
-    return Member(h, dh, potential, secant, *bounds)
+@cache
+def _creators() -> dict[str, Callable[[int | None], Member]]:
+    """What makes each function: every file of the folder is imported, whatever a certificate names."""
+    from lyapcheck.check.numbers import functions
+
+    files = iter_modules([str(Path(functions.__file__).parent)])
+    return {file.name: import_module(f"{functions.__name__}.{file.name}").create for file in files}
 
 
-def arctan_h(x: arb) -> arb:
-    """arctan x, rising."""
-    return balls.odd_range(arb.atan, (), x)
+def require_single(name: str, m: int | None) -> None:
+    """Refuse an m for a function that has a single member.
 
-
-def arctan_dh(x: arb) -> arb:
-    """1/(1 + x²), falling away from 0."""
-    return balls.even_range(lambda a: 1 / (1 + a * a), (), x)
-
-
-def arctan_potential(x: arb) -> arb:
-    """x arctan x − ½ ln(1 + x²), rising away from 0."""
-    return balls.even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
-
-
-def arctan_secant(x: arb) -> arb:
-    """arctan(x)/x, falling away from 0."""
-    return balls.even_range(lambda a: arb(1) if a == 0 else a.atan() / a, (), x)
-
-
-def half_pi() -> Enclosure:
-    """π/2 at the precision in force."""
-    return Enclosure.from_arb(arb.pi() / 2)
-
-
-def algebraic_h(x: arb) -> arb:
-    """x/√(1 + x²), rising."""
-    return balls.odd_range(lambda a: a / (1 + a * a).sqrt(), (), x)
-
-
-def algebraic_dh(x: arb) -> arb:
-    """(1 + x²)^(−3/2), falling away from 0."""
-    return balls.even_range(lambda a: 1 / ((1 + a * a) * (1 + a * a).sqrt()), (), x)
-
-
-def algebraic_potential(x: arb) -> arb:
-    """√(1 + x²) − 1, without cancellation, rising away from 0."""
-    return balls.even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
-
-
-def algebraic_secant(x: arb) -> arb:
-    """1/√(1 + x²), falling away from 0."""
-    return balls.even_range(lambda a: 1 / (1 + a * a).sqrt(), (), x)
-
-
-def _arctan() -> Member:
-    return Member(
-        arctan_h, arctan_dh, arctan_potential, arctan_secant, half_pi().upper, Fraction(1), Fraction(1)
-    )
-
-
-def _algebraic() -> Member:
-    return Member(
-        algebraic_h,
-        algebraic_dh,
-        algebraic_potential,
-        algebraic_secant,
-        Fraction(1),
-        Fraction(1),
-        Fraction(1),
-    )
-
-
-_SINGLE: dict[str, Callable[[], Member]] = {
-    "tanh": lambda: _hyperbolic(1),
-    "arctan": _arctan,
-    "algebraic": _algebraic,
-}
+    Raises:
+        ValueError: there is one.
+    """
+    if m is not None:
+        raise ValueError(f"{name} has no member m = {m}")

@@ -14,11 +14,13 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import witness_data
+from lyapcheck.claims.registry import procedure
 
 METHOD = "relation between numbers"
 PRECISIONS = (128, 512, 2048)
 
 
+@procedure(Constant)
 def find_constant(statement: Constant) -> Finding:
     """Decide a relation between numbers."""
     return find_relation(statement.relation, METHOD)

@@ -25,6 +25,7 @@ from lyapcheck.check.letters.points import drawn
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, point_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "identity for every n"
 SIZES = (1, 2, 3)
@@ -32,6 +33,7 @@ TRIES = 4
 SEED = 1
 
 
+@procedure(EveryN)
 def find_every_n(statement: EveryN) -> Finding:
     """Try the normal forms in words, then entries for n = 1, 2, 3."""
     try:

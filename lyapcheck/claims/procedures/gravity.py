@@ -13,11 +13,13 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.registry import procedure
 
 METHOD = "gravity"
 SAMPLES = 400
 
 
+@procedure(GravityBelow)
 def find_gravity_below(statement: GravityBelow) -> Finding:
     """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
     if _verdict(statement, HarmonicSizes()):

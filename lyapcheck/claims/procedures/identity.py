@@ -14,11 +14,13 @@ from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.kinds.identity import Identity, NormalForm, gap_of
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "identity"
 TRIES, FIRST = 12, 2
 
 
+@procedure(Identity)
 def find_identity(statement: Identity) -> Finding:
     """Try a few points where both sides may differ, then the normal forms, then more points."""
     places = points(statement)

@@ -17,6 +17,7 @@ from lyapcheck.check.statement import Variable
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.search import Failure, first_refutation, witness_data, witness_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "implication between inequalities"
 EFFORT = ((1, 40), (2, 80), (3, 160), (4, 320), (5, 640), (7, 2000))
@@ -27,6 +28,7 @@ SEARCH_AFTER = 2
 ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt")
 
 
+@procedure(Implies)
 def find_implies(statement: Implies) -> Finding:
     """Look for an identity of signs and for counterexamples by turns."""
     if not all(is_algebraic(r.gap) for r in (*statement.hypotheses, statement.conclusion)):

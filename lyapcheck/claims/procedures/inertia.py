@@ -28,6 +28,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.registry import procedure
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "inertia"
@@ -36,6 +37,7 @@ MOST_BOXES_JOINTS = 4
 OfArm = MassAbove | MassBelow | CoriolisBelow
 
 
+@procedure(MassAbove)
 def find_mass_above(statement: MassAbove) -> Finding:
     """The links, else a posture that refutes it, else boxes."""
     known = mass_proof(statement.mass) if statement.low == 0 and not statement.parameters else Bisection()
@@ -44,6 +46,7 @@ def find_mass_above(statement: MassAbove) -> Finding:
     return _found(statement, quick, advice)
 
 
+@procedure(MassBelow, CoriolisBelow)
 def find_upper(statement: MassBelow | CoriolisBelow) -> Finding:
     """The sizes of harmonics, else a posture that refutes it, else boxes."""
     return _found(statement, [HarmonicSizes()], "take a larger bound")

@@ -30,6 +30,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import BITS, point_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "norms for every n"
 TRIES = 600
@@ -40,6 +41,7 @@ Option = tuple[Cover, Tree, Sizes]
 Choice = tuple[tuple[Cover, Tree], ...]
 
 
+@procedure(BoundEveryN)
 def find_bound_every_n(statement: BoundEveryN) -> Finding:
     """Choose covers term by term, going back where the bound has no room left."""
     try:

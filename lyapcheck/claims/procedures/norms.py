@@ -22,10 +22,12 @@ from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "norm inequality"
 
 
+@procedure(NormBound)
 def find_norm_bound(statement: NormBound) -> Finding:
     """Try the vectors that are worst; where none breaks the bound, prove it by one variable."""
     found = first_refutation(rules.vector_relation(statement).comparison, vector_points(statement))

@@ -33,6 +33,7 @@ from lyapcheck.check.kinds.for_all import (
 )
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "one-variable inequality"
 BITS = 160
@@ -44,6 +45,7 @@ class _Open(Exception):
     """A piece that no step proves; says what to try next."""
 
 
+@procedure(ForAll)
 def find_for_all(statement: ForAll) -> Finding:
     """Look for a point where the relation fails, then for a proof on each piece of the domain."""
     claim, name = statement.relation.comparison, statement.variable

@@ -26,11 +26,13 @@ from lyapcheck.check.kinds.agrees import (
 )
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
+from lyapcheck.claims.registry import procedure
 
 METHOD = "arithmetic on printed numbers"
 BITS = 128
 
 
+@procedure(Agrees)
 def find_agrees(statement: Agrees) -> Finding:
     """Compare the formula at the printed inputs, over all their roundings and at the corners of these."""
     target, exact = printed_range(statement.printed), at_printed(statement, BITS)

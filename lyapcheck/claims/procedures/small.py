@@ -29,6 +29,7 @@ from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
 from lyapcheck.claims.procedures.search import BITS, Point, point_of
+from lyapcheck.claims.registry import procedure
 
 METHOD = "small parameter"
 TRIES = 300
@@ -37,6 +38,7 @@ VALUES = tuple(map(Fraction, ("1", "3/2", "2", "3", "1/2", "10", "1/10", "100", 
 BELOW = (Fraction(1), Fraction(1, 2**10))
 
 
+@procedure(ForSmall)
 def find_for_small(statement: ForSmall) -> Finding:
     """Search an identity of signs for the leading term, then a point at which the relation fails."""
     proved = _leading(statement)

@@ -28,6 +28,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
+from lyapcheck.claims.registry import procedure
 from lyapcheck.search.inertia import mass_proof
 from lyapcheck.verdicts import Verdict
 
@@ -45,6 +46,7 @@ FACTORS = tuple(Fraction(k) for k in (1, 2, 10, 100))
 ONE_BOX = BoxTree(".")
 
 
+@procedure(Decreasing)
 def find_decreasing(statement: Decreasing) -> Finding:
     """Norms alone, else a state with dV/dt > 0, else boxes."""
     closure = closure_of(statement)
@@ -68,6 +70,7 @@ def _with_mass(statement: Decreasing | DampingBelow, by: BoxTree) -> PositiveAnd
     return PositiveAndDecreasing(inertia, by)
 
 
+@procedure(DampingBelow)
 def find_damping_below(statement: DampingBelow) -> Finding:
     """Look for a κ that breaks the bound and an ε₀ at which norms alone give dV/dt < 0; never proves."""
     positive = find_mass_above(mass_positive(statement.with_damping(Fraction(1), Fraction(1))))

@@ -27,6 +27,7 @@ from lyapcheck.check.statement import Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.implication import counterexample, sampled
 from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
+from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.statements import reals
 
 METHOD = "mean and amplitudes of the Fourier sum"
@@ -35,6 +36,7 @@ Doubt = tuple[str, list[tuple[bool, Relation]]]
 """Why Fourier sums do not settle an entry, and the relations (from below?) to break."""
 
 
+@procedure(TrigonometricBound)
 def find_bounds(statement: TrigonometricBound) -> Finding:
     """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
 
@@ -53,6 +55,7 @@ def find_bounds(statement: TrigonometricBound) -> Finding:
     return _find(statement.entries, doubt, lambda entry: entry[0])
 
 
+@procedure(TrigonometricPositive)
 def find_positive(statement: TrigonometricPositive) -> Finding:
     """Compute mean minus amplitudes of each entry; where that is not positive, look for angles."""
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb
-
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers import members
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms
@@ -45,22 +42,6 @@ class Algebraic(ElementaryFamily):
 
         root = sp.sqrt(1 + x**2)
         return SymbolicForms(x / root, root**-3, root - 1)
-
-    def ball_h(self, x: arb) -> arb:
-        """x/√(1 + x²), rising."""
-        return members.algebraic_h(x)
-
-    def ball_dh(self, x: arb) -> arb:
-        """(1 + x²)^(-3/2), falling away from 0."""
-        return members.algebraic_dh(x)
-
-    def ball_potential(self, x: arb) -> arb:
-        """√(1 + x²) - 1, without cancellation."""
-        return members.algebraic_potential(x)
-
-    def ball_secant(self, x: arb) -> arb:
-        """1/√(1 + x²), falling away from 0."""
-        return members.algebraic_secant(x)
 
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ = ρ = L = 1; h reaches γ only in the limit."""

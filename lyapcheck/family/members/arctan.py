@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb
-
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers import members
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.functions.arctan import half_pi
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import FamilyConstants, SymbolicForms
 from lyapcheck.family.elementary import ElementaryFamily, NumericForms
@@ -54,27 +52,11 @@ class Arctan(ElementaryFamily):
 
         return SymbolicForms(sp.atan(x), 1 / (1 + x**2), x * sp.atan(x) - sp.log(1 + x**2) / 2)
 
-    def ball_h(self, x: arb) -> arb:
-        """arctan x, rising."""
-        return members.arctan_h(x)
-
-    def ball_dh(self, x: arb) -> arb:
-        """1/(1 + x²), falling away from 0."""
-        return members.arctan_dh(x)
-
-    def ball_potential(self, x: arb) -> arb:
-        """U, rising away from 0."""
-        return members.arctan_potential(x)
-
-    def ball_secant(self, x: arb) -> arb:
-        """arctan(x)/x, falling away from 0."""
-        return members.arctan_secant(x)
-
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ = π/2 in the limit, ρ = L = 1 at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)
         with precision(4 * digits + 16):
-            gamma = members.half_pi()
+            gamma = half_pi()
         return FamilyConstants(gamma, one, one, None, zero, zero)
 
 

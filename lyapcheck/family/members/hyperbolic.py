@@ -13,6 +13,7 @@ from flint import arb
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
 from lyapcheck.family.hyperbolic_drivers import as_graph, on_array
 from lyapcheck.family.registry import require_member
@@ -84,6 +85,14 @@ class Hyperbolic(Family):
     def ball_secant(self, x: arb) -> arb:
         """h_m(x)/x over a ball."""
         return balls.secant(self._member, x)
+
+    def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
+        """The peak of h and those of h'; tanh has none."""
+        if self._member == 1:
+            return (), ()
+        peaks = (peak_of_h(self._member),), peaks_of_dh(self._member)
+        h, dh = (tuple(u.sqrt().asinh() for u in places) for places in peaks)
+        return h, dh
 
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ_m, ρ_m, L_m, certified."""
