@@ -10,20 +10,15 @@ from typing import Any
 
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import Given, Request, Told
-from lyapcheck.claims.procedures import PROCEDURES
+from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.run import paper_given
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
-from lyapcheck.claims.statements import AllOf, Missing, Statement, Theorem
+from lyapcheck.claims.statements import AllOf, Missing, Statement
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
-
-BY_THEOREM = (
-    "A theorem applied: the checker compares the hypotheses that are named with those of the theorem, and "
-    "looks into the claim behind each, which must state what the hypothesis comes to for this loop."
-)
 
 
 @dataclass(frozen=True)
@@ -224,11 +219,11 @@ def _parts(name: str, statement: Statement) -> list[Part]:
 
 
 def _procedures(statement: Statement) -> list[str]:
-    """How each part is decided: the opening of the docstring of the procedure's module."""
+    """How each part is decided: the opening of the docstring of the module of the procedure, else of the kind."""
     if isinstance(statement, AllOf):
         return [text for _, part in statement.parts for text in _procedures(part)]
-    if isinstance(statement, Theorem):
-        return [BY_THEOREM]
-    procedure = next(p for kind, p in PROCEDURES.items() if isinstance(statement, kind))
-    described = inspect.getdoc(inspect.getmodule(procedure)) or ""
+    kind = type(statement)
+    procedure = procedure_of(kind)
+    home = kind if procedure is procedure_of(Statement) else procedure
+    described = inspect.getdoc(inspect.getmodule(home)) or ""
     return [described.split("References:")[0].replace("``", "").strip()]

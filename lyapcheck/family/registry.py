@@ -1,7 +1,4 @@
-"""The families by name: each file in ``members`` is one, and nothing else need know of a new one.
-
-``members`` is a folder here and, of the same name, in a folder of the user's own, see ``extensions``.
-"""
+"""The families by name: each file in ``members`` is one, and nothing else need know of a new one."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.loop_property import SMOOTH, UNBOUNDED, Facts, LoopProperty, facts_of
 from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
-from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.registry import find, procedure
 
 METHOD = "facts in one variable"
 FARTHEST = 40.0
@@ -22,8 +22,6 @@ STARTS = (1, 2, 4, 8, 16)
 @procedure(LoopProperty)
 def find_loop_property(statement: LoopProperty) -> Finding:
     """Decide every fact; one that fails leaves the property open, as it is only sufficient."""
-    from lyapcheck.claims.procedures import find
-
     numbers = _numbers(statement)
     if numbers is None:
         return still_open("h, h' or h(x)/x has no bound that sampling would show; check the function", METHOD)
