@@ -219,7 +219,7 @@ def _parts(name: str, statement: Statement) -> list[Part]:
 
 
 def _procedures(statement: Statement) -> list[str]:
-    """How each part is decided: the opening of the docstring of the module of the procedure, else of the kind."""
+    """How each part is decided: as the file of its search says, or that of its kind where it has none."""
     if isinstance(statement, AllOf):
         return [text for _, part in statement.parts for text in _procedures(part)]
     kind = type(statement)

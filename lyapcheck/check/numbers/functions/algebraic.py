@@ -1,0 +1,36 @@
+"""The algebraic saturation x/√(1 + x²)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import arb
+
+from lyapcheck.check.numbers import balls
+from lyapcheck.check.numbers.members import Member, require_single
+
+
+def create(m: int | None) -> Member:
+    """h = x/√(1 + x²); γ = 1 in the limit, ρ = L = 1 at 0."""
+    require_single("algebraic", m)
+    return Member(h, dh, potential, secant, gamma=Fraction(1), rho=Fraction(1), L=Fraction(1))
+
+
+def h(x: arb) -> arb:
+    """x/√(1 + x²), rising."""
+    return balls.odd_range(lambda a: a / (1 + a * a).sqrt(), (), x)
+
+
+def dh(x: arb) -> arb:
+    """(1 + x²)^(−3/2), falling away from 0."""
+    return balls.even_range(lambda a: 1 / ((1 + a * a) * (1 + a * a).sqrt()), (), x)
+
+
+def potential(x: arb) -> arb:
+    """√(1 + x²) − 1, without cancellation, rising away from 0."""
+    return balls.even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
+
+
+def secant(x: arb) -> arb:
+    """1/√(1 + x²), falling away from 0."""
+    return balls.even_range(lambda a: 1 / (1 + a * a).sqrt(), (), x)

@@ -1,0 +1,26 @@
+"""The paper's family of hyperbolic functions.
+
+References: ``reyes2019family`` (6), (7), (8).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from lyapcheck.check.numbers import balls
+from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.members import Member
+
+
+def create(m: int | None) -> Member:
+    """h_m = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x).
+
+    Raises:
+        ValueError: there is no such member.
+    """
+    if not isinstance(m, int) or m < 1:
+        raise ValueError(f"hyperbolic has no member m = {m}")
+    found = hyperbolic_constants(m)
+    bounds = found.gamma.upper, found.rho.upper, found.L.upper
+    h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
+    return Member(h, dh, potential, secant, *bounds)

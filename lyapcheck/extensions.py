@@ -1,0 +1,36 @@
+"""Folders of the user's own: files in them count as if they lay in the folders of this package.
+
+``LYAPCHECK_PATH`` names them, separated as in ``PATH``. Inside, they are laid out as this package is: a
+family is ``family/members/NAME.py`` there, an arm ``robots/arms/NAME.toml``. The checker does not look there:
+what it trusts lies in its own folder.
+"""
+
+from __future__ import annotations
+
+import os
+
+TYPE_CHECKING = False  # typing takes longer to import than a short command to run
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+VARIABLE = "LYAPCHECK_PATH"
+
+
+def folders(package: str) -> list[str]:
+    """The user's own folders for a package, such as ``lyapcheck.family.members``; they need not exist."""
+    inner = package.split(".")[1:]
+    roots = os.environ.get(VARIABLE, "").split(os.pathsep)
+    return [os.path.join(os.path.abspath(root), *inner) for root in roots if root]
+
+
+def defining(function: str, path: Iterable[str]) -> tuple[str, ...]:
+    """The modules in some folders that define a function, sorted; they are read, not imported."""
+    start = f"def {function}(".encode()
+    found = set()
+    for folder in filter(os.path.isdir, path):
+        for name in os.listdir(folder):
+            if name.endswith(".py"):
+                with open(os.path.join(folder, name), "rb") as file:
+                    if any(line.startswith(start) for line in file):
+                        found.add(name.removesuffix(".py"))
+    return tuple(sorted(found))
