@@ -12,9 +12,9 @@ import pytest
 from lyapcheck.claims import Constant, Implies, Relation, expr, for_all, identity, positive, sqrt, var
 from lyapcheck.verdicts import Verdict
 from tests.statement_fuzz.__main__ import main
-from tests.statement_fuzz.generators import GENERATORS, TRUE, Made, draw
+from tests.statement_fuzz.generators import TRUE, Made, draw, names
 from tests.statement_fuzz.judge import Judged, judge
-from tests.statement_fuzz.oracle.kinds import OBJECTIONS, confirms, objection
+from tests.statement_fuzz.oracle.kinds import confirms, known, objection
 from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Tally, run
 from tests.statement_fuzz.shrink import shrunk
@@ -53,8 +53,8 @@ def test_statements_are_neither_all_plain_nor_all_hopeless() -> None:
 
 
 def test_every_kind_that_is_written_has_an_oracle() -> None:
-    written = {type(draw(0, 0, kind).statement).__name__ for kind in GENERATORS}
-    assert written <= set(OBJECTIONS)
+    written = {type(draw(0, 0, kind).statement).__name__ for kind in names()}
+    assert written <= known()
     assert set(OF_ARMS) <= written
 
 

@@ -53,6 +53,12 @@ def draw(seed: int, index: int, only: str | None = None) -> Made:
     return GENERATORS[name][1](random)
 
 
+def names() -> tuple[str, ...]:
+    """The names of all generators."""
+    _load()
+    return tuple(GENERATORS)
+
+
 def _load() -> None:
     from tests.statement_fuzz.generators import (  # noqa: F401
         arms,

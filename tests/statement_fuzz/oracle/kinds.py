@@ -52,6 +52,12 @@ def confirms(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     return None if function is None else function(statement, witness)
 
 
+def known() -> frozenset[str]:
+    """The kinds of statement that the oracle knows something against."""
+    _load()
+    return frozenset(OBJECTIONS)
+
+
 def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
         arms,
