@@ -6,6 +6,7 @@ Everything here takes text that may hold anything; what does not print comes out
 from __future__ import annotations
 
 import re
+from unicodedata import normalize
 
 _HTML = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
@@ -17,6 +18,17 @@ _LATEX = {
     "^": r"\textasciicircum{}",
     **{c: f"\\{c}" for c in "&%$#_{}"},
 }
+_SIGNS = r"""
+α alpha β beta γ gamma δ delta ε varepsilon η eta θ theta κ kappa λ lambda μ mu π pi ρ rho σ sigma τ tau
+φ varphi χ chi ψ psi ω omega Γ Gamma Δ Delta Θ Theta Λ Lambda Σ Sigma Φ Phi Ψ Psi Ω Omega ∂ partial ∫ int √ surd
+≤ le ≥ ge ≠ ne ≈ approx ≻ succ ⪰ succeq ∈ in ∀ forall → to ∞ infty ‖ Vert · cdot × times ± pm ✓ surd ✗ times ½ frac12
+¼ frac14 − - < < > > | | ′ ^{\prime} ″ ^{\prime\prime} ° ^{\circ} ᵀ ^{T} ᵢ _{i}
+₀ _0 ₁ _1 ₂ _2 ₃ _3 ₄ _4 ₅ _5 ₆ _6 ₇ _7 ₈ _8 ₉ _9 ⁰ ^0 ¹ ^1 ² ^2 ³ ^3 ⁴ ^4 ⁵ ^5 ⁶ ^6 ⁷ ^7 ⁸ ^8 ⁹ ^9
+""".split()  # noqa: SIM905 (a list of these would be a page)
+"""Signs of formulas, each with what LaTeX calls it."""
+_SIGN = dict(zip(_SIGNS[::2], _SIGNS[1::2], strict=True))
+_ACCENTS = {"\u0307": "dot", "\u0308": "ddot", "\u0303": "tilde", "\u0302": "hat"}
+_ACCENTED = re.compile(f"([A-Za-z])([{''.join(_ACCENTS)}])")
 _FORMULA = ("=", "+", "-", "@")
 """What spreadsheets take for the beginning of a formula."""
 
@@ -55,8 +67,21 @@ def html_text(text: str) -> str:
 
 
 def latex_text(text: str) -> str:
-    """The text as LaTeX outside of formulas."""
-    return "".join(_LATEX.get(c, c) for c in printable(text))
+    """The text as LaTeX outside of formulas; signs of formulas as LaTeX writes them."""
+    parts = _ACCENTED.split(normalize("NFD", printable(text)))
+    found = []
+    for plain, letter, accent in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""], strict=True):
+        found.append("".join(_LATEX.get(c) or _sign(c) for c in normalize("NFC", plain)))
+        if letter:
+            found.append(rf"\ensuremath{{\{_ACCENTS[accent]}{{{letter}}}}}")
+    return "".join(found)
+
+
+def _sign(c: str) -> str:
+    name = _SIGN.get(c)
+    if name is None:
+        return c
+    return rf"\ensuremath{{\{name}}}" if name[0].isalpha() else rf"\ensuremath{{{name}}}"
 
 
 def csv_text(text: str) -> str:

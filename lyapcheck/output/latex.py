@@ -7,11 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 from lyapcheck.output.escapes import latex_text, printable
 
+LONGEST = 40
+"""Characters of a cell beyond which its column is a paragraph."""
+PARAGRAPH = 0.4
 HEADINGS = (r"\section*", r"\subsection*", r"\subsubsection*", r"\paragraph*")
 
 
 def render(document: Document) -> str:
-    """The whole document; compile with a typesetter that knows Unicode, or copy the tables."""
+    """The whole document; signs beyond letters and formulas need a typesetter that knows Unicode."""
     lines = [f"{HEADINGS[0]}{{{latex_text(document.title)}}}", *_blocks(document.body, 1)]
     return "\n".join(lines) + "\n"
 
@@ -50,12 +53,19 @@ def _bullets(items: Iterable[str]) -> Iterator[str]:
 def _table(table: Table) -> Iterator[str]:
     if table.caption:
         yield from (latex_text(table.caption), "")
-    yield rf"\begin{{tabular}}{{{table.align}}}"
+    columns = map(_column, zip(table.heads, *table.rows, strict=True), table.align)
+    yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
     yield r"\hline"
     yield _row(table.heads)
     yield r"\hline"
     yield from map(_row, table.rows)
     yield from (r"\hline", r"\end{tabular}")
+
+
+def _column(cells: Sequence[str], side: str) -> str:
+    """Long words are set as a paragraph."""
+    long = side == "l" and max(map(len, cells)) > LONGEST
+    return rf"p{{{PARAGRAPH}\textwidth}}" if long else side
 
 
 def _row(cells: Sequence[str]) -> str:

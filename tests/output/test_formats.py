@@ -19,7 +19,7 @@ from markdown_it import MarkdownIt
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
-from lyapcheck.output.escapes import document_text, printable
+from lyapcheck.output.escapes import document_text, latex_text, printable
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.output.json import LONGEST, laid_out
 from lyapcheck.output.text import WIDTH, render
@@ -142,8 +142,13 @@ def test_html_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
 def test_latex_obeys_nothing(name: str) -> None:
     head = next(line for line in Sample(name).written("latex").splitlines() if line.startswith(r"\section*"))
     inside = head.removeprefix(r"\section*{").removesuffix("}")
-    bare = re.sub(r"\\text\w+\{\}|\\ensuremath\{\\[A-Za-z]+\}|\\[&%$#_{}]", "", inside)
+    bare = re.sub(r"\\text\w+\{\}|\\ensuremath\{([^{}]|\{[^{}]*\})*\}|\\[&%$#_{}]", "", inside)
     assert not set(bare) & set("\\&%$#_{}~^"), head
+
+
+def test_latex_writes_signs_of_formulas() -> None:
+    assert latex_text("γ_2 ≤ √3") == r"\ensuremath{\gamma}\_2 \ensuremath{\le} \ensuremath{\surd}3"
+    assert latex_text("q̇ᵀ é") == r"\ensuremath{\dot{q}}\ensuremath{^{T}} é"
 
 
 @QUICK

@@ -1,10 +1,9 @@
-"""The table of the integration method against its own order conditions and another print of it."""
+"""The table of the integration method against its own order conditions."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import DOP853
 
 from lyapcheck.simulate import dop853
 
@@ -15,15 +14,6 @@ def row(weights: dict[int, float], size: int = 16) -> np.ndarray:
 
 A = np.vstack([np.zeros(16), *map(row, dop853.STAGES), row(dop853.STEP), *map(row, dop853.EXTRA)])
 NODES = A.sum(axis=1)
-
-
-def test_the_table_is_the_one_scipy_has():
-    assert np.array_equal(A[:12, :12], DOP853.A)
-    assert np.array_equal(row(dop853.STEP)[:12], DOP853.B)
-    assert np.array_equal(A[13:, :16], DOP853.A_EXTRA)
-    assert np.array_equal(row(dop853.ERROR_5, 13), DOP853.E5)
-    assert np.array_equal(row(dop853.ERROR_3, 13), DOP853.E3)
-    assert np.array_equal(np.array([row(weights) for weights in dop853.DENSE]), DOP853.D)
 
 
 @pytest.mark.parametrize("k", range(8))

@@ -60,7 +60,7 @@ class Comparisons(Answer):
         """The times of all gain sets, then the errors of each, joint by joint."""
         behind = (Section(found.settling.name, tuple(_behind(found))) for found in self.results)
         assumed = dict.fromkeys(text for found in self.results for text in found.assumptions)
-        notes = (*LEGEND, *(f"Assumed: {text}." for text in assumed))
+        notes = (*LEGEND, *(f"{text}." for text in assumed))
         return Document(title(self.results), (_times(self.results), *behind), notes)
 
     def data(self) -> dict[str, Any]:

@@ -115,13 +115,15 @@ def one_line(text: str) -> str:
 
 
 def witness_text(witness: Mapping[str, Any]) -> str:
-    """A point at which a relation fails, and both of its sides there."""
+    """A point at which a relation fails, and both of its sides there; or what else shows that it fails."""
+    extra = [f"{name}: {_span(value)}" for name, value in witness.items() if name not in SIDES]
+    if "point" not in witness:
+        return "; ".join(extra)
     point = [f"{name} = {value}" for name, value in witness["point"].items()]
     shown, more = point[:SHOWN_COORDINATES], len(point) - SHOWN_COORDINATES
     place = f"at {', '.join([*shown, *([f'and {more} more'] if more > 0 else [])])}, " if shown else ""
     relation = RELATIONS.get(witness["operator"], witness["operator"])
     sides = f"left {_span(witness['left'])} is not {relation} right {_span(witness['right'])}"
-    extra = [f"{name}: {_span(value)}" for name, value in witness.items() if name not in SIDES]
     return "; ".join([place + sides, *extra])
 
 

@@ -127,7 +127,7 @@ def notes(results: Sequence[EpsilonResult]) -> list[str]:
         *LEGEND,
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
         *([f"Arm: {robots}, {_extent(results)}. Seed: {seeds}."] if results else []),
-        *(f"Assumed: {text}." for text in assumed),
+        *(f"{text}." for text in assumed),
     ]
 
 

@@ -80,7 +80,7 @@ class GateAnswer(tuple[GateResult, ...], Answer):
         yield from (f"({name}) {RULES[name]}" for name in shown)
         if any(check.id not in result.deciding for result in self for check in result.checks):
             yield NO_DECISION
-        yield from (f"assumed: {text}" for text in dict.fromkeys(_assumptions(self)))
+        yield from dict.fromkeys(_assumptions(self))
 
 
 def _assumptions(results: GateAnswer) -> Iterator[str]:

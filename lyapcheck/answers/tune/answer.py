@@ -87,7 +87,7 @@ class Tuning(Answer):
             *LIMITS,
             *([ENDS] if tuned else []),
             *([LEFT] if any(item.comparison is not None for item in tuned) else []),
-            *(f"Assumed: {text}." for text in self.limits.assumptions),
+            *(f"{text}." for text in self.limits.assumptions),
         )
 
 
