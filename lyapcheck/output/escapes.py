@@ -19,11 +19,12 @@ _LATEX = {
     **{c: f"\\{c}" for c in "&%$#_{}"},
 }
 _SIGNS = r"""
-α alpha β beta γ gamma δ delta ε varepsilon η eta θ theta κ kappa λ lambda μ mu π pi ρ rho σ sigma τ tau
-φ varphi χ chi ψ psi ω omega Γ Gamma Δ Delta Θ Theta Λ Lambda Σ Sigma Φ Phi Ψ Psi Ω Omega ∂ partial ∫ int √ surd
-≤ le ≥ ge ≠ ne ≈ approx ≻ succ ⪰ succeq ∈ in ∀ forall → to ∞ infty ‖ Vert · cdot × times ± pm ✓ surd ✗ times ½ frac12
-¼ frac14 − - < < > > | | ′ ^{\prime} ″ ^{\prime\prime} ° ^{\circ} ᵀ ^{T} ᵢ _{i}
-₀ _0 ₁ _1 ₂ _2 ₃ _3 ₄ _4 ₅ _5 ₆ _6 ₇ _7 ₈ _8 ₉ _9 ⁰ ^0 ¹ ^1 ² ^2 ³ ^3 ⁴ ^4 ⁵ ^5 ⁶ ^6 ⁷ ^7 ⁸ ^8 ⁹ ^9
+α alpha β beta γ gamma δ delta ε varepsilon η eta θ theta κ kappa λ lambda μ mu π pi ρ rho σ sigma
+τ tau φ varphi χ chi ψ psi ω omega Γ Gamma Δ Delta Θ Theta Λ Lambda Σ Sigma Φ Phi Ψ Psi Ω Omega
+∂ partial ∫ int √ surd ≤ le ≥ ge ≠ ne ≈ approx ≻ succ ⪰ succeq ∈ in ∀ forall → to ∞ infty ‖ Vert
+· cdot × times ± pm ✓ surd ✗ times ½ frac12 ¼ frac14 − - < < > > | | ′ ^{\prime} ″ ^{\prime\prime}
+° ^{\circ} ᵀ ^{T} ᵢ _{i} ₀ _0 ₁ _1 ₂ _2 ₃ _3 ₄ _4 ₅ _5 ₆ _6 ₇ _7 ₈ _8 ₉ _9 ⁰ ^0 ¹ ^1 ² ^2 ³ ^3 ⁴ ^4
+⁵ ^5 ⁶ ^6 ⁷ ^7 ⁸ ^8 ⁹ ^9
 """.split()  # noqa: SIM905 (a list of these would be a page)
 """Signs of formulas, each with what LaTeX calls it."""
 _SIGN = dict(zip(_SIGNS[::2], _SIGNS[1::2], strict=True))
