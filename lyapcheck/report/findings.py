@@ -32,7 +32,8 @@ def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
     for claim_id, rows in refuted.items():
         first = rows[0]
         ms = tuple(row["m"] for row in rows if row["m"] is not None)
-        yield Finding(f"claim {claim_id}", ms, f"“{first['comment']}”: {witness_words(first)}", "refuted")
+        text = f"“{first['comment']}”: {witness_words(first)}"
+        yield Finding(f"claim {claim_id}", ms, text, first["verdict"])
 
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
@@ -42,7 +43,7 @@ def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
         if result["verdict"] == "rejected" and result["m"] is not None and broken:
             first, rest = broken[0]["message"], len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
-            yield Finding(f"gains {result['name']}", (result["m"],), first + more, "rejected")
+            yield Finding(f"gains {result['name']}", (result["m"],), first + more, result["verdict"])
 
 
 def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
@@ -59,7 +60,7 @@ def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
                 f"(18) allows ε₀ up to {float(published):.4g}, but dV/dt > 0 at a state found for "
                 f"ε₀ = {float(falsified):.4g}"
             )
-            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "refuted")
+            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "contradicted")
 
 
 def _experiment(study: Data) -> Iterator[Finding]:

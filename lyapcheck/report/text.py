@@ -75,6 +75,8 @@ MOST_COORDINATES = 3
 def witness_words(row: Data) -> str:
     """Both sides of a refuted relation in a few digits, and where: for an overview."""
     witness = row["witness"]
+    if "point" not in witness:
+        return "; ".join(f"{name}: {value}" for name, value in witness.items())
     point = [f"{name} = {value}" for name, value in witness["point"].items()]
     where = f" at {', '.join(point)}" if 0 < len(point) <= MOST_COORDINATES else ""
     left, right = (span_words(witness[side]) for side in ("left", "right"))
