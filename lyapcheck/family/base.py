@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.errors import argument_error
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -102,21 +103,34 @@ class Family(ABC):
         """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""
         return self.casadi(x)
 
+    @property
+    def checked(self) -> Member:
+        """The function of this name that the checker knows.
+
+        Raises:
+            InputError: there is none.
+        """
+        try:
+            return member(self.name, self.m)
+        except ValueError as error:
+            repair = "give the checker a file for it, see docs/adding.md, or choose another family"
+            raise argument_error("family", self.name, str(error), repair) from error
+
     def ball_h(self, x: arb) -> arb:
         """A ball that contains h over the ball x; by default that of the checker."""
-        return member(self.name, self.m).h(x)
+        return self.checked.h(x)
 
     def ball_dh(self, x: arb) -> arb:
         """A ball that contains h' over the ball x; by default that of the checker."""
-        return member(self.name, self.m).dh(x)
+        return self.checked.dh(x)
 
     def ball_potential(self, x: arb) -> arb:
         """A ball that contains U over the ball x; by default that of the checker."""
-        return member(self.name, self.m).potential(x)
+        return self.checked.potential(x)
 
     def ball_secant(self, x: arb) -> arb:
         """A ball that contains h(x)/x over the ball x; by default that of the checker."""
-        return member(self.name, self.m).secant(x)
+        return self.checked.secant(x)
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The x > 0 at which h, and those at which h', may stop being monotone; none by default."""

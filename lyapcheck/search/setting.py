@@ -123,7 +123,13 @@ class Setting:
         return mass_proof(mass_of(self.fixed))
 
     def closure(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> Closure:
-        """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given."""
+        """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given.
+
+        Raises:
+            InputError: the checker does not know the function of the controller.
+        """
+        if self.family.bounded:
+            _ = self.family.checked
         model = self.ranged
         mass = tuple(tuple(_terms(entry) for entry in row) for row in model.mass)
         # what M does not depend on, gravity for one, is no side of the boxes

@@ -21,5 +21,5 @@ def find_attempt(statement: Statement) -> Finding:
             continue
         if verdict == "proved":
             return shown(proof, proof.rule)
-        return broken(proof, proof.rule, {})
+        return broken(proof, proof.rule, {"shown by": proof.rule})
     return still_open(reason, "attempts")

@@ -1,0 +1,1 @@
+"""``docs/adding.md`` as it stands: its files are written, its commands run, its output compared."""

@@ -1,0 +1,233 @@
+"""Adding is adding a file: every example of ``docs/adding.md`` works, from outside of the package."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.extending.page import Call, File, Workshop, sections
+
+KIND, FAMILY, ARM, ANSWER, FORMAT = TITLES = (
+    "A kind of claim",
+    "A family",
+    "An arm",
+    "An answer",
+    "A format",
+)
+FORMATS = ("csv", "html", "json", "latex", "markdown", "org", "text")
+
+
+@pytest.fixture
+def workshop(tmp_path: Path) -> Workshop:
+    """With nothing added yet."""
+    return Workshop(tmp_path)
+
+
+@pytest.fixture
+def furnished(workshop: Workshop) -> Workshop:
+    """With every file of the page."""
+    for items in sections().values():
+        for item in items:
+            if isinstance(item, File):
+                workshop.put(item)
+    return workshop
+
+
+def test_the_page_shows_files_and_commands_for_each_of_the_five() -> None:
+    assert tuple(sections()) == TITLES
+    for items in sections().values():
+        assert {type(item) for item in items} == {File, Call}
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_each_command_prints_what_the_page_says(workshop: Workshop, title: str) -> None:
+    """Each command after the files that stand before it."""
+    workshop.up_to(title)
+    for item in sections()[title]:
+        if isinstance(item, File):
+            workshop.put(item)
+            continue
+        done = workshop.run(item.command)
+        assert done.returncode in (0, 1), done.stderr
+        assert is_excerpt(item.output, done.stdout), f"{item.command} prints\n{done.stdout}"
+
+
+def is_excerpt(excerpt: str, whole: str) -> bool:
+    """Whether a text is that of an excerpt, with any lines at each … of it."""
+    parts = [re.escape(part) for part in re.split("^…\n", excerpt, flags=re.MULTILINE)]
+    return re.fullmatch("(?:.*\n)*?".join(parts), whole) is not None
+
+
+def test_an_excerpt_leaves_out_whole_lines_where_it_says_so() -> None:
+    assert is_excerpt("a\n…\nc\n", "a\nb\nc\n")
+    assert is_excerpt("…\nc\n…\n", "a\nb\nc\n")
+    assert not is_excerpt("a\nc\n", "a\nb\nc\n")
+    assert not is_excerpt("a\n…\n", "b\na\n")
+
+
+class TestKind:
+    """A kind of claim."""
+
+    @pytest.fixture
+    def made(self, furnished: Workshop) -> Workshop:
+        """With the certificates of the page."""
+        assert furnished.run("lyapcheck check servo.py --certificates made").returncode == 1
+        return furnished
+
+    def test_its_certificates_are_accepted_and_rest_on_its_file(self, made: Workshop) -> None:
+        done = made.run("lyapcheck recheck made --trusted --format json")
+        found = json.loads(done.stdout)
+        rows = {row["id"]: (row["status"], row["verdict"]) for row in found["certificates"]}
+        assert rows == {"k5": ("accepted", "proved"), "k7": ("accepted", "refuted")}
+        for verdict in ("proved", "refuted"):
+            assert "lyapcheck.check.kinds.hurwitz" in found["trusted"][verdict]["modules"]
+
+    def test_a_forged_verdict_is_refused(self, made: Workshop) -> None:
+        code = (
+            "import json; from pathlib import Path; from lyapcheck.check.certificate import digest_of\n"
+            "file = Path('made/k7.json'); data = json.loads(file.read_text()) | {'verdict': 'proved'}\n"
+            "del data['digest']; file.write_text(json.dumps(data | {'digest': digest_of(data)}))"
+        )
+        assert made.python(code).returncode == 0
+        done = made.run("lyapcheck recheck made/k7.json")
+        assert done.returncode == 1
+        assert "verdict = proved: the proof gives refuted" in done.stdout
+
+    def test_a_checker_without_the_file_does_not_look_for_it(self, made: Workshop) -> None:
+        """Neither beside the certificates nor where the user has files of his own."""
+        source = made.copy / "lyapcheck" / "check" / "kinds" / "hurwitz.py"
+        for place in (made.folder / "hurwitz.py", made.mine / "check" / "kinds" / "hurwitz.py"):
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_text("raise SystemExit('loaded')\n" + source.read_text(encoding="utf-8"))
+        done = made.run("lyapcheck recheck made", copied=False)
+        assert done.returncode == 1
+        assert done.stdout.count("Hurwitz: is not a kind that the checker knows") == 2
+
+    def test_a_polynomial_that_is_none_is_undecided(self, furnished: Workshop) -> None:
+        text = (furnished.folder / "servo.py").read_text(encoding="utf-8")
+        (furnished.folder / "none.py").write_text(text.replace("(1, 3, 2, k)", "(0, 3, 2, k)"))
+        done = furnished.run("lyapcheck check none.py")
+        assert done.returncode == 3
+        assert "must be positive" in done.stdout
+
+    def test_how_it_is_decided_is_what_its_search_says_or_the_kind(self, furnished: Workshop) -> None:
+        explain = "lyapcheck explain k5 --proof servo.py"
+        assert "floating point says where the\nroots are" in furnished.run(explain).stdout
+        (furnished.mine / "claims" / "procedures" / "hurwitz.py").unlink()
+        assert "negative real parts, by Routh's" in furnished.run(explain).stdout
+
+
+class TestFamily:
+    """A family with its balls."""
+
+    def test_its_doubles_lie_in_its_balls(self, furnished: Workshop) -> None:
+        code = """
+import numpy as np
+from flint import arb
+from lyapcheck.family import named
+f = named("gentle")
+x = np.concatenate([np.geomspace(1e-150, 1e300, 400), [0.0], -np.geomspace(1e-150, 1e300, 400)])
+for form in ("h", "dh", "potential", "secant"):
+    ball = getattr(f, f"ball_{form}")
+    exact = np.array([float(ball(arb(float(v))).mid()) for v in x])
+    assert np.allclose(getattr(f, form)(x), exact, rtol=2e-15, atol=0), form
+assert f.h(np.inf) == 1
+"""
+        done = furnished.python(code)
+        assert not done.stderr
+
+    def test_without_balls_for_the_checker_it_runs_and_is_not_certified(self, furnished: Workshop) -> None:
+        run = "lyapcheck simulate gentle.toml --target 30 --time 8"
+        assert furnished.run(run, copied=False).stdout == furnished.run(run).stdout != ""
+        done = furnished.run("lyapcheck epsilon gentle.toml", copied=False)
+        assert done.returncode == 2
+        assert "no bounded function 'gentle' is known to the checker" in done.stderr
+        assert "docs/adding.md" in done.stderr
+
+    def test_its_certificates_rest_on_its_balls(self, furnished: Workshop) -> None:
+        assert furnished.run("lyapcheck epsilon gentle.toml --certificates soft").returncode == 0
+        found = json.loads(furnished.run("lyapcheck recheck soft --trusted --format json").stdout)
+        assert "lyapcheck.check.numbers.functions.gentle" in found["trusted"]["proved"]["modules"]
+        refused = furnished.run("lyapcheck recheck soft", copied=False)
+        assert refused.returncode == 1
+        assert "no bounded function 'gentle' is known to the checker" in refused.stdout
+
+
+class TestArm:
+    """An arm; the package is the one that is installed."""
+
+    def test_it_has_its_name_and_its_path(self, furnished: Workshop) -> None:
+        code = "from lyapcheck.robots import load, names; print('bench' in names())\n"
+        code += "for arm in ('bench', 'mine/robots/arms/bench.toml'): print(load(arm).name, load(arm).mass)"
+        done = furnished.python(code, copied=False)
+        listed, by_name, by_path = done.stdout.splitlines()
+        assert listed == "True"
+        assert by_name == by_path
+        assert by_name.startswith("bench ")
+
+    def test_gain_files_name_it(self, furnished: Workshop) -> None:
+        gains = '[[gains]]\nname = "a"\nm = 2\nkp = [20, 5]\nkv = [0.06, 0.05]\n'
+        (furnished.folder / "gains.toml").write_text(f'robot = "bench"\n{gains}')
+        done = furnished.run("lyapcheck gate gains.toml", copied=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert "friction of elbow = 0.3 N·m·s/rad is assumed" in " ".join(done.stdout.split())
+
+    def test_it_does_not_take_the_name_of_another(self, furnished: Workshop) -> None:
+        arms = furnished.mine / "robots" / "arms"
+        (arms / "bench.toml").rename(arms / "pelican2.toml")
+        done = furnished.python(
+            "from lyapcheck.robots import load; print(load('pelican2').title)", copied=False
+        )
+        assert done.stdout.startswith("Pelican arm")
+
+
+class TestAnswer:
+    """An answer; the package is the one that is installed."""
+
+    @pytest.mark.parametrize("form", FORMATS)
+    def test_it_has_every_format(self, furnished: Workshop, form: str) -> None:
+        done = furnished.run(f"lyapcheck torque gentle.toml --format {form}", copied=False)
+        assert done.returncode == 0, done.stderr
+        assert "soft" in done.stdout
+        assert "3.400" in done.stdout
+
+    def test_help_names_it_and_it_takes_no_other_name(self, furnished: Workshop) -> None:
+        (furnished.mine / "cli" / "torque.py").replace(furnished.mine / "cli" / "gate.py")
+        assert "judges them" in furnished.run("lyapcheck --help", copied=False).stdout
+        furnished.put(next(item for item in sections()[ANSWER] if isinstance(item, File)))
+        shown = furnished.run("lyapcheck --help", copied=False).stdout
+        assert "torque    Bound the torque that gains can ask for, gravity aside." in shown
+
+    def test_an_unbounded_function_has_no_bound(self, furnished: Workshop) -> None:
+        path = furnished.folder / "gentle.toml"
+        path.write_text(path.read_text(encoding="utf-8").replace('"gentle"', '"linear"'))
+        assert "unbounded" in furnished.run("lyapcheck torque gentle.toml", copied=False).stdout
+
+
+class TestFormat:
+    """A format; the package is the one that is installed."""
+
+    def test_answers_are_written_in_it(self, furnished: Workshop) -> None:
+        code = """
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.table import build_table
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+print(build_table([1, 2], 4).written("org"))
+print(gate(read_gain_file(paper_gain_file())).written("org"))
+"""
+        done = furnished.python(code, copied=False)
+        assert "| 2 | 1.053 | 1.674 | 0.8673 |" in done.stdout, done.stderr
+        assert done.stdout.count("\n* ") == 1
+
+    def test_every_command_takes_it_and_names_cannot_break_it(self, furnished: Workshop) -> None:
+        path = furnished.folder / "gentle.toml"
+        path.write_text(path.read_text(encoding="utf-8").replace('"soft"', '"so|ft"'))
+        for command in ("torque gentle.toml", "gate gentle.toml", "tune pendulum1 --m 1"):
+            done = furnished.run(f"lyapcheck {command} --format org", copied=False)
+            assert done.stdout.startswith("* "), done.stderr
+            assert "so|f" not in done.stdout
+        assert r"so\vert{}ft" in furnished.run("lyapcheck torque gentle.toml --format org").stdout
