@@ -35,7 +35,7 @@ test-robots: .venv/.ready
 	$(BIN)/pytest tests/robots/against_pinocchio.py
 
 fuzz: .venv/.ready
-	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md
+	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json
 
 lint: .venv/.ready
 	$(BIN)/ruff check .

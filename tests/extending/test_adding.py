@@ -144,7 +144,7 @@ assert f.h(np.inf) == 1
         assert furnished.run(run, copied=False).stdout == furnished.run(run).stdout != ""
         done = furnished.run("lyapcheck epsilon gentle.toml", copied=False)
         assert done.returncode == 2
-        assert "no bounded function 'gentle' is known to the checker" in done.stderr
+        assert "no bounded function 'gentle' with m = None is known to the checker" in done.stderr
         assert "docs/adding.md" in done.stderr
 
     def test_its_certificates_rest_on_its_balls(self, furnished: Workshop) -> None:
@@ -153,7 +153,7 @@ assert f.h(np.inf) == 1
         assert "lyapcheck.check.numbers.functions.gentle" in found["trusted"]["proved"]["modules"]
         refused = furnished.run("lyapcheck recheck soft", copied=False)
         assert refused.returncode == 1
-        assert "no bounded function 'gentle' is known to the checker" in refused.stdout
+        assert "no bounded function 'gentle' with m = None is known to the checker" in refused.stdout
 
 
 class TestArm:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
 from collections import Counter
@@ -27,9 +28,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--shown", type=int, default=2, help="faults of each sort to print")
     parser.add_argument("--report", type=Path, help="where to write the page of figures")
+    parser.add_argument(
+        "--record", type=Path, help="a file of counts: a run goes on where the last one ended"
+    )
     options = parser.parse_args(arguments)
     started = time.monotonic()
-    tally, printed = Tally(), Counter[tuple[str, ...]]()
+    tally, printed = _recorded(options), Counter[tuple[str, ...]]()
+    options.first, options.statements = (
+        options.first + tally.statements,
+        options.statements - tally.statements,
+    )
     for part in _parts(options):
         tally += part
         _print_faults(part, printed, options.shown)
@@ -37,6 +45,9 @@ def main(arguments: list[str] | None = None) -> int:
         if options.report is not None:  # after every part: an interrupted run leaves what it did
             options.report.parent.mkdir(parents=True, exist_ok=True)
             options.report.write_text(markdown(tally, options.seed), encoding="utf-8")
+        if options.record is not None:
+            counts = {"seed": options.seed} | tally.data()
+            options.record.write_text(json.dumps(counts, ensure_ascii=False, indent=1) + "\n")
     seconds = time.monotonic() - started
     for sort, count in Counter(judged.signature for _, judged in tally.faults).most_common():
         print(f"{count} × {' | '.join(sort)}")
@@ -45,6 +56,16 @@ def main(arguments: list[str] | None = None) -> int:
         f"{seconds:.0f} s, {seconds / max(options.statements, 1) * 10_000:.0f} s for 10 000", file=sys.stderr
     )
     return int(bool(tally.faults))
+
+
+def _recorded(options: argparse.Namespace) -> Tally:
+    """What earlier runs of the same seed counted."""
+    if options.record is None or not options.record.exists():
+        return Tally()
+    counts = json.loads(options.record.read_text(encoding="utf-8"))
+    if counts.pop("seed") != options.seed:
+        raise SystemExit(f"{options.record} is of another seed")
+    return Tally.of(counts)
 
 
 def _parts(options: argparse.Namespace) -> Iterator[Tally]:

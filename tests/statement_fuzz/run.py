@@ -5,9 +5,31 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 from tests.statement_fuzz.generators import draw
 from tests.statement_fuzz.judge import Judged, judge
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A fault of an earlier run, of which the words are left."""
+
+    words: str
+
+    @property
+    def kind(self) -> str:
+        """The kind of statement."""
+        return self.words.partition(",")[0]
+
+    @property
+    def signature(self) -> tuple[str, ...]:
+        """What faults of the same sort have in common."""
+        return (self.words.partition("\n")[0],)
+
+    def text(self) -> str:
+        """The fault with the statement."""
+        return self.words
 
 
 @dataclass
@@ -16,7 +38,7 @@ class Tally:
 
     verdicts: Counter[tuple[str, str]] = field(default_factory=Counter)
     families: Counter[tuple[str, str, str]] = field(default_factory=Counter)
-    faults: list[tuple[int, Judged]] = field(default_factory=list)
+    faults: list[tuple[int, Judged | Recorded]] = field(default_factory=list)
 
     def enter(self, index: int, judged: Judged) -> None:
         """Count one statement."""
@@ -31,6 +53,21 @@ class Tally:
             self.families + other.families,
             sorted([*self.faults, *other.faults], key=lambda f: f[0]),
         )
+
+    def data(self) -> dict[str, Any]:
+        """The counts as plain data; of the faults their number and words."""
+        return {
+            "verdicts": [[*key, count] for key, count in sorted(self.verdicts.items())],
+            "families": [[*key, count] for key, count in sorted(self.families.items())],
+            "faults": [[index, judged.text()] for index, judged in self.faults],
+        }
+
+    @classmethod
+    def of(cls, data: dict[str, Any]) -> Tally:
+        """The tally of some data."""
+        verdicts = Counter({(kind, verdict): count for kind, verdict, count in data["verdicts"]})
+        families = Counter({(kind, name, verdict): count for kind, name, verdict, count in data["families"]})
+        return cls(verdicts, families, [(index, Recorded(text)) for index, text in data["faults"]])
 
     @property
     def statements(self) -> int:

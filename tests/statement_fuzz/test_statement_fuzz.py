@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
@@ -251,3 +252,15 @@ def test_the_command_counts_and_writes_its_page(tmp_path: Any, capsys: Any) -> N
     assert code == 0
     assert "20 statements" in capsys.readouterr().out
     assert "| BoundEveryN | 20 |" in page.read_text(encoding="utf-8")
+
+
+def test_a_record_goes_on_where_it_ended(tmp_path) -> None:
+    record, page = tmp_path / "r.json", tmp_path / "r.md"
+    both = ["--seed", "5", "--record", str(record), "--report", str(page), "--only", "Constant"]
+    assert main(["--statements", "30", *both]) == 0
+    assert main(["--statements", "50", *both]) == 0
+    whole = run(5, range(50), "Constant")
+    assert Tally.of(json.loads(record.read_text())) == whole
+    assert page.read_text() == markdown(whole, 5)
+    with pytest.raises(SystemExit, match="another seed"):
+        main(["--statements", "50", *both[2:], "--seed", "6"])

@@ -62,7 +62,7 @@ def member(name: str, m: int | None = None) -> Member:
     """
     create = _creators().get(name)
     if create is None:
-        raise ValueError(f"no bounded function {name!r} is known to the checker")
+        raise unknown(name, m)
     return create(m)
 
 
@@ -82,4 +82,9 @@ def require_single(name: str, m: int | None) -> None:
         ValueError: there is one.
     """
     if m is not None:
-        raise ValueError(f"{name} has no member m = {m}")
+        raise unknown(name, m)
+
+
+def unknown(name: str, m: int | None) -> ValueError:
+    """What is raised for a function that there is not."""
+    return ValueError(f"no bounded function {name!r} with m = {m} is known to the checker")

@@ -9,7 +9,7 @@ from functools import partial
 
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.members import Member
+from lyapcheck.check.numbers.members import Member, unknown
 
 
 def create(m: int | None) -> Member:
@@ -19,7 +19,7 @@ def create(m: int | None) -> Member:
         ValueError: there is no such member.
     """
     if not isinstance(m, int) or m < 1:
-        raise ValueError(f"hyperbolic has no member m = {m}")
+        raise unknown("hyperbolic", m)
     found = hyperbolic_constants(m)
     bounds = found.gamma.upper, found.rho.upper, found.L.upper
     h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
