@@ -183,7 +183,7 @@ def epsilon_row(**numbers: str | None) -> dict[str, Any]:
     ("row", "kinds"),
     [
         (epsilon_row(published="0.1", certified="0.2", falsified="0.3"), []),
-        (epsilon_row(published="0.4", certified="0.2", falsified="0.3"), ["refuted"]),
+        (epsilon_row(published="0.4", certified="0.2", falsified="0.3"), ["contradicted"]),
         (epsilon_row(certified="0.2", falsified="0.3"), ["empty"]),
         (epsilon_row(), ["empty"]),
     ],
