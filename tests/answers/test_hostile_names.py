@@ -139,9 +139,12 @@ def check_csv(text: str) -> None:
 def check_latex(text: str) -> None:
     """No command and no special character but those of documents."""
     for line in text.splitlines():
-        bare = re.sub(r"\\text\w+\{\}|\\[&%$#_{}]", "", line)
+        bare = re.sub(r"\\ensuremath\{([^{}]|\{[^{}]*\})*\}|\\text\w+\{\}|\\[&%$#_{}]", "", line)
         bare = re.sub(r"^\\(?:(?:sub)*section|paragraph)\*\{(.*)\}$", r"\1", bare)
-        bare = re.sub(r"^\\(begin|end)\{\w+\}(\{[lr]+\}|\\ttfamily)?$|^\\hline$|^  \\item \{\}", "", bare)
+        columns = r"\{([lr]|p\{[\d.]+\\textwidth\})+\}"
+        bare = re.sub(
+            rf"^\\(begin|end)\{{\w+\}}({columns}|\\ttfamily)?$|^\\hline$|^  \\item \{{\}}", "", bare
+        )
         bare = re.sub(r" & |\\\\$", "", bare)
         assert not set(bare) & set("\\&%$#_{}~^"), line
 
