@@ -40,14 +40,14 @@ def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> 
     """
     n = model.n
     state, goal = ca.MX.sym("state", 3 * n), ca.MX.sym("q_d", n)
-    torque, reading = _controller(gains, model, bench)(state[:n], state[2 * n :], goal)
-    arm = _runge_kutta(gains, model, bench, bench.period / substeps).mapaccum(substeps)
+    torque, reading = controller(gains, model, bench)(state[:n], state[2 * n :], goal)
+    arm = _runge_kutta(model, bench, bench.period / substeps).mapaccum(substeps)
     moved = arm(state[: 2 * n], ca.repmat(torque, 1, substeps))[:, -1]
     return ca.Function("period", [state, goal], [ca.vertcat(moved, reading), torque])
 
 
-def _controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
-    """(q, last reading, q_d) ↦ (torque after the motors' limits, new reading)."""
+def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
+    """The CasADi function (q, last reading, q_d) ↦ (torque after the motors' limits, new reading)."""
     from lyapcheck.robots import graph
 
     n = model.n
@@ -66,12 +66,17 @@ def read_encoders(q: Any, counts: Sequence[int | None]) -> Any:
     return ca.vertcat(*(q[i] if a is None else a * ca.floor(q[i] / a + 0.5) for i, a in enumerate(line)))
 
 
-def _runge_kutta(gains: Gains, model: RobotModel, bench: Bench, h: float) -> Any:
+def arm_rate(model: RobotModel, bench: Bench) -> Any:
+    """The CasADi function (x, τ) ↦ ẋ of the arm with dry friction, x = (q, w)."""
     n = model.n
     x, torque = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n)
-    rate = ca.Function(
-        "rate", [x, torque], [ca.vertcat(x[n:], _acceleration(model, bench, x[:n], x[n:], torque))]
-    )
+    rate = ca.vertcat(x[n:], _acceleration(model, bench, x[:n], x[n:], torque))
+    return ca.Function("rate", [x, torque], [ca.densify(rate)])
+
+
+def _runge_kutta(model: RobotModel, bench: Bench, h: float) -> Any:
+    x, torque = ca.SX.sym("x", 2 * model.n), ca.SX.sym("tau", model.n)
+    rate = arm_rate(model, bench)
     k1 = rate(x, torque)
     k2 = rate(x + h / 2 * k1, torque)
     k3 = rate(x + h / 2 * k2, torque)
@@ -96,17 +101,17 @@ def dry_friction(model: RobotModel) -> list[float]:
 def enough_substeps(model: RobotModel, bench: Bench) -> int:
     """Runge–Kutta steps in a period with which the steep part of the dry friction is integrated stably.
 
-    The fastest rate is λmax(M⁻¹ F_c)/creep, taken over a fixed set of postures with half as much again for
-    the postures between; the method is stable up to 2.78 of it and is asked for 1.5.
+    The fastest rate is λmax(M⁻¹ (F_c/creep + B)), taken over a fixed set of postures with half as much again
+    for the postures between; the method is stable up to 2.78 of it and is asked for 1.5.
     """
     from lyapcheck.robots import graph
 
     q = ca.SX.sym("q", model.n)
     mass = ca.Function("mass", [q], [graph.mass(model, q)])
-    friction = np.diag(dry_friction(model))
+    friction = np.diag(np.array(dry_friction(model)) / bench.creep + [float(b.value) for b in model.viscous])
     postures = np.random.default_rng(0).uniform(-math.pi, math.pi, size=(64, model.n))
     fastest = max(
         float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(np.array(mass(p)), friction)))))
         for p in postures
     )
-    return max(5, math.ceil(1.5 * fastest / bench.creep * bench.period / 1.5))
+    return max(5, math.ceil(1.5 * fastest * bench.period / 1.5))

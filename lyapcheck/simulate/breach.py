@@ -32,7 +32,7 @@ class Breach:
 
     promise: str
     index: int
-    """The sample at which it broke."""
+    """Which of the states that were looked at broke it: samples, ends of steps and extremes."""
     t: float
     at: Sample
     value: float

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.breach import (
     Breach,
     Watched,
@@ -21,6 +22,7 @@ from lyapcheck.simulate.breach import (
     rate_monitor,
 )
 from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
+from lyapcheck.simulate.extremes import with_extremes
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory, integrate
 from lyapcheck.simulate.results import LEAST_ENERGY, Motion, noise_of, run_of
 from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
@@ -66,7 +68,8 @@ def simulate(
         w0: (n,) initial rates in rad/s; rest if missing.
         T: seconds.
         eps0: the ε₀ of V; 0 if missing, and then V is the energy.
-        points: samples handed back, evenly spaced, both ends included.
+        points: samples handed back, evenly spaced, both ends included. Indices, promises and breaches are
+            of the integrator's dense output, extremes between samples included.
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
         stop: end the run at the first state that breaks a promise: dV/dt ≤ 0, the bound (9), a motor's limit.
@@ -90,16 +93,31 @@ def simulate(
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else _difference(rough, fine, model.n)
     with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
+        every = with_extremes(fine, lambda path: _watched(loop, setup, path))
+        breach = _broken(setup, _reference(loop, setup, every, accuracy))
+        if breach is not None and stop:
+            fine, every = fine.until(breach.t), every.until(breach.t)
+        seen = _reference(loop, setup, every, accuracy)
         run = _reference(loop, setup, fine, accuracy)
-        breach = _broken(setup, run)
+        run = replace(run, indices=seen.indices, promises=seen.promises, breach=breach)
     if breach is not None and stop:
-        end = breach.index + 1
-        short = Trajectory(fine.t[:end], fine.y[:end], "stopped")
-        partial = replace(_reference(loop, setup, short, accuracy), breach=breach)
-        raise PromiseBroken(f"{setup.title}: {breach.sentence}", partial, breach)
+        raise PromiseBroken(f"{setup.title}: {breach.sentence}", run, breach)
     if failure is not None:
-        raise SimulationFailed(f"{setup.title}: {failure}", replace(run, breach=breach))
-    return replace(run, breach=breach)
+        raise SimulationFailed(f"{setup.title}: {failure}", run)
+    return run
+
+
+def _watched(loop: ClosedLoop, setup: Setup, path: Trajectory) -> Array:
+    """(N, 2n + 1) what has a limit or is an index: τ, ‖τ‖² and e; and dV/dt where V is not the energy."""
+    n, goal = loop.n, np.array(setup.task.q_d)
+    tau = np.array(loop.signals().map(path.t.size)(path.y.T, goal)[0]).T
+    q, w = path.y[:, :n], path.y[:, n : 2 * n]
+    columns = [tau, np.sum(tau * tau, axis=1, keepdims=True), goal - q]
+    if setup.eps0:
+        gains = setup.gains
+        certificate = LyapunovNumeric(setup.model, gains.family, gains.kp, gains.kv, setup.eps0)
+        columns.append(certificate.rate(q, goal - q, w)[:, None])
+    return np.hstack(columns)
 
 
 def _broken(setup: Setup, run: Run) -> Breach | None:

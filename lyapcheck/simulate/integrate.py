@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ MAX_STEPS = 200_000
 """Steps of one integration; the paper's runs take about 500."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trajectory:
     """A solution at the times asked for, or as many of them as were reached."""
 
@@ -24,8 +24,20 @@ class Trajectory:
     """(N,)"""
     y: Array
     """(N, d)"""
+    steps: Array
+    """(S,) the start and the ends of the method's steps."""
+    dense: Callable[[Array], Array]
+    """The solution (d, K) at any (K,) times that were reached, by the method's own dense output."""
     failure: str | None = None
     """Why the integration stopped early; none if it reached the end."""
+
+    def at(self, times: Array) -> Trajectory:
+        """The same solution at other (K,) times that were reached."""
+        return replace(self, t=times, y=self.dense(times).T)
+
+    def until(self, end: float) -> Trajectory:
+        """The same solution as far as a time that was reached, which is its last."""
+        return replace(self.at(np.append(self.t[self.t < end], end)), failure="stopped")
 
 
 def integrate(
@@ -52,46 +64,31 @@ def integrate(
 
     Soundness: an error estimate per step is not a bound: compare with a run at a smaller tolerance.
     """
-    from scipy.integrate import LSODA
+    from scipy.integrate import LSODA, OdeSolution
 
-    grid = _Grid(t, y0)
+    steps, pieces = [float(t[0])], []
     with np.errstate(all="ignore"):
         solver = LSODA(rate, t[0], y0, t[-1], rtol=tolerance, atol=tolerance / 100, jac=jacobian)
-        failure = _march(solver, grid, on_time or _silent, max_steps)
-    return Trajectory(t[: grid.reached], grid.y[: grid.reached], failure)
+        for count in range(max_steps):
+            failure = _step(solver)
+            if failure is None and solver.t > steps[-1]:
+                steps.append(solver.t)
+                pieces.append(solver.dense_output())
+            if failure is not None or solver.status != "running":
+                break
+            if on_time is not None and count % 64 == 0:
+                on_time(solver.t)
+        else:
+            failure = f"{max_steps} steps were not enough, t = {solver.t:.6g} s was reached"
+    solution = OdeSolution(steps, pieces, alt_segment=True) if pieces else None
 
+    def dense(times: Array) -> Array:
+        values = np.empty((y0.size, times.size)) if solution is None else solution(times)
+        values[:, times <= t[0]] = y0[:, None]  # exactly, which the polynomial of the first step is not
+        return values
 
-class _Grid:
-    """The rows of the answer that are filled so far."""
-
-    def __init__(self, t: Array, y0: Array) -> None:
-        self.t = t
-        self.y = np.empty((t.size, y0.size))
-        self.y[0] = y0
-        self.reached = 1
-
-    def fill(self, until: float, dense: Callable[[Array], Array]) -> None:
-        stop = int(np.searchsorted(self.t, until, side="right"))
-        if stop > self.reached:
-            self.y[self.reached : stop] = dense(self.t[self.reached : stop]).T
-            self.reached = stop
-
-
-def _march(solver: Any, grid: _Grid, on_time: Callable[[float], None], max_steps: int) -> str | None:
-    for count in range(max_steps):
-        if solver.status != "running":
-            return None
-        failure = _step(solver)
-        if failure is not None:
-            return failure
-        grid.fill(solver.t, solver.dense_output())
-        if count % 64 == 0:
-            on_time(solver.t)
-    return (
-        None
-        if solver.status == "finished"
-        else f"{max_steps} steps were not enough, t = {solver.t:.6g} s was reached"
-    )
+    reached = t[t <= steps[-1]]
+    return Trajectory(reached, dense(reached).T, np.array(steps), dense, failure)
 
 
 def _step(solver: Any) -> str | None:
@@ -108,7 +105,3 @@ def _step(solver: Any) -> str | None:
     if not np.all(np.isfinite(solver.y)):
         return f"the state is no longer finite at t = {before:.6g} s"
     return None
-
-
-def _silent(time: float) -> None:
-    pass

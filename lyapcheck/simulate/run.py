@@ -15,7 +15,7 @@ class Promises:
     """What theory says about a run beside what the run shows: observations in floating point, not proofs."""
 
     V_decreases: bool
-    """V never rose between two samples by more than the run's own error."""
+    """V never rose from one time to the next, the integrator's steps among them, by more than its error."""
     V_rises_at: float | None
     """s, the first sample at which it did."""
     torque_norm: float

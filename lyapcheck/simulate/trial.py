@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Array, Progress
 from lyapcheck.errors import argument_error
 from lyapcheck.simulate.bench import Bench, dry_friction, enough_substeps, period_map
 from lyapcheck.simulate.indices import l2_index
 from lyapcheck.simulate.results import Motion, run_of
 from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
+from lyapcheck.simulate.stiff import stiff_periods
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -23,6 +25,12 @@ if TYPE_CHECKING:
 
 BENCH = Bench()
 """The settings of the published experiment."""
+
+MOST_SUBSTEPS = 400
+"""Steps of Runge–Kutta in a period; an arm that needs more is stiff, and moved by an implicit method."""
+
+TOLERANCE = 1e-8
+"""Relative, of the implicit method's first integration."""
 
 RUNAWAY = 1e6
 """rad/s: a joint faster than this means that the sampled loop is unstable."""
@@ -73,26 +81,34 @@ def experiment(
     periods = math.floor(T / bench.period * (1 + 1e-12))
     if periods < 1:
         raise argument_error("T", T, f"is shorter than one period of {bench.period} s", "give a longer time")
-    substeps = enough_substeps(model, bench)
     tell = on_progress or _silent
-    rough = _motion(setup, bench, periods, substeps)
+    substeps = enough_substeps(model, bench)
+    if substeps > MOST_SUBSTEPS:
+        moved = partial(stiff_periods, setup, bench, periods)
+        finer: tuple[float, float] = (TOLERANCE, TOLERANCE / 10)
+    else:
+        moved, finer = partial(_periods, setup, bench, periods), (substeps, 2 * substeps)
+    rough = _motion(bench, *moved(finer[0]))
     tell(1 / 3, "")
-    fine = _motion(setup, bench, periods, 2 * substeps)
+    fine = _motion(bench, *moved(finer[1]))
     tell(1.0, "")
     return _run(setup, bench, rough, fine)
 
 
-def _motion(setup: Setup, bench: Bench, periods: int, substeps: int) -> Motion:
+def _periods(setup: Setup, bench: Bench, periods: int, substeps: int) -> tuple[Array, Array]:
     """All periods in one call of a compiled map."""
     n, task = setup.model.n, setup.task
     whole = period_map(setup.gains, setup.model, bench, substeps).mapaccum(periods)
     before = np.array(task.q0) - bench.period * np.array(task.w0)
     start, goal = np.array([*task.q0, *task.w0, *before]), np.array(task.q_d)
     states, torques = (np.array(x).T for x in whole(start, np.repeat(goal[:, None], periods, axis=1)))
-    path = np.vstack((start, states))[:, : 2 * n]
-    tau = np.vstack((torques, torques[-1:]))
+    return np.vstack((start, states))[:, : 2 * n], torques
+
+
+def _motion(bench: Bench, states: Array, torques: Array) -> Motion:
+    n, periods = torques.shape[1], len(torques)
     t = np.linspace(0.0, bench.period * periods, periods + 1)
-    return Motion("experiment", t, path[:, :n], path[:, n:], tau)
+    return Motion("experiment", t, states[:, :n], states[:, n:], np.vstack((torques, torques[-1:])))
 
 
 def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:

@@ -91,6 +91,12 @@ class Prepared:
     def _at(self, time: float) -> Array:
         return self.reference.at(np.array([time])).ravel()
 
+    def watched(self, path: Trajectory) -> Array:
+        """(N, 2n) what has a limit or is an index: τ and e."""
+        inputs = path.y.T, self.reference.at(path.t).reshape(len(path.t), -1).T
+        tau = np.array(self.loop.signals().map(path.t.size)(*inputs)[0]).T
+        return np.hstack((tau, path.y[:, : self.setting.n]))
+
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
         """Everything that can be computed from the samples of a path."""
         n, model = self.setting.n, self.setting.model

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Progress
-from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
+from lyapcheck.simulate.extremes import with_extremes
+from lyapcheck.simulate.integrate import MAX_STEPS
 from lyapcheck.tracking.prepared import Prepared
 from lyapcheck.tracking.reference import Reference
 from lyapcheck.tracking.request import BAND, POINTS, Request, request_for
@@ -112,12 +113,14 @@ def track_as_asked(
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else float(np.max(np.abs(fine.y - rough.y)[:, : 2 * model.n]))
     with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
-        run = task.run(fine, accuracy)
+        every = with_extremes(fine, task.watched)
+        breach = task.run(every, accuracy).breach
+        if breach is not None and stop:
+            fine, every = fine.until(breach.t), every.until(breach.t)
+        run = replace(task.run(fine, accuracy), indices=task.run(every, accuracy).indices, breach=breach)
     title = f"{gain_set.name} on {model.name}"
-    if run.breach is not None and stop:
-        end = run.breach.index + 1
-        partial = task.run(Trajectory(fine.t[:end], fine.y[:end], "stopped"), accuracy)
-        raise TrackingFailed(f"{title}: {run.breach.sentence}", replace(partial, breach=run.breach))
+    if breach is not None and stop:
+        raise TrackingFailed(f"{title}: {breach.sentence}", run)
     if failure is not None:
         raise TrackingFailed(f"{title}: {failure}", run)
     return run

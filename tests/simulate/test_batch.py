@@ -71,8 +71,10 @@ def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
     assert many.engine == ENGINE
     for name in ("q", "w", "V"):
         np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=0, atol=1e-8)
-    for name in ("L2", "settling", "overshoot", "peak_torque"):
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(many.L2[0], single.L2, rtol=1e-7)
+    for name in ("settling", "overshoot", "peak_torque"):  # of samples here, of the dense output there
+        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-4, atol=1e-6)
+    assert np.all(many.peak_torque[0] <= single.peak_torque + 1e-7)
     np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
     assert many.energy_balance[0] < 1e-9
     assert many.complete.all()
@@ -95,7 +97,7 @@ def test_every_family_moves_as_it_does_alone(m, family):
     many = simulate_many(gain_set, model, [0.5, -1.0], [1.0, 1.0], 2.0, points=201, motions=True)
     np.testing.assert_allclose(many.q[0], single.q, rtol=0, atol=1e-8)
     np.testing.assert_allclose(many.w[0], single.w, rtol=0, atol=1e-8)
-    np.testing.assert_allclose(many.settling[0], single.settling, rtol=0, atol=1e-7)
+    np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-2)
 
 
 @pytest.mark.parametrize("kv", [1, 5])

@@ -19,6 +19,8 @@ from lyapcheck.robots import Number
 from lyapcheck.simulate.bench import Bench, enough_substeps, read_encoders
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import SimulationFailed
+from lyapcheck.simulate.setup import set_up
+from lyapcheck.simulate.stiff import stiff_periods
 from lyapcheck.simulate.task import PAPER_TASK
 from lyapcheck.simulate.trial import experiment
 
@@ -112,6 +114,51 @@ def test_the_substeps_resolve_the_friction():
     model, bench = robots.load("buap3"), Bench()
     elbow = float(model.coulomb[2].value) / 0.1 / bench.creep
     assert bench.period / enough_substeps(model, bench) * elbow < 2.7
+
+
+STIFF = """
+title = "A wrist of 1e-5 kg·m² on an arm of 0.02 kg·m²"
+gravity = [0, 0, -9.81]
+
+[[links]]
+name = "arm"
+axis = [0, 1, 0]
+origin = [0, 0, 0]
+mass = 1
+com = [0, 0, -0.1]
+inertia = 0.01
+viscous = 1
+coulomb = 1
+
+[[links]]
+name = "wrist"
+axis = [0, 1, 0]
+origin = [0, 0, -0.3]
+mass = 0.1
+com = [0, 0, -0.001]
+inertia = 1e-5
+viscous = 0.02
+coulomb = 0.1
+"""
+
+
+def test_a_stiff_arm_is_resolved(tmp_path):
+    """Rates of 1e8 /s where dry friction is steep: 25,000 explicit steps in a period of 2.5 ms."""
+    (tmp_path / "stiff.toml").write_text(STIFF)
+    model = robots.load(str(tmp_path / "stiff.toml"))
+    assert enough_substeps(model, Bench()) > 10_000
+    gain_set = GainSet("fast", 1, (Fraction(10), Fraction(1)), (Fraction(1), Fraction("0.1")))
+    run = experiment(gain_set, model, [0.8, 0.8], T=1.0)
+    assert run.complete
+    assert run.accuracy < 1e-3
+
+
+def test_both_ways_of_moving_the_arm_agree():
+    setup = set_up(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, None, None, T=1.0, eps0=None)
+    states, torques = stiff_periods(setup, Bench(), 400, 1e-9)
+    explicit = table_run(TABLE2[0])
+    np.testing.assert_allclose(states[:, :3], explicit.q[:401], rtol=0, atol=1e-5)
+    np.testing.assert_allclose(torques, explicit.tau[:400], rtol=0, atol=0.05)
 
 
 def test_the_same_request_gives_the_same_bytes():
