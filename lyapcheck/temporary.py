@@ -7,7 +7,10 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, TemporaryFile
+
+ROOM = 65_536
+"""Bytes that a folder must take."""
 
 _pending: set[str] = set()
 
@@ -27,6 +30,16 @@ def temporary_folder() -> Iterator[str]:
     """A new folder that is removed at the end, also where the command is ended by a signal."""
     with TemporaryDirectory(prefix="lyapcheck-") as folder, pending(folder):
         yield folder
+
+
+def try_writing(folder: str | Path) -> None:
+    """Write some bytes into a folder and take them back, to know before long work that its result will fit.
+
+    Raises:
+        OSError: the folder cannot be written to, or its disk is full.
+    """
+    with TemporaryFile(dir=folder) as stream:
+        stream.write(bytes(ROOM))
 
 
 def clear() -> None:

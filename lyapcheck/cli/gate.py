@@ -57,10 +57,12 @@ def command(
     accepted, 1: something rejected, 2: a file cannot be used, 3: undecided.
     """
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
+    from lyapcheck.cli.output import open_folder
     from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import InputError, Problem
 
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
@@ -72,8 +74,8 @@ def command(
             problems += error.problems
     answer = GateAnswer(result for found in results for result in found)
     if answer:
-        if certificates is not None:
-            _write_certificates(certificates, answer)
+        if folder is not None:
+            _write_certificates(folder, answer)
         show(answer, format)
     if problems:
         raise InputError(problems)
@@ -83,8 +85,7 @@ def command(
 def _write_certificates(folder: Path, answer: GateAnswer) -> None:
     """One file for each check that was decided."""
     from lyapcheck.answers.gate.certificates import certificates
-    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.cli.output import write_whole
 
-    made, place = certificates(answer), open_folder("--certificates", folder)
-    for name, certificate in made.items():
-        write_whole(place / name, certificate.text())
+    for name, certificate in certificates(answer).items():
+        write_whole(folder / name, certificate.text())

@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import io
 import os
+import select
+import stat
 import sys
 
 from lyapcheck import cli
@@ -83,11 +85,31 @@ def _run() -> None:
 
 
 def _require_output() -> None:
-    """Refuse to run without a standard output: the first file that is opened would take its place."""
+    """Refuse to run, perhaps for minutes, where nobody could take the result.
+
+    Without a standard output the first file that is opened would take its place.
+
+    Raises:
+        InputError: standard output is closed.
+        BrokenPipeError: whoever reads it has gone.
+        OSError: it is a full device, or a file on a full disk.
+    """
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115 (to the end of the process)
     if sys.stdout is None:
         raise argument_error("standard output", "", "is closed", "open it, or send it to /dev/null")
+    try:
+        number = sys.stdout.fileno()
+    except (OSError, ValueError):  # something that is no file stands in for it
+        return
+    poll = select.poll()
+    poll.register(number, 0)
+    if any(event & select.POLLERR for _, event in poll.poll(0)):
+        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+    os.write(number, b"")  # which a full device refuses, and a full disk does not
+    disk = os.fstatvfs(number)
+    if stat.S_ISREG(os.fstat(number).st_mode) and disk.f_blocks and not disk.f_bavail:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def _drop(stream: TextIO) -> None:

@@ -7,14 +7,14 @@ import tempfile
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
-from lyapcheck.temporary import pending
+from lyapcheck.temporary import pending, try_writing
 
 
 def require_writable(option: str, path: Path) -> None:
     """Refuse a file that could not be written at the end, before the work is done.
 
     Raises:
-        InputError: the directory does not exist or cannot be written, or the path is a directory.
+        InputError: the directory does not exist, cannot be written or is full, or the path is a directory.
     """
     parent = path.parent
     if path.is_dir():
@@ -23,15 +23,14 @@ def require_writable(option: str, path: Path) -> None:
         raise argument_error(
             option, path, f"there is no directory {parent}", "create it or name another file"
         )
-    if not os.access(parent, os.W_OK):
-        raise argument_error(option, path, f"{parent} cannot be written to", "name a file elsewhere")
+    _require_room(option, path, parent)
 
 
 def open_folder(option: str, path: Path) -> Path:
     """A directory that can be written, made if need be.
 
     Raises:
-        InputError: there is a file of that name, or the file system refuses.
+        InputError: there is a file of that name, or the file system refuses or is full.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -39,9 +38,16 @@ def open_folder(option: str, path: Path) -> Path:
         raise argument_error(
             option, path, f"cannot be made ({error.strerror})", "name another directory"
         ) from error
-    if not os.access(path, os.W_OK):
-        raise argument_error(option, path, "cannot be written to", "name another directory")
+    _require_room(option, path, path)
     return path
+
+
+def _require_room(option: str, path: Path, folder: Path) -> None:
+    try:
+        try_writing(folder)
+    except OSError as error:
+        rule = f"{folder} cannot be written to ({error.strerror})"
+        raise argument_error(option, path, rule, "free some space, or name another place") from error
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

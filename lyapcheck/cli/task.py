@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.angles import parse_angles
 from lyapcheck.cli.eps0 import CERTIFIED, Eps0
-from lyapcheck.cli.output import require_writable
+from lyapcheck.cli.output import open_folder, require_writable
 from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
@@ -170,8 +169,8 @@ def check_places(csv: str | None, plot: Path | None) -> None:
         require_writable("--csv", Path(csv))
     if plot is not None and not plot.is_dir():
         raise argument_error("--plot", plot, "is not a directory", "create it or name another one")
-    if plot is not None and not os.access(plot, os.W_OK):
-        raise argument_error("--plot", plot, "cannot be written to", "name another directory")
+    if plot is not None:
+        open_folder("--plot", plot)
 
 
 def _renamed(problem: Problem) -> Problem:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from lyapcheck.errors import argument_error
 from lyapcheck.report.model import Report
-from lyapcheck.temporary import pending
+from lyapcheck.temporary import pending, try_writing
 
 FORMATS = ("html", "md", "json")
 _MODULES = {"html": "html", "md": "markdown", "json": "json"}
@@ -37,8 +37,7 @@ def require_folder(option: str, folder: Path) -> None:
         raise argument_error(option, folder, "is a file", "name a folder")
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     try:
-        with tempfile.TemporaryFile(dir=nearest):
-            pass
+        try_writing(nearest)
     except OSError as error:
         rule = f"{nearest} cannot be written to ({error.strerror})"
         raise argument_error(option, folder, rule, "name a folder elsewhere") from error

@@ -299,7 +299,7 @@ def test_the_modules_run_as_the_script_does(module, words):
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize(
     "words",
-    [["table", "--m", "1"], ["table", "--m", "1:300"], ["gate", TABLE2], ["--help"], ["robot", "buap3"]],
+    [["table", "--m", "1"], ["gate", TABLE2], ["--help"], ["report"], ["epsilon", TABLE2]],
 )
 def test_a_full_output_is_named(words, unbuffered):
     with open("/dev/full", "wb") as full:
@@ -312,10 +312,38 @@ def test_a_full_output_is_named(words, unbuffered):
             env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
         )
     assert done.returncode == 2
-    last = done.stderr.splitlines()[-1]
-    assert last.startswith("error: argument: standard output: cannot be written (No space left on device); ")
-    assert "Traceback" not in done.stderr
-    assert "Exception ignored" not in done.stderr
+    (line,) = done.stderr.splitlines()  # and no progress: nothing was begun
+    assert line.startswith("error: argument: standard output: cannot be written (No space left on device); ")
+
+
+@pytest.mark.parametrize("words", [["gate", TABLE2], ["epsilon", TABLE2]])
+def test_where_nobody_reads_nothing_is_begun(words):
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run([SCRIPT, *words], stdout=writer, stderr=subprocess.PIPE, check=False)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs a folder that takes no file")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["epsilon", TABLE2, "--certificates", "/proc/self"],
+        ["gate", TABLE2, "--certificates", "/proc/self"],
+        ["simulate", TABLE2, "--csv", "/proc/self/motion.csv"],
+        ["simulate", TABLE2, "--plot", "/proc/self"],
+        ["tune", "buap3", "--out", "/proc/self/gains.toml"],
+        ["report", "--out", "/proc/self"],
+    ],
+    ids=" ".join,
+)
+def test_a_place_that_takes_nothing_is_named_before_the_work(words):
+    done = subprocess.run([SCRIPT, *words], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    assert line.startswith(f"error: argument: {words[-2]} = /proc/self")
+    assert "/proc/self cannot be written to" in line
 
 
 @pytest.mark.parametrize("words", [["table", "--m", "1"], ["gate", TABLE2]])
