@@ -25,6 +25,7 @@ def markdown(tally: Tally, seed: int) -> str:
         "",
         *INTRODUCTION.splitlines(),
         "",
+        *_checkers(tally),
     ]
     lines += ["## By kind of statement", "", *_table(tally), "", "## By family", "", *_families(tally), ""]
     if tally.faults:
@@ -35,6 +36,14 @@ def markdown(tally: Tally, seed: int) -> str:
             "",
         ]
     return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _checkers(tally: Tally) -> list[str]:
+    """Which checkers judged, where the run went on after a change of them."""
+    if len(tally.checkers) < 2:
+        return []
+    parts = ", ".join(f"{count} by {digest}" for digest, count in tally.checkers.items())
+    return [f"The checker changed in between (SHA-256 of its sources): {parts}.", ""]
 
 
 def summary(tally: Tally) -> str:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 from typing import Any
 
+import lyapcheck.check
 from tests.statement_fuzz.generators import draw
 from tests.statement_fuzz.judge import Judged, judge
 
@@ -34,11 +38,13 @@ class Recorded:
 
 @dataclass
 class Tally:
-    """Counts of verdicts by kind and by family, and the faults with the index of their statements."""
+    """Counts of verdicts by kind and by family, the faults with the index of their statements, and by digest
+    of ``lyapcheck/check`` how many statements that checker judged."""
 
     verdicts: Counter[tuple[str, str]] = field(default_factory=Counter)
     families: Counter[tuple[str, str, str]] = field(default_factory=Counter)
     faults: list[tuple[int, Judged | Recorded]] = field(default_factory=list)
+    checkers: Counter[str] = field(default_factory=Counter)
 
     def enter(self, index: int, judged: Judged) -> None:
         """Count one statement."""
@@ -52,6 +58,7 @@ class Tally:
             self.verdicts + other.verdicts,
             self.families + other.families,
             sorted([*self.faults, *other.faults], key=lambda f: f[0]),
+            self.checkers + other.checkers,
         )
 
     def data(self) -> dict[str, Any]:
@@ -60,6 +67,7 @@ class Tally:
             "verdicts": [[*key, count] for key, count in sorted(self.verdicts.items())],
             "families": [[*key, count] for key, count in sorted(self.families.items())],
             "faults": [[index, judged.text()] for index, judged in self.faults],
+            "checkers": dict(self.checkers),
         }
 
     @classmethod
@@ -67,7 +75,10 @@ class Tally:
         """The tally of some data."""
         verdicts = Counter({(kind, verdict): count for kind, verdict, count in data["verdicts"]})
         families = Counter({(kind, name, verdict): count for kind, name, verdict, count in data["families"]})
-        return cls(verdicts, families, [(index, Recorded(text)) for index, text in data["faults"]])
+        faults: list[tuple[int, Judged | Recorded]] = [
+            (index, Recorded(text)) for index, text in data["faults"]
+        ]
+        return cls(verdicts, families, faults, Counter(data["checkers"]))
 
     @property
     def statements(self) -> int:
@@ -80,4 +91,12 @@ def run(seed: int, indices: Iterable[int], only: str | None = None) -> Tally:
     tally = Tally()
     for index in indices:
         tally.enter(index, judge(draw(seed, index, only), index))
+    tally.checkers[checker()] = tally.statements
     return tally
+
+
+@cache
+def checker() -> str:
+    """The first digits of the SHA-256 of the sources of ``lyapcheck/check``."""
+    sources = sorted(Path(lyapcheck.check.__file__).parent.rglob("*.py"))
+    return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()[:12]
