@@ -20,9 +20,6 @@ proof = Proof(
     "asymptotics", "The constants of the hyperbolic family for large m", reference="reyes2019family"
 )
 
-LIMITS = "Limits"
-RATES = "Rates"
-
 ROOT2 = sqrt(2)
 ASINH1 = log(1 + ROOT2)
 
@@ -37,36 +34,41 @@ def first_order(m):
     return 1 - (1 + log(4 * m)) / (4 * m)
 
 
-@proof.claim("A.slope", "h_m'(0) is 1 for m = 1 and 0 for m ≥ 2", section=LIMITS)
-def _(case):
-    return identity(dh(case.m, 0), 1 if case.m == 1 else 0)
+proof.section("Limits")
 
 
-@proof.claim("A.gamma", "γ_m < √2: the peaks stay below the limit", section=LIMITS)
-def _(case):
-    return Constant(gamma(case.m) < ROOT2)
+@proof.claim("A.slope", "h_m'(0) is 1 for m = 1 and 0 for m ≥ 2")
+def _(m):
+    return identity(dh(m, 0), 1 if m == 1 else 0)
 
 
-@proof.claim("A.rho", "m − 1/2 < ρ_m ≤ m: the steepest slope grows like m", section=LIMITS)
-def _(case):
-    m, steepest = case.m, rho(case.m)
+@proof.claim("A.gamma", "γ_m < √2: the peaks stay below the limit")
+def _(m):
+    return Constant(gamma(m) < ROOT2)
+
+
+@proof.claim("A.rho", "m − 1/2 < ρ_m ≤ m: the steepest slope grows like m")
+def _(m):
+    steepest = rho(m)
     return all_of(above=Constant(expr(m - Fraction(1, 2)) < steepest), below=Constant(steepest <= m))
 
 
-@proof.claim("A.L", "L_m < √2/asinh 1: the steepest secant stays below the limit", section=LIMITS)
-def _(case):
-    return Constant(secant_bound(case.m) < ROOT2 / ASINH1)
+@proof.claim("A.L", "L_m < √2/asinh 1: the steepest secant stays below the limit")
+def _(m):
+    return Constant(secant_bound(m) < ROOT2 / ASINH1)
+
+
+proof.section("Rates")
 
 
 @proof.claim(
     "A.gamma.rate",
     "3/32 (ln 4m/m)² < γ_m/√2 − (1 − (1 + ln 4m)/(4m)) < 1/6 (ln 4m/m)²",
-    section=RATES,
     uses=["A.gamma"],
 )
-def _(case):
-    rest = gamma(case.m) / ROOT2 - first_order(case.m)
-    square = shrinking(case.m) ** 2
+def _(m):
+    rest = gamma(m) / ROOT2 - first_order(m)
+    square = shrinking(m) ** 2
     return all_of(
         above=Constant(square * Fraction(3, 32) < rest), below=Constant(rest < square * Fraction(1, 6))
     )
@@ -75,11 +77,9 @@ def _(case):
 @proof.claim(
     "A.rho.rate",
     "−3/(4m²) < ρ_m − (m − 1/2 + 9/(16m)) < 0",
-    section=RATES,
     uses=["A.rho"],
 )
-def _(case):
-    m = case.m
+def _(m):
     rest = rho(m) - (m - Fraction(1, 2) + Fraction(9, 16 * m))
     return all_of(above=Constant(expr(Fraction(-3, 4 * m * m)) < rest), below=Constant(rest < 0))
 
@@ -87,11 +87,10 @@ def _(case):
 @proof.claim(
     "A.L.rate",
     "1/5 (ln 4m/m)² < L_m asinh 1/√2 − (1 − κ (1 + ln(m/κ))/m) < 1/3 (ln 4m/m)²,  κ = (1 + √2/asinh 1)/4",
-    section=RATES,
     uses=["A.L"],
 )
-def _(case):
-    m, kappa = case.m, (1 + ROOT2 / ASINH1) / 4
+def _(m):
+    kappa = (1 + ROOT2 / ASINH1) / 4
     rest = secant_bound(m) * ASINH1 / ROOT2 - (1 - kappa * (1 + log(m / kappa)) / m)
     square = shrinking(m) ** 2
     return all_of(

@@ -42,11 +42,11 @@ proof = Proof(
     "every_m", "The constants of the hyperbolic family for all m at once", reference="reyes2019family"
 )
 
-GAMMA, RHO, SECANT = "γ", "ρ", "L"
-
 M = var("m")
 ROOT2 = sqrt(2)
 ASINH1 = log(1 + ROOT2)
+
+proof.section("γ")
 
 FOUR_M = var("x")
 """4m: in this variable ln 4m is a plain logarithm."""
@@ -64,9 +64,8 @@ def leading(share):
 @proof.claim(
     "E.gamma.value",
     "h_m²/2 where sinh^(2m) x = 4m is more than (1 − (1 + ln 4m)/(4m) + 3/32 (ln 4m/m)²)², every real m ≥ 2",
-    section=GAMMA,
 )
-def _(case):
+def _():
     value = (1 + 1 / U) / 2 * (FOUR_M / (FOUR_M + 1)) ** 2
     return for_all(leading(Fraction(3, 32)) < value, 8)
 
@@ -74,18 +73,16 @@ def _(case):
 @proof.claim(
     "E.gamma.left",
     "u^m < 2m u + 2m − 1 at u = (4m)^(1/m): the peak of h_m is right of it, every real m ≥ 2",
-    section=GAMMA,
 )
-def _(case):
+def _():
     return for_all(FOUR_M < FOUR_M / 2 * (U + 1) - 1, 8)
 
 
 @proof.claim(
     "E.gamma.falls",
     "(1 + 1/u) (1 − 1/(2m(1 + u)))², which h_m² is at its peak, falls in u > 1, every real m ≥ 1",
-    section=GAMMA,
 )
-def _(case):
+def _():
     u = var("u")
     factor = 1 - 1 / (2 * M * (1 + u))
     slope = -(factor**2) / u**2 + (1 + 1 / u) * 2 * factor / (2 * M * (1 + u) ** 2)
@@ -95,13 +92,14 @@ def _(case):
 @proof.claim(
     "E.gamma.bound",
     "half of that at u = (4m)^(1/m) is less than (1 − (1 + ln 4m)/(4m) + 1/6 (ln 4m/m)²)², every real m ≥ 2",
-    section=GAMMA,
     uses=["E.gamma.left", "E.gamma.falls"],
 )
-def _(case):
+def _():
     value = (1 + 1 / U) / 2 * (1 - 2 / (FOUR_M * (1 + U))) ** 2
     return for_all(value < leading(Fraction(1, 6)), 8)
 
+
+proof.section("ρ")
 
 UPPER = M - Fraction(1, 2) + Fraction(9, 16) / M
 """m − 1/2 + 9/(16m)."""
@@ -110,16 +108,15 @@ UPPER = M - Fraction(1, 2) + Fraction(9, 16) / M
 @proof.claim(
     "E.rho.value",
     "h_m' where sinh^(2m) x = e^(−3/(2m)) is more than m − 1/2 + 9/(16m) − 3/(4m²), every real m ≥ 1",
-    section=RHO,
 )
-def _(case):
+def _():
     p, q = exp(Fraction(-3, 2) / M), exp(Fraction(3, 2) / M**2)
     slope = p * (2 * M + q * (2 * M - 1 - p)) / (1 + p) ** 2
     return for_all(UPPER - Fraction(3, 4) / M**2 < slope, 1, variable="m")
 
 
-@proof.claim("E.rho.right", "|h_m'| ≤ m − 1/2 where sinh^(2m) x ≥ 1, every real m ≥ 2", section=RHO)
-def _(case):
+@proof.claim("E.rho.right", "|h_m'| ≤ m − 1/2 where sinh^(2m) x ≥ 1, every real m ≥ 2")
+def _():
     m, p, u = 2 + var("k"), 1 + var("over"), 1 + var("d")
     slope = p * (2 * m + (2 * m - 1 - p) / u) / (1 + p) ** 2
     free = nonnegative("k", "over", "d")
@@ -130,9 +127,8 @@ def _(case):
 @proof.claim(
     "E.rho.enclosed",
     "e^v ≤ 1 + v + v² on [0, 1], 1 − e^(−s) ≤ s and cosh²(s/2) ≥ 1 + s²/4 + s⁴/48 for s ≥ 0",
-    section=RHO,
 )
-def _(case):
+def _():
     x = var("x")
     return all_of(
         grows=for_all(exp(x) <= 1 + x + x**2, 0, 1),
@@ -150,10 +146,9 @@ def below_upper(s, m):
 @proof.claim(
     "E.rho.bound",
     "2m + (1 + s/m + s²/m²)(2m − 2 + s) < 4 (1 + s²/4 + s⁴/48)(m − 1/2 + 9/(16m)), s ≥ 0, every real m ≥ 12",
-    section=RHO,
     uses=["E.rho.enclosed"],
 )
-def _(case):
+def _():
     """Right and left of 2ms = 3, where both sides nearly meet; m = 12 + k."""
     m, z = 12 + var("k"), var("z")
     free = nonnegative("k", "z")
@@ -163,10 +158,12 @@ def _(case):
     )
 
 
-@proof.claim("E.rho.far", "4m e^(1−m) < m − 1/2, every real m ≥ 3", section=RHO)
-def _(case):
+@proof.claim("E.rho.far", "4m e^(1−m) < m − 1/2, every real m ≥ 3")
+def _():
     return for_all(4 * M * exp(1 - M) < M - Fraction(1, 2), 3, variable="m")
 
+
+proof.section("L")
 
 TURN = Fraction("0.8023")
 """More than 1/(√2 asinh 1)."""
@@ -175,9 +172,8 @@ TURN = Fraction("0.8023")
 @proof.claim(
     "E.L.tangent",
     "asinh y has a slope of at most 1/√2 for y ≥ 1, and 1/(√2 asinh 1) < 0.8023",
-    section=SECANT,
 )
-def _(case):
+def _():
     x = var("x")
     return all_of(
         slope_squared=for_all(1 / (1 + x**2) <= Fraction(1, 2), 1),
@@ -188,10 +184,9 @@ def _(case):
 @proof.claim(
     "E.L.value",
     "h_m(x)/x where sinh^(2m) x = 3m/2 is more than √2/asinh 1 (1 − 3 ln(4m)/(4m)), every real m ≥ 2",
-    section=SECANT,
     uses=["E.L.tangent"],
 )
-def _(case):
+def _():
     """Both sides times asinh 1/√2; y = sinh x = (3m/2)^(1/(2m))."""
     p = var("x")
     m = p * Fraction(2, 3)
@@ -203,9 +198,8 @@ def _(case):
 @proof.claim(
     "E.L.bound",
     "coth x/x falls for x > 0, and h_2(x) ≤ 9/10 x, which is less than x √2/asinh 1",
-    section=SECANT,
 )
-def _(case):
+def _():
     x = var("x")
     return all_of(
         falls=for_all(-(x + sinh(x) * cosh(x)) / (x * sinh(x)) ** 2 < 0, 0, open_low=True),

@@ -66,14 +66,14 @@ SHARE = Fraction(99, 100)
 """ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
 
 
-def known_of(case):
+def known_of(m, n):
     """γ, √nγ, ρ, L and G of h_m in decimals."""
-    return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
+    return FamilyBounds(n, gamma(m), rho(m), secant_bound(m))
 
 
-def function_of(case):
+def function_of(m):
     """h, h' and U."""
-    return h(case.m, x), dh(case.m, x), potential(case.m, x)
+    return h(m, x), dh(m, x), potential(m, x)
 
 
 def form_of(known):
@@ -83,73 +83,70 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
 
 
-def loop_of(case, **more):
+def loop_of(m, n, **more):
     """The loop (11) with V of (13), as the theorem is about it."""
-    known = known_of(case)
-    return known.loop(function_of(case), form_of(known), **more)
+    known = known_of(m, n)
+    return known.loop(function_of(m), form_of(known), **more)
 
 
-def sign_of(case):
+def sign_of(m):
     """h is odd and has the sign of its argument."""
     return {
-        "odd": identity(h(case.m, -x), -h(case.m, x)),
-        "positive_right_of_0": for_all(expr(0) < h(case.m, x), 0, open_low=True),
+        "odd": identity(h(m, -x), -h(m, x)),
+        "positive_right_of_0": for_all(expr(0) < h(m, x), 0, open_low=True),
     }
 
 
-def slope_of(case):
+def slope_of(m, n):
     """h' is the derivative of h, and at most ρ in size."""
-    known = known_of(case)
+    known = known_of(m, n)
     return {
-        "derivative": identity(diff(h(case.m, x), "x"), dh(case.m, x)),
-        "from_above": for_all(dh(case.m, x) <= known.rho),
-        "from_below": for_all(-known.rho <= dh(case.m, x)),
+        "derivative": identity(diff(h(m, x), "x"), dh(m, x)),
+        "from_above": for_all(dh(m, x) <= known.rho),
+        "from_below": for_all(-known.rho <= dh(m, x)),
     }
 
 
-# The function h_m ------------------------------------------------------------------------------------------
-
-FAMILY = "The function h"
+proof.section("The function h")
 
 
-@proof.claim("h.odd", "h is odd and x h(x) > 0 unless x = 0", place="(6)", section=FAMILY)
-def _(case):
+@proof.claim("h.odd", "h is odd and x h(x) > 0 unless x = 0", "(6)")
+def _(m):
     return all_of(
-        **sign_of(case),
-        zero_at_0=identity(h(case.m, 0), 0),
-        product=for_all(expr(0) <= x * h(case.m, x)),
+        **sign_of(m),
+        zero_at_0=identity(h(m, 0), 0),
+        product=for_all(expr(0) <= x * h(m, x)),
     )
 
 
-@proof.claim("h.bound", "‖h(x)‖ ≤ √nγ", place="(7), first line", section=FAMILY)
-def _(case):
-    known = known_of(case)
+@proof.claim("h.bound", "‖h(x)‖ ≤ √nγ", "(7), first line")
+def _(m, n):
+    known = known_of(m, n)
     return all_of(
-        every_entry=for_all(h(case.m, x) <= known.gamma),
-        every_entry_from_below=for_all(-known.gamma <= h(case.m, x)),
-        norm=Constant(sqrt(case.n) * known.gamma <= known.reach),
+        every_entry=for_all(h(m, x) <= known.gamma),
+        every_entry_from_below=for_all(-known.gamma <= h(m, x)),
+        norm=Constant(sqrt(n) * known.gamma <= known.reach),
     )
 
 
-@proof.claim("h.slope", "‖h(x)‖ ≤ L‖x‖ with L = sup h(x)/x", place="(7), second line", section=FAMILY)
-def _(case):
-    return norm_bound(h(case.m, x), case.n, known_of(case).L, power=1)
+@proof.claim("h.slope", "‖h(x)‖ ≤ L‖x‖ with L = sup h(x)/x", "(7), second line")
+def _(m, n):
+    return norm_bound(h(m, x), n, known_of(m, n).L, power=1)
 
 
-@proof.claim("h.steep", "|h'(x)| ≤ ρ, and h' is the derivative of h", place="(8)", section=FAMILY)
-def _(case):
-    return all_of(**slope_of(case))
+@proof.claim("h.steep", "|h'(x)| ≤ ρ, and h' is the derivative of h", "(8)")
+def _(m, n):
+    return all_of(**slope_of(m, n))
 
 
 @proof.claim(
     "h.share",
     "‖h(q̃)‖/(1 + ‖q̃‖) ≤ G = √nγL/(√nγ + L)",
-    place="as min(Lr, √nγ)/(1 + r) is largest where both agree",
-    section=FAMILY,
+    "as min(Lr, √nγ)/(1 + r) is largest where both agree",
     uses=["h.bound", "h.slope"],
 )
-def _(case):
-    known, a, r, reach, L = known_of(case), var("a"), var("r"), var("reach"), var("L")
+def _(m, n):
+    known, a, r, reach, L = known_of(m, n), var("a"), var("r"), var("reach"), var("L")
     return all_of(
         for_any_bounds=implies(
             positive("reach", "L") + nonnegative("a", "r"),
@@ -160,55 +157,44 @@ def _(case):
     )
 
 
-@proof.claim(
-    "h.bounds", "|h| ≤ γ, |h'| ≤ ρ and |h(x)| ≤ L|x|, and h is odd", place="(7), (8)", section=FAMILY
-)
-def _(case):
-    return known_of(case).of_h(function_of(case))
+@proof.claim("h.bounds", "|h| ≤ γ, |h'| ≤ ρ and |h(x)| ≤ L|x|, and h is odd", "(7), (8)")
+def _(m, n):
+    return known_of(m, n).of_h(function_of(m))
 
 
-# V ---------------------------------------------------------------------------------------------------------
-
-LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)"
+proof.section("V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)")
 
 
-@proof.claim("V.positive", "V > 0 unless q̃ = q̇ = 0", place="(13)", section=LYAPUNOV, uses=["h.odd"])
-def _(case):
-    return loop_property("V is positive definite", function_of(case))
+@proof.claim("V.positive", "V > 0 unless q̃ = q̇ = 0", "(13)", uses=["h.odd"])
+def _(m):
+    return loop_property("V is positive definite", function_of(m))
 
 
-@proof.claim("V.unbounded", "V is radially unbounded", place="(13)", section=LYAPUNOV, uses=["h.bound"])
-def _(case):
-    return loop_property("V is radially unbounded", function_of(case))
+@proof.claim("V.unbounded", "V is radially unbounded", "(13)", uses=["h.bound"])
+def _(m):
+    return loop_property("V is radially unbounded", function_of(m))
 
 
 @proof.claim(
     "V.smooth",
     "V is continuously differentiable, also at q̃ = 0, where ‖q̃‖ is not",
-    place="(13)",
-    section=LYAPUNOV,
+    "(13)",
     uses=["h.slope", "h.steep"],
 )
-def _(case):
-    return loop_property("V is continuously differentiable", function_of(case))
+def _(m):
+    return loop_property("V is continuously differentiable", function_of(m))
 
 
-@proof.claim(
-    "equilibrium", "the origin is the only equilibrium", place="(11)", section=LYAPUNOV, uses=["h.odd"]
-)
-def _(case):
-    return loop_property("the origin is the only equilibrium", function_of(case))
+@proof.claim("equilibrium", "the origin is the only equilibrium", "(11)", uses=["h.odd"])
+def _(m):
+    return loop_property("the origin is the only equilibrium", function_of(m))
 
 
-# dV/dt -----------------------------------------------------------------------------------------------------
-
-RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ"
+proof.section("dV/dt ≤ −[a b] Θ' [a b]ᵀ")
 
 
-@proof.claim(
-    "rate", "dV/dt along (11) is the sum of eleven terms", place="(15)", section=RATE, uses=["V.smooth"]
-)
-def _(case):
+@proof.claim("rate", "dV/dt along (11) is the sum of eleven terms", "(15)", uses=["V.smooth"])
+def _():
     """For every n, with Ṁ = C + Cᵀ by Property 2.4; the rate of r = ‖q̃‖ is what the rate of r² says."""
     s = loops.letters()
     return all_of(
@@ -247,9 +233,9 @@ def term(k, says, uses, norms, least=()):
     """A claim: term k of (15) is at most its bound for every n, by what is known of its letters."""
     words, place = f"term {k}: {says}", f"(15), term {k}"
 
-    @proof.claim(f"rate.{k}", words, place=place, section=RATE, uses=["rate", *uses])
-    def _(case):
-        s, known = loops.short_letters(), known_of(case)
+    @proof.claim(f"rate.{k}", words, place=place, uses=["rate", *uses])
+    def _(m, n):
+        s, known = loops.short_letters(), known_of(m, n)
         sizes, forms = loops.known_norms(s, known), loops.known_least(s)
         given = [sizes[name] for name in norms], [forms[name] for name in least]
         return loops.term_at_most(s, k, bounds_of(known)[k - 1], *given)
@@ -276,22 +262,19 @@ def theta(eps, k, b_min, c, d):
 @proof.claim(
     "rate.form",
     "dV/dt ≤ −[a b] Θ' [a b]ᵀ",
-    place="in place of (16)",
-    section=RATE,
+    "in place of (16)",
     uses=[f"rate.{k}" for k in range(1, 12)],
 )
-def _(case):
+def _(m, n):
     """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
-    known = known_of(case)
+    known = known_of(m, n)
     return all_of(
         sum=identity(total(bounds_of(known)), minus_form(form_of(known))),
-        from_V_for_every_n=rate_bound(loop_of(case)),
+        from_V_for_every_n=rate_bound(loop_of(m, n)),
     )
 
 
-# Every arm -------------------------------------------------------------------------------------------------
-
-ARMS = "Every arm"
+proof.section("Every arm")
 LYAPUNOVS = {
     "only_equilibrium": "equilibrium",
     "differentiable": "V.smooth",
@@ -310,12 +293,11 @@ def condition(eps0, k, b_min, c, d):
 @proof.claim(
     "arms.theta",
     "¼ε₀(d + ε₀c)² < λmin(K_p)(λmin(B) − ε₀c) makes Θ' positive definite for every ε in (0, ε₀]",
-    place="in place of (18)",
-    section=ARMS,
+    "in place of (18)",
 )
-def _(case):
+def _(m, n):
     """With ε₀ = ε + rest; det Θ'/ε does not increase with ε."""
-    known = known_of(case)
+    known = known_of(m, n)
     corner, side, low = form_of(known)
     variables = positive("eps", "kp", "b_min", "beta") + nonnegative("rest", "b_max", "kv_max", "kc")
     given = (condition_of(known, var("eps") + var("rest")),)
@@ -334,24 +316,22 @@ def condition_of(known, eps0):
 @proof.claim(
     "arms.stable",
     "where ε₀ meets the condition, the origin is globally asymptotically stable",
-    place="Proposition",
-    section=ARMS,
+    "Proposition",
     uses=[*LYAPUNOVS.values(), "arms.theta"],
 )
-def _(case):
+def _(m, n):
     """For every robot with Properties 2.1–2.7 and the constants λmin(B), λmax(B), β_M, k_c, and any gains."""
-    loop = loop_of(case, condition=[condition_of(known_of(case), var("eps0"))])
+    loop = loop_of(m, n, condition=[condition_of(known_of(m, n), var("eps0"))])
     return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.theta")
 
 
 @proof.claim(
     "arms.small",
     "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
-    place="in place of (19)",
-    section=ARMS,
+    "in place of (19)",
 )
-def _(case):
-    known = known_of(case)
+def _(m, n):
+    known = known_of(m, n)
     eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
     variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
     share = eps0 * var("share")
@@ -365,37 +345,32 @@ def _(case):
 @proof.claim(
     "arms.all",
     "for all positive gains the origin is globally asymptotically stable: no bound of K_v is needed",
-    place="the Proposition, without (19)",
-    section=ARMS,
+    "the Proposition, without (19)",
     uses=[*LYAPUNOVS.values(), "arms.small"],
 )
-def _(case):
+def _(m, n):
     """For every robot with Properties 2.1–2.7, friction included; ε₀ is not part of the controller."""
-    loop = loop_of(case)
+    loop = loop_of(m, n)
     return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.small")
 
 
-# This arm --------------------------------------------------------------------------------------------------
-
-ARM = "This arm"
+proof.section("This arm")
 
 
-def form_numbers(case):
+def form_numbers(m, n, robot, gains):
     """λmin(K_p), λmin(B), c and d for the robot and gains at hand."""
-    if len(case.gains.kp) != case.robot.n:
-        raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    known, arm = known_of(case), ArmBounds(case.robot)
+    known, arm = known_of(m, n), ArmBounds(robot)
     c = known.drift(arm.beta, arm.kc)
-    return min(case.gains.kp), arm.b_min, c, known.cross(arm.b_max, max(case.gains.kv))
+    return min(gains.kp), arm.b_min, c, known.cross(arm.b_max, max(gains.kv))
 
 
-def eps0_of(case):
+def eps0_of(m, n, robot, gains):
     """ε₀: a share of the largest one that meets the condition.
 
     Raises:
         Lacking: there is none, as where a joint has no friction.
     """
-    k, b, c, d = form_numbers(case)
+    k, b, c, d = form_numbers(m, n, robot, gains)
     largest = largest_with(lambda eps: eps * (d + eps * c) ** 2 / 4 < k * (b - eps * c))
     if largest is None:
         raise lacking("no ε₀ > 0 meets the condition; λmin(B) and λmin(K_p) must be positive")
@@ -405,11 +380,10 @@ def eps0_of(case):
 @proof.claim(
     "arm.properties",
     "M is symmetric, and Ṁ = C + Cᵀ",
-    place="Properties 2.1, 2.4",
-    section=ARM,
+    "Properties 2.1, 2.4",
 )
-def _(case):
-    n, robot = case.n, case.robot.fixed()
+def _(n, robot):
+    robot = robot.fixed()
     u, v, w = (vector(name, n) for name in "uvw")
     mass, turning = mass_matrix(robot), coriolis_matrix(robot, w)
     return all_of(
@@ -418,26 +392,25 @@ def _(case):
     )
 
 
-@proof.claim("arm.M", "M(q) is positive definite, and ‖M(q)‖ ≤ β_M", place="Properties 2.1, 2.2", section=ARM)
-def _(case):
-    arm = ArmBounds(case.robot)
+@proof.claim("arm.M", "M(q) is positive definite, and ‖M(q)‖ ≤ β_M", "Properties 2.1, 2.2")
+def _(robot):
+    arm = ArmBounds(robot)
     return all_of(positive_definite=arm.mass_above(), bounded=arm.mass_below())
 
 
-@proof.claim("arm.C", "‖C(q,x)y‖ ≤ k_c‖x‖‖y‖", place="Property 2.6", section=ARM)
-def _(case):
-    return ArmBounds(case.robot).coriolis_below()
+@proof.claim("arm.C", "‖C(q,x)y‖ ≤ k_c‖x‖‖y‖", "Property 2.6")
+def _(robot):
+    return ArmBounds(robot).coriolis_below()
 
 
 @proof.claim(
     "arm.theta",
     "Θ' is positive definite for every ε in (0, ε₀], at these numbers",
-    place="in place of (18)",
-    section=ARM,
+    "in place of (18)",
 )
-def _(case):
-    k, b, c, d = form_numbers(case)
-    eps0 = eps0_of(case)
+def _(m, n, robot, gains):
+    k, b, c, d = form_numbers(m, n, robot, gains)
+    eps0 = eps0_of(m, n, robot, gains)
     return all_of(
         corner=Constant(expr(0) < k),
         determinant=for_all(condition(x * eps0, expr(k), expr(b), expr(c), expr(d)), 0, 1),
@@ -447,39 +420,35 @@ def _(case):
 @proof.claim(
     "arm.stable",
     "the origin is globally asymptotically stable: this robot, these gains, with this ε₀ in V",
-    place="Proposition",
-    section=ARM,
+    "Proposition",
     uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.theta"],
 )
-def _(case):
-    loop = loop_of(case, arm=ArmBounds(case.robot).under(case.gains), **numbers_of(case))
+def _(m, n, robot, gains):
+    loop = loop_of(m, n, arm=ArmBounds(robot).under(gains), **numbers_of(m, n, robot, gains))
     constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
     return theorem(
         "Lyapunov's direct method", loop, **LYAPUNOVS, **constants, form_negative_definite="arm.theta"
     )
 
 
-def numbers_of(case):
+def numbers_of(m, n, robot, gains):
     """The constants of the loop for the robot and gains at hand, and ε₀."""
-    arm = ArmBounds(case.robot)
+    arm = ArmBounds(robot)
     bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc}
-    return bounds | {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
+    return bounds | {"kp": min(gains.kp), "kv_max": max(gains.kv), "eps0": eps0_of(m, n, robot, gains)}
 
 
 @proof.claim(
     "arm.states",
     "dV/dt < 0 at every state but the origin, by the checker of states",
-    place="(15)",
-    section=ARM,
+    "(15)",
 )
-def _(case):
+def _(m, n, robot, gains):
     """The same ε₀ without any of the steps above: the checker has its own bounds of M, C, h and h'."""
-    return decreasing(case.robot, case.gains, eps0_of(case))
+    return decreasing(robot, gains, eps0_of(m, n, robot, gains))
 
 
-@proof.claim(
-    "arm.ranges", "dV/dt < 0 for every arm within the ranges, with half of ε₀", place="(15)", section=ARM
-)
-def _(case):
+@proof.claim("arm.ranges", "dV/dt < 0 for every arm within the ranges, with half of ε₀", "(15)")
+def _(m, n, robot, gains):
     """For all values of the numbers of the arm that are assumed within a range."""
-    return decreasing(case.robot, case.gains, eps0_of(case) / 2, ranges=True)
+    return decreasing(robot, gains, eps0_of(m, n, robot, gains) / 2, ranges=True)

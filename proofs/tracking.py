@@ -67,45 +67,44 @@ SAME_TERMS = [f"rate.{k}" for k in (1, 2, 3, 4, 6, 7, 8, 10, 11)]
 proof.adopt("scalar.py", "V.positive", "V.unbounded", "h.bounds", *SAME_TERMS)
 
 
-def sign_of(case):
+def sign_of(m):
     """h is odd and has the sign of its argument."""
     return {
-        "odd": identity(h(case.m, -x), -h(case.m, x)),
-        "positive_right_of_0": for_all(expr(0) < h(case.m, x), 0, open_low=True),
+        "odd": identity(h(m, -x), -h(m, x)),
+        "positive_right_of_0": for_all(expr(0) < h(m, x), 0, open_low=True),
     }
 
 
-LOOP = "The loop that (21) closes"
-
-
-def known_of(case):
+def known_of(m, n):
     """γ, √nγ, ρ, L and G of h_m in decimals."""
-    return FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))
+    return FamilyBounds(n, gamma(m), rho(m), secant_bound(m))
 
 
-def function_of(case):
+def function_of(m):
     """h, h' and U."""
-    return h(case.m, x), dh(case.m, x), potential(case.m, x)
+    return h(m, x), dh(m, x), potential(m, x)
+
+
+proof.section("The loop that (21) closes")
 
 
 @proof.claim(
     "21.loop",
     "w = −(q̇_d − q̇) obeys (11) with C(q, q̇) in place of C(q, w); the origin is an equilibrium",
-    place="(1), (21)",
-    section=LOOP,
+    "(1), (21)",
     uses=["h.odd"],
 )
-def _(case):
+def _(m):
     s = loops.letters()
     zero = zero_vector()
     origin = replace(s, w=zero, hw=zero, h=zero)
     z, *others = (any_vector(name) for name in ("z", "vd", "ad", "g"))
     return all_of(
-        **sign_of(case),
+        **sign_of(m),
         loop=every_n(lacking_torque(s, z, *others), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
         equilibrium=every_n(dot(z, loops.force(origin)), expr(0)),
         with_the_letters_of_the_theorem=loop_property(
-            "the origin is an equilibrium", function_of(case), desired=True
+            "the origin is an equilibrium", function_of(m), desired=True
         ),
     )
 
@@ -119,7 +118,7 @@ def lacking_torque(s, z, speed, acceleration, weight):
     return dot(z, applied) - dot(z, needed)
 
 
-RATE = "dV/dt ≤ −[a b] Θ' [a b]ᵀ, with ‖q̇_d‖ ≤ v_d"
+proof.section("dV/dt ≤ −[a b] Θ' [a b]ᵀ, with ‖q̇_d‖ ≤ v_d")
 
 
 def bounds_of(known):
@@ -141,9 +140,9 @@ def bounds_of(known):
     ]
 
 
-def term(case, k, *names):
+def term(m, n, k, *names):
     """Term k of (15) with C(q, q̇) = C(q, w) + D, D = C(q, q̇_d), ‖D‖ ≤ k_c v_d, is at most its bound."""
-    s, known, desired = loops.short_letters(), known_of(case), any_matrix("D")
+    s, known, desired = loops.short_letters(), known_of(m, n), any_matrix("D")
     sizes = loops.known_norms(s, known) | {"D": (desired, var("kc") * var("vd"))}
     turning = replace(s, C=s.C + desired)
     return loops.term_at_most(turning, k, bounds_of(known)[k - 1], [sizes[name] for name in names])
@@ -152,23 +151,21 @@ def term(case, k, *names):
 @proof.claim(
     "21.5",
     "term 5: −ε hᵀC(q,q̇)ᵀw ≤ ε k_c v_d a b + ε√nγ k_c b²",
-    place="(15), term 5",
-    section=RATE,
+    "(15), term 5",
     uses=["rate", "h.bound"],
 )
-def _(case):
-    return term(case, 5, "h", "reach", "C", "D", "w")
+def _(m, n):
+    return term(m, n, 5, "h", "reach", "C", "D", "w")
 
 
 @proof.claim(
     "21.9",
     "term 9: ½ε² hᵀ(C + Cᵀ)h ≤ ε² k_c v_d a² + ε²√nγ k_c a b",
-    place="(15), term 9",
-    section=RATE,
+    "(15), term 9",
     uses=["rate", "h.bound"],
 )
-def _(case):
-    return term(case, 9, "h", "reach", "C", "D")
+def _(m, n):
+    return term(m, n, 9, "h", "reach", "C", "D")
 
 
 def theta(eps, k, b_min, c, d, turn):
@@ -183,63 +180,59 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
 
 
-def loop_of(case, **more):
+def loop_of(m, n, **more):
     """The loop that (21) closes with V of (13), as the theorem is about it."""
-    known = known_of(case)
-    return known.loop(function_of(case), form_of(known), desired=True, **more)
+    known = known_of(m, n)
+    return known.loop(function_of(m), form_of(known), desired=True, **more)
 
 
 @proof.claim(
     "21.form",
     "dV/dt ≤ −[a b] Θ' [a b]ᵀ, in which there is no t",
-    place="in place of (16)",
-    section=RATE,
+    "in place of (16)",
     uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
 )
-def _(case):
+def _(m, n):
     """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
-    known, a, b = known_of(case), var("a"), var("b")
+    known, a, b = known_of(m, n), var("a"), var("b")
     corner, side, low = form_of(known)
     return all_of(
         sum=identity(total(bounds_of(known)), -(corner * a**2 + 2 * side * a * b + low * b**2)),
-        from_V_for_every_n=rate_bound(loop_of(case)),
+        from_V_for_every_n=rate_bound(loop_of(m, n)),
     )
 
 
-UNIFORM = "Uniform asymptotic stability, for every arm"
+proof.section("Uniform asymptotic stability, for every arm")
 
 
 @proof.claim(
     "21.below",
     "V ≥ ½λmin(M)‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
-    place="(13)",
-    section=UNIFORM,
+    "(13)",
     uses=["V.positive"],
 )
-def _(case):
+def _(m):
     """λmin(M) is one number μ > 0 for all q(t): M is positive definite on the compact torus of angles."""
-    return loop_property("V is bounded below by a positive definite function", function_of(case))
+    return loop_property("V is bounded below by a positive definite function", function_of(m))
 
 
 @proof.claim(
     "21.above",
     "V ≤ ½β_M‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
-    place="(13)",
-    section=UNIFORM,
+    "(13)",
     uses=["V.positive"],
 )
-def _(case):
-    return loop_property("V is bounded above by a positive definite function", function_of(case))
+def _(m):
+    return loop_property("V is bounded above by a positive definite function", function_of(m))
 
 
 @proof.claim(
     "21.small",
     "for every v_d some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
-    place="in place of (18)",
-    section=UNIFORM,
+    "in place of (18)",
 )
-def _(case):
-    known = known_of(case)
+def _(m, n):
+    known = known_of(m, n)
     names = ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc", "vd")
     eps0, k, b, more, kv, beta, kc, vd = map(var, names)
     variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc", "vd")
@@ -266,38 +259,33 @@ DIRECT_METHOD = {
 @proof.claim(
     "21",
     "(21) makes the origin globally uniformly asymptotically stable, whatever v_d = sup‖q̇_d‖ < ∞ is",
-    place="Remark II, (21)",
-    section=UNIFORM,
+    "Remark II, (21)",
     uses=[*DIRECT_METHOD.values(), "21.small"],
 )
-def _(case):
+def _(m, n):
     """For every robot with Properties 2.1–2.7 and all positive gains; ε₀ is not part of the controller."""
     name = "Lyapunov's direct method, time-varying"
-    return theorem(name, loop_of(case), **DIRECT_METHOD, form_negative_definite="21.small")
+    return theorem(name, loop_of(m, n), **DIRECT_METHOD, form_negative_definite="21.small")
 
 
-# With numbers for the robot, the gains and v_d -------------------------------------------------------------
-
-ARM = "This arm, with a number for v_d"
+proof.section("This arm, with a number for v_d")
 proof.adopt("scalar.py", "arm.properties", "arm.M", "arm.C")
 
 
-def form_numbers(case):
+def form_numbers(m, n, robot, gains):
     """λmin(K_p), λmin(B), c, d and k_c v_d for the robot and gains at hand."""
-    if len(case.gains.kp) != case.robot.n:
-        raise lacking(f"the gains are for {len(case.gains.kp)} joints, {case.robot.name} has {case.robot.n}")
-    known, arm = known_of(case), ArmBounds(case.robot)
-    c, d = known.drift(arm.beta, arm.kc), known.cross(arm.b_max, max(case.gains.kv))
-    return min(case.gains.kp), arm.b_min, c, d, arm.kc * SPEED
+    known, arm = known_of(m, n), ArmBounds(robot)
+    c, d = known.drift(arm.beta, arm.kc), known.cross(arm.b_max, max(gains.kv))
+    return min(gains.kp), arm.b_min, c, d, arm.kc * SPEED
 
 
-def eps0_of(case):
+def eps0_of(m, n, robot, gains):
     """ε₀: a share of the largest one for which Θ' ≻ 0; both entries and det Θ'/ε fall with ε up to there.
 
     Raises:
         Lacking: there is none, as where a joint has no friction.
     """
-    k, b, c, d, turn = form_numbers(case)
+    k, b, c, d, turn = form_numbers(m, n, robot, gains)
 
     def positive_definite(eps):
         corner, side, low = theta(eps, k, b, c, d, turn)
@@ -309,24 +297,21 @@ def eps0_of(case):
     return SHARE * largest
 
 
-@proof.claim(
-    "arm.inertia", "M(q) − μI is positive definite for a number μ > 0", place="Property 2.1", section=ARM
-)
-def _(case):
+@proof.claim("arm.inertia", "M(q) − μI is positive definite for a number μ > 0", "Property 2.1")
+def _(robot):
     """μ is half of the least eigenvalue at a few postures, rounded down to a power of two."""
-    arm = ArmBounds(case.robot)
+    arm = ArmBounds(robot)
     return arm.mass_above(arm.guessed_floor())
 
 
 @proof.claim(
     "arm.21.theta",
     f"Θ' is positive definite for every ε in (0, ε₀], at these numbers and v_d = {SPEED} rad/s",
-    place="in place of (18)",
-    section=ARM,
+    "in place of (18)",
 )
-def _(case):
-    eps = var("x") * eps0_of(case)
-    k, b, c, d, turn = map(expr, form_numbers(case))
+def _(m, n, robot, gains):
+    eps = var("x") * eps0_of(m, n, robot, gains)
+    k, b, c, d, turn = map(expr, form_numbers(m, n, robot, gains))
     return all_of(
         corner=for_all(expr(0) < k - eps * turn, 0, 1),
         determinant=for_all(eps / 4 * (d + turn + eps * c) ** 2 < (k - eps * turn) * (b - eps * c), 0, 1),
@@ -336,8 +321,7 @@ def _(case):
 @proof.claim(
     "arm.21",
     f"for ‖q̇_d‖ ≤ {SPEED} rad/s the origin is globally uniformly asymptotically stable, with this ε₀ in V",
-    place="Remark II, (21)",
-    section=ARM,
+    "Remark II, (21)",
     uses=[
         *DIRECT_METHOD.values(),
         "arm.properties",
@@ -347,10 +331,10 @@ def _(case):
         "arm.21.theta",
     ],
 )
-def _(case):
-    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(case.robot)
+def _(m, n, robot, gains):
+    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(robot)
     bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc, "vd": SPEED}
-    gains = {"kp": min(case.gains.kp), "kv_max": max(case.gains.kv), "eps0": eps0_of(case)}
-    loop = loop_of(case, arm=arm.under(case.gains), **bounds, **gains)
+    bounds |= {"kp": min(gains.kp), "kv_max": max(gains.kv), "eps0": eps0_of(m, n, robot, gains)}
+    loop = loop_of(m, n, arm=arm.under(gains), **bounds)
     constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
     return theorem(name, loop, **DIRECT_METHOD, **constants, form_negative_definite="arm.21.theta")

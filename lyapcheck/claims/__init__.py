@@ -10,9 +10,11 @@ from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.check.theorems.rate import loop_closed, rate_bound
 from lyapcheck.claims.arms import (
     coriolis_matrix,
+    gravity_bounds,
     gravity_vector,
     mass_matrix,
     rate_of,
+    torque_limits,
 )
 from lyapcheck.claims.bounds import (
     ArmBounds,
@@ -87,6 +89,7 @@ from lyapcheck.claims.statements import (
     Identity,
     Implies,
     NormBound,
+    Reals,
     Statement,
     Theorem,
     TrigonometricBound,
@@ -131,6 +134,7 @@ __all__ = [
     "Lacking",
     "NormBound",
     "Proof",
+    "Reals",
     "Relation",
     "Statement",
     "Theorem",
@@ -166,6 +170,7 @@ __all__ = [
     "for_all",
     "form",
     "gamma",
+    "gravity_bounds",
     "gravity_vector",
     "h",
     "identity",
@@ -199,6 +204,7 @@ __all__ = [
     "sqrt",
     "tanh",
     "theorem",
+    "torque_limits",
     "total",
     "transpose",
     "var",

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.claims.case import lacking
 from lyapcheck.claims.expressions import Expr, cos, diff, expr, sin, total, var
 from lyapcheck.claims.products import Matrix, Vector, vector
 
 if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots import Number, RobotModel
 
 
 def mass_matrix(robot: RobotModel) -> Matrix:
@@ -44,3 +45,28 @@ def _parameters(robot: RobotModel) -> dict[str, Expr]:
 
 def _lift() -> Callable[[Fraction], Expr]:
     return expr
+
+
+def torque_limits(robot: RobotModel) -> list[Fraction]:
+    """τmax of each joint, N·m.
+
+    Raises:
+        Lacking: the robot has none for some joint.
+    """
+    return _known(robot.torque_limit, "torque limit")
+
+
+def gravity_bounds(robot: RobotModel) -> list[Fraction]:
+    """k_gi of each joint, N·m.
+
+    Raises:
+        Lacking: the robot has none for some joint.
+    """
+    return _known(robot.gravity_bound, "gravity bound")
+
+
+def _known(numbers: Sequence[Number | None], what: str) -> list[Fraction]:
+    found = [number.value for number in numbers if number is not None]
+    if len(found) < len(numbers):
+        raise lacking(f"needs a {what} for every joint; add it to the arm file")
+    return found

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from inspect import Parameter, signature
+from typing import Any
 
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.order import needed
 from lyapcheck.claims.statements import Statement
 
 StatementOf = Callable[[Case], Statement]
+ARGUMENTS = ("m", "n", "robot", "gains")
+"""What the function of a claim may ask for, by the names of its arguments."""
 
 
 @dataclass(frozen=True)
@@ -37,34 +41,66 @@ class Claim:
 class Proof:
     """A proof: claims in the order of the text, each of which may use others.
 
-    In a script, write ``proof = Proof("name", "title")`` and decorate one function of the case per claim::
+    In a script, write ``proof = Proof("name", "title")`` and decorate one function per claim. It is handed
+    those of m, n, robot and gains that its arguments name, and nothing else; ``case`` stands for all four::
 
-        @proof.claim("7a", "‖h_m(x)‖ ≤ √n γ_m", place="(7)")
-        def bounded(case):
-            return norm_bound(h(case.m, x), case.n, sqrt(case.n) * gamma(case.m))
+        @proof.claim("7a", "‖h_m(x)‖ ≤ √n γ_m", "(7)")
+        def _(m, n):
+            return norm_bound(h(m, x), n, sqrt(n) * gamma(m))
     """
 
     name: str
     title: str
     reference: str = ""
     claims: dict[str, Claim] = field(default_factory=dict)
+    _section: str = field(default="", init=False, repr=False)
+
+    def section(self, title: str) -> None:
+        """List the claims that follow under a part of the text."""
+        self._section = title
 
     def claim(
-        self, claim_id: str, says: str, *, place: str = "", section: str = "", uses: Iterable[str] = ()
-    ) -> Callable[[StatementOf], StatementOf]:
-        """Add a claim whose statement, for a case, is what the decorated function returns."""
+        self,
+        claim_id: str,
+        says: str,
+        place: str = "",
+        *,
+        section: str | None = None,
+        uses: Iterable[str] = (),
+    ) -> Callable[[Callable[..., Statement]], Callable[..., Statement]]:
+        """Add a claim whose statement is what the decorated function returns for the arguments it names.
 
-        def add(statement: StatementOf) -> StatementOf:
+        Args:
+            claim_id: the name by which other claims use it.
+            says: the statement as a reader sees it.
+            place: where the text makes it.
+            section: the part of the text; by default the one that :meth:`section` named last.
+            uses: the claims it rests on.
+
+        Raises:
+            ValueError: the id is taken, or the function asks for something else.
+        """
+        listed = self._section if section is None else section
+
+        def add(statement: Callable[..., Statement]) -> Callable[..., Statement]:
             if claim_id in self.claims:
                 raise ValueError(f"two claims have the id {claim_id!r}")
-            self.claims[claim_id] = Claim(claim_id, says, place, section, tuple(uses), statement)
+            of_case = _of_case(claim_id, statement)
+            self.claims[claim_id] = Claim(claim_id, says, place, listed, tuple(uses), of_case)
             return statement
 
         return add
 
-    def add(self, claim_id: str, says: str, statement: Statement, **about: object) -> None:
-        """Add a claim whose statement does not depend on the case."""
-        self.claim(claim_id, says, **about)(lambda case: statement)  # type: ignore[arg-type]
+    def add(
+        self,
+        claim_id: str,
+        says: str,
+        statement: Statement | Callable[..., Statement],
+        place: str = "",
+        **about: Any,
+    ) -> None:
+        """Add a claim in one line: a statement that is the same in every case, or a function as above."""
+        self.claim(claim_id, says, place, **about)(statement if callable(statement) else lambda: statement)
 
     def adopt(self, script: str, *ids: str, section: str = "") -> None:
         """Take claims from another proof script, with all that they use, under the ids they have there.
@@ -85,3 +121,18 @@ class Proof:
         for name, claim in other.claims.items():
             if name in wanted:
                 self.claims.setdefault(name, replace(claim, section=section or claim.section))
+
+
+def _of_case(claim_id: str, statement: Callable[..., Statement]) -> StatementOf:
+    """A function of the arguments it names as one of the case; arguments with a default keep it.
+
+    Raises:
+        ValueError: one is not to be had.
+    """
+    parameters = signature(statement).parameters.values()
+    names = [one.name for one in parameters if one.default is Parameter.empty]
+    for name in names:
+        if name not in (*ARGUMENTS, "case"):
+            known = ", ".join(ARGUMENTS)
+            raise ValueError(f"the function of {claim_id!r} asks for {name!r}; it may ask for {known}")
+    return lambda case: statement(**{name: case if name == "case" else getattr(case, name) for name in names})

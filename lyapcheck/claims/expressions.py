@@ -7,10 +7,14 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from lyapcheck.check.expressions.expression import Tree, derivative
+from lyapcheck.check.expressions.expression import Tree, derivative, substitute
 from lyapcheck.check.statement import Relation
 
 Operand = "Expr | Fraction | int | str | Decimal"
+
+
+class Multiplied:
+    """What a number can multiply and is none itself: vectors and matrices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,8 @@ class Expr:
         return expr(other) - self
 
     def __mul__(self, other: object) -> Expr:
+        if isinstance(other, Multiplied):
+            return NotImplemented
         return Expr(("mul", self.tree, expr(other).tree))
 
     def __rmul__(self, other: object) -> Expr:
@@ -56,6 +62,10 @@ class Expr:
 
     def __abs__(self) -> Expr:
         return Expr(("abs", self.tree))
+
+    def at(self, **values: object) -> Expr:
+        """The same expression with other expressions or numbers for some variables."""
+        return Expr(substitute(self.tree, {name: expr(value).tree for name, value in values.items()}))
 
     def __le__(self, other: object) -> Relation:
         return Relation(self.tree, "<=", expr(other).tree)

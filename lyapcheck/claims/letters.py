@@ -7,17 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN, Given
-from lyapcheck.claims.expressions import Expr, expr
+from lyapcheck.claims.expressions import Expr, Multiplied, expr
 
 
 @dataclass(frozen=True, eq=False)
-class AnyVector:
-    """A vector of Rⁿ for every n."""
+class AnyVector(Multiplied):
+    """A vector of Rⁿ for every n: ``x @ y`` is xᵀy, ``x @ A @ y`` is xᵀAy, ``s * x`` a multiple."""
 
     tree: Tree
 
@@ -30,6 +31,12 @@ class AnyVector:
     def __neg__(self) -> AnyVector:
         return self.times(-1)
 
+    def __rmul__(self, factor: object) -> AnyVector:
+        return self.times(factor)
+
+    def __matmul__(self, other: Any) -> Any:
+        return Row(self, other) if isinstance(other, AnyMatrix) else _dot(self.tree, other.tree)
+
     def dot(self, other: AnyVector) -> Expr:
         """The dot product."""
         return Expr(("dot", self.tree, other.tree))
@@ -40,13 +47,19 @@ class AnyVector:
 
 
 @dataclass(frozen=True, eq=False)
-class AnyMatrix:
+class AnyMatrix(Multiplied):
     """An n × n matrix for every n."""
 
     tree: Tree
 
     def __add__(self, other: AnyMatrix) -> AnyMatrix:
         return AnyMatrix(("sum", self.tree, other.tree))
+
+    def __sub__(self, other: AnyMatrix) -> AnyMatrix:
+        return self + -1 * other
+
+    def __rmul__(self, factor: object) -> AnyMatrix:
+        return AnyMatrix(("scale", expr(factor).tree, self.tree))
 
     @property
     def T(self) -> AnyMatrix:
@@ -55,6 +68,26 @@ class AnyMatrix:
 
     def __matmul__(self, x: AnyVector) -> AnyVector:
         return AnyVector(("apply", self.tree, x.tree))
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """xᵀA, which waits for the vector on its right."""
+
+    left: AnyVector
+    matrix: AnyMatrix
+
+    def __matmul__(self, right: AnyVector) -> Expr:
+        return _dot(self.left.tree, (self.matrix @ right).tree)
+
+
+def _dot(left: Tree, right: Tree) -> Expr:
+    """xᵀy, with the factor of x in front."""
+    if left[0] != "scale":
+        return Expr(("dot", left, right))
+    _, factor, x = left
+    product = _dot(x, right)
+    return -product if factor == ("num", "-1") else Expr(factor) * product
 
 
 Letter = Expr | AnyVector | AnyMatrix

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.agrees import Agrees
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.constant import Constant
@@ -20,7 +21,7 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.expressions import Expr, expr
+from lyapcheck.claims.expressions import Expr, expr, var
 
 __all__ = [
     "Agrees",
@@ -32,6 +33,7 @@ __all__ = [
     "Implies",
     "Missing",
     "NormBound",
+    "Reals",
     "Relation",
     "Statement",
     "Theorem",
@@ -96,6 +98,60 @@ def nonnegative(*names: str) -> tuple[Variable, ...]:
 def reals(*names: str) -> tuple[Variable, ...]:
     """Variables that run over all reals."""
     return tuple(Variable(name) for name in names)
+
+
+class Reals:
+    """Real variables, each declared once with its range; a statement takes over those that occur in it.
+
+    ::
+
+        R = Reals()
+        kp, kv = R.positive("kp kv")
+        R.implies((kp <= 1, kv <= 1), kp * kv <= 1)
+    """
+
+    def __init__(self) -> None:
+        self.known: dict[str, Variable] = {}
+
+    def positive(self, names: str) -> list[Expr]:
+        """Variables over all positive reals, their names between spaces."""
+        return self._declared(positive(*names.split()))
+
+    def nonnegative(self, names: str) -> list[Expr]:
+        """Variables over all reals >= 0."""
+        return self._declared(nonnegative(*names.split()))
+
+    def real(self, names: str) -> list[Expr]:
+        """Variables over all reals."""
+        return self._declared(reals(*names.split()))
+
+    def implies(self, hypotheses: Iterable[Relation], conclusion: Relation) -> Implies:
+        """For all values of the variables: the hypotheses together give the conclusion."""
+        given = tuple(hypotheses)
+        return Implies(self.ranges(*given, conclusion), given, conclusion)
+
+    def for_small(
+        self, small: str, conclusion: Relation, given: Iterable[Relation] = (), unit: str = ""
+    ) -> ForSmall:
+        """The conclusion for every small enough value of one variable, and all of ``unit`` in (0, 1]."""
+        hypotheses, bounded = tuple(given), tuple(unit.split())
+        over = (v for v in self.ranges(*hypotheses, conclusion) if v.name not in (small, *bounded))
+        return ForSmall(small, tuple(over), hypotheses, conclusion, bounded)
+
+    def ranges(self, *relations: Relation) -> tuple[Variable, ...]:
+        """The variables that occur, in the order in which they were declared.
+
+        Raises:
+            ValueError: one was not declared.
+        """
+        used = {name for relation in relations for name in variables(relation.gap)}
+        if unknown := used - set(self.known):
+            raise ValueError(f"{', '.join(sorted(unknown))}: declare its range first, as in R.positive(...)")
+        return tuple(v for name, v in self.known.items() if name in used)
+
+    def _declared(self, variables: tuple[Variable, ...]) -> list[Expr]:
+        self.known |= {v.name: v for v in variables}
+        return [var(v.name) for v in variables]
 
 
 def implies(

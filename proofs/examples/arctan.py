@@ -5,7 +5,7 @@ Run it with ``lyapcheck check proofs/examples/arctan.py``; ``--help`` lists what
 How a script is made:
 
 - ``proof = Proof(...)`` once; then one function per claim, decorated with its id and what it says in words.
-  The function gets the case (``case.n``, ``case.robot``, …) and returns the statement as data.
+  It is handed what its arguments name (m, n, robot, gains), no more, and returns the statement as data.
 - Numbers are exact: write "1.5708" or Fraction(11, 7), never the float 1.5708.
 - ``uses`` names the claims that a step rests on. If one of them is not proved, neither is the step.
 - Nothing says here what is true: each statement is decided, a wrong one is refuted with a witness.
@@ -59,14 +59,14 @@ ARCTAN = (atan(x), SLOPE, U)
 """h, h' and U."""
 
 
-def known_of(case):
+def known_of(n):
     """γ, √nγ, ρ, L and G; γ is above π/2 by enough to be shown without going far out."""
-    return FamilyBounds(case.n, gamma="1.58", rho=1, L=1)
+    return FamilyBounds(n, gamma="1.58", rho=1, L=1)
 
 
-def loop_of(case):
+def loop_of(n):
     """The closed loop and V that the theorem at the end is about: arctan, its derivative, U and Θ'."""
-    known = known_of(case)
+    known = known_of(n)
     eps, k, b_min, b_max, kv_max, beta, kc = map(var, ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc"))
     form = theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
     return known.loop(ARCTAN, form)
@@ -78,7 +78,7 @@ FUNCTION = "The function arctan"
 
 
 @proof.claim("sign", "arctan has the sign of x", section=FUNCTION)
-def _(case):
+def _():
     return all_of(
         odd=identity(atan(-x), -atan(x)),
         right_of_0=for_all(expr(0) < atan(x), 0, open_low=True),
@@ -88,25 +88,25 @@ def _(case):
 
 
 @proof.claim("bound", "|arctan x| ≤ π/2 ≤ γ", section=FUNCTION)
-def _(case):
+def _(n):
     return all_of(
         from_above=for_all(atan(x) <= pi / 2),
         from_below=for_all(-pi / 2 <= atan(x)),
-        rounded_up=Constant(pi / 2 <= known_of(case).gamma),
+        rounded_up=Constant(pi / 2 <= known_of(n).gamma),
     )
 
 
 @proof.claim("slope", "‖arctan(x)‖ ≤ ‖x‖ for x in Rⁿ", section=FUNCTION)
-def _(case):
-    return norm_bound(atan(x), case.n, known_of(case).L, power=1)
+def _(n):
+    return norm_bound(atan(x), n, known_of(n).L, power=1)
 
 
 @proof.claim("steep", "0 ≤ arctan' ≤ 1", section=FUNCTION)
-def _(case):
+def _(n):
     return all_of(
         derivative=identity(diff(atan(x), "x"), SLOPE),
         below=for_all(expr(0) <= SLOPE),
-        above=for_all(known_of(case).rho >= SLOPE),
+        above=for_all(known_of(n).rho >= SLOPE),
     )
 
 
@@ -115,7 +115,7 @@ def _(case):
     "U = x arctan x − ½ ln(1 + x²): U' = arctan, U > 0 unless x = 0, U ≥ ½|x| − 1",
     section=FUNCTION,
 )
-def _(case):
+def _():
     return all_of(
         arctan_is_odd=identity(atan(-x), -atan(x)),
         arctan_is_positive=for_all(expr(0) < atan(x), 0, open_low=True),
@@ -133,41 +133,41 @@ LYAPUNOV = "V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − ε arctan(q̃)"
 
 
 @proof.claim("share", "a ≤ √nγ and a ≤ Lr give a/(1 + r) ≤ √nγL/(√nγ + L) = G", section=LYAPUNOV)
-def _(case):
+def _():
     a, r, reach, L = map(var, ("a", "r", "reach", "L"))
     variables = positive("reach", "L") + nonnegative("a", "r")
     return implies(variables, (a <= reach, a <= L * r), a / (1 + r) <= reach * L / (reach + L))
 
 
 @proof.claim("positive", "V is positive definite", section=LYAPUNOV, uses=["potential"])
-def _(case):
+def _():
     return loop_property("V is positive definite", ARCTAN)
 
 
 @proof.claim(
     "smooth", "V is continuously differentiable, also at q̃ = 0", section=LYAPUNOV, uses=["slope", "steep"]
 )
-def _(case):
+def _():
     return loop_property("V is continuously differentiable", ARCTAN)
 
 
 @proof.claim("unbounded", "V is radially unbounded", section=LYAPUNOV, uses=["bound", "potential"])
-def _(case):
+def _():
     return loop_property("V is radially unbounded", ARCTAN)
 
 
 @proof.claim("equilibrium", "the origin is the only equilibrium", section=LYAPUNOV, uses=["sign"])
-def _(case):
+def _():
     return loop_property("the origin is the only equilibrium", ARCTAN)
 
 
 @proof.claim("sizes", "γ, ρ and L bound arctan, its derivative and arctan(x)/x", section=LYAPUNOV)
-def _(case):
-    return known_of(case).of_h(ARCTAN)
+def _(n):
+    return known_of(n).of_h(ARCTAN)
 
 
 @proof.claim("rate", "dV/dt is the sum of eleven terms", section=LYAPUNOV, uses=["potential", "smooth"])
-def _(case):
+def _():
     s = loops.letters()
     return all_of(
         terms=loops.along(s, loops.energy(s), total(loops.terms(s))),
@@ -184,8 +184,8 @@ def _(case):
     section=LYAPUNOV,
     uses=["rate", "sign", "bound", "slope", "steep", "share"],
 )
-def _(case):
-    known, s = known_of(case), loops.short_letters()
+def _(n):
+    known, s = known_of(n), loops.short_letters()
     norms, least = loops.known_norms(s, known), loops.known_least(s)
     a, b, eps, kp, b_min, b_max, kv_max, beta, kc = map(var, NAMES)
 
@@ -216,8 +216,8 @@ def theta(eps, k, b_min, c, d):
 @proof.claim(
     "form", "dV/dt ≤ −[a b] Θ' [a b]ᵀ with a = ‖arctan(q̃)‖, b = ‖q̇‖", section=LYAPUNOV, uses=["bounds"]
 )
-def _(case):
-    known = known_of(case)
+def _(n):
+    known = known_of(n)
     a, b, eps, k, b_min, b_max, kv_max, beta, kc = map(var, NAMES)
     c, d = known.drift(beta, kc), known.cross(b_max, kv_max)
     squares = -b_min * b**2 - eps * k * a**2
@@ -226,7 +226,7 @@ def _(case):
     corner, side, low = theta(eps, k, b_min, c, d)
     return all_of(
         sum=identity(squares + mixed * a * b, -(corner * a**2 + 2 * side * a * b + low * b**2)),
-        from_V_for_every_n=rate_bound(loop_of(case)),
+        from_V_for_every_n=rate_bound(loop_of(n)),
     )
 
 
@@ -236,8 +236,8 @@ CONCLUSION = "Conclusion"
 
 
 @proof.claim("small", "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]", section=CONCLUSION)
-def _(case):
-    known = known_of(case)
+def _(n):
+    known = known_of(n)
     eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
     variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
     corner, side, low = theta(eps0 * var("share"), k, b, known.drift(beta, kc), known.cross(b + more, kv))
@@ -253,11 +253,11 @@ def _(case):
     section=CONCLUSION,
     uses=["equilibrium", "smooth", "positive", "unbounded", "sizes", "form", "small"],
 )
-def _(case):
+def _(n):
     """The checker looks into the claims named here: each must state what its hypothesis comes to."""
     return theorem(
         "Lyapunov's direct method",
-        loop_of(case),
+        loop_of(n),
         only_equilibrium="equilibrium",
         differentiable="smooth",
         positive_definite="positive",
@@ -276,7 +276,7 @@ def _(case):
     "dV/dt < 0 at every state but the origin of this arm with these gains, ε₀ = 0.02",
     section=CONCLUSION,
 )
-def _(case):
+def _(robot):
     kp, kv = (28, 60, 5), ("0.3", "0.3", "0.3")
     gains = GainSet("arctan", None, tuple(map(Fraction, kp)), tuple(map(Fraction, kv)), family="arctan")
-    return decreasing(case.robot, gains, "0.02")
+    return decreasing(robot, gains, "0.02")

@@ -31,27 +31,27 @@ x = var("x")
 
 
 @proof.claim("wrong", "arctan x ≤ x − x³/3 for x ≥ 0 (it is ≥)")
-def _(case):
+def _():
     return for_all(atan(x) <= x - x**3 / 3, 0)
 
 
 @proof.claim("rests", "so arctan 1 ≤ 2/3 < 0.7", uses=["wrong"])
-def _(case):
+def _():
     return Constant(expr(2) / 3 < "0.7")
 
 
 @proof.claim("sign", "½yᵀMy = ½q̇ᵀMq̇ + ε hᵀMq̇ + ½ε² hᵀMh (the second sign must be −)")
-def _(case):
-    s = loops.loop(case.n)
+def _(n):
+    s = loops.loop(n)
     expanded = form(s.w, s.M, s.w) / 2 + s.eps * form(s.h, s.M, s.w) + s.eps**2 * form(s.h, s.M, s.h) / 2
     return identity(form(s.y, s.M, s.y) / 2, expanded, positive("r"))
 
 
 @proof.claim("large", "dV/dt < 0 at every state but the origin with ε₀ = 2")
-def _(case):
-    return decreasing(case.robot, case.gains, 2)
+def _(robot, gains):
+    return decreasing(robot, gains, 2)
 
 
 @proof.claim("right", "x − x³/3 ≤ arctan x for x ≥ 0")
-def _(case):
+def _():
     return for_all(x - x**3 / 3 <= atan(x), 0)

@@ -207,17 +207,17 @@ def test_bounds_of_another_arm_are_no_bounds_of_this_one(tmp_path, claim):
     other = "ArmBounds(load('pelican2'))"
     planted, named = {
         "bounds of another M": (f"all_of(a={other}.mass_above(), b={other}.mass_below())", "arm.M"),
-        "M not definite": ("ArmBounds(case.robot).mass_below()", "arm.M"),
-        "M not bounded": ("ArmBounds(case.robot).mass_above()", "arm.M"),
+        "M not definite": ("ArmBounds(robot).mass_below()", "arm.M"),
+        "M not bounded": ("ArmBounds(robot).mass_above()", "arm.M"),
         "C of another arm": (f"{other}.coriolis_below()", "arm.C"),
         "a larger bound of C": (
-            "replace(ArmBounds(case.robot).coriolis_below(), high=ArmBounds(case.robot).kc + 1)",
+            "replace(ArmBounds(robot).coriolis_below(), high=ArmBounds(robot).kc + 1)",
             "arm.C",
         ),
     }[claim]
     source = "from dataclasses import replace\nfrom lyapcheck.claims import *\n"
     source += "from lyapcheck.robots import load\nproof = Proof('planted', '')\n"
-    source += f"@proof.claim({named!r}, 'planted')\ndef _(case):\n    return {planted}\n"
+    source += f"@proof.claim({named!r}, 'planted')\ndef _(robot):\n    return {planted}\n"
     source += "proof.adopt('scalar.py', 'arm.stable')\n"
     path = tmp_path / "script.py"
     path.write_text(source, encoding="utf-8")

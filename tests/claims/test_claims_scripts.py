@@ -286,3 +286,20 @@ def test_explain_names_place_use_and_procedure():
     assert [part.kind for part in found.parts] == ["Implies"]
     with pytest.raises(InputError, match=r"did you mean 16\.6"):
         explain("16_6")
+
+
+def test_a_claim_is_handed_what_its_arguments_name(write):
+    """A function that asks for what there is not is the author's mistake; a default is its own."""
+    body = "@proof.claim('a', '')\ndef _(n, k=2):\n    return Constant(expr(n) < k + 2)\n"
+    (row,) = run_proof(write(body), ms=(1, 2), n=3).claims
+    assert (row.m, row.n, row.statement) == (None, 3, "3 < 4")
+    with pytest.raises(InputError, match="asks for 'joints'; it may ask for m, n, robot, gains"):
+        run_proof(write("@proof.claim('a', '')\ndef _(joints):\n    return Constant(expr(1) < 2)\n"), n=3)
+
+
+def test_variables_are_declared_before_they_are_used(write):
+    body = "R = Reals()\n(k,) = R.positive('k')\nproof.add('a', '', R.implies([k <= 1], k**2 <= 1))\n"
+    (row,) = run_proof(write(body), n=1).claims
+    assert (row.verdict.value, row.statement) == ("proved", "for all k > 0: if k ≤ 1, then k² ≤ 1")
+    with pytest.raises(InputError, match="x: declare its range first"):
+        run_proof(write(body + "R.implies([k <= 1], k * var('x') <= 1)\n"), n=1)

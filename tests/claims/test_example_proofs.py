@@ -87,7 +87,7 @@ def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, w
 REPAIRS = [
     ("wrong", "x - x**3 / 3, 0)", "x, 0)"),
     ("sign", "s.w) / 2 + s.eps", "s.w) / 2 - s.eps"),
-    ("large", "case.gains, 2)", 'case.gains, "0.02")'),
+    ("large", "robot, gains, 2)", 'robot, gains, "0.02")'),
 ]
 
 

@@ -11,7 +11,6 @@ import pytest
 
 from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.claims import expr, run_proof
-from lyapcheck.claims.case import Case
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import find_script
 from lyapcheck.family import hyperbolic
@@ -66,7 +65,7 @@ def test_every_conclusion_rests_on_the_chain_below_it(result):
 def test_the_form_bounds_the_rate_of_v_at_random_states(m, eps0):
     """The bound holds for every ε₀, whether Θ' is positive definite or not."""
     case = paper_case(m)
-    known, arm = NAMES["known_of"](case), NAMES["ArmBounds"](case.robot.fixed())
+    known, arm = NAMES["known_of"](m, case.n), NAMES["ArmBounds"](case.robot.fixed())
     kp, kv = ([float(k) for k in gains] for gains in (case.gains.kp, case.gains.kv))
     family = hyperbolic(m)
     rng = np.random.default_rng(7)
@@ -86,7 +85,7 @@ def test_the_form_bounds_the_rate_of_v_at_random_states(m, eps0):
 def test_c_and_d_are_those_of_the_other_derivation(m):
     """`lyapcheck.lyapunov.scalar` has the same two numbers, with its constants rounded elsewhere."""
     gains = paper_case(2).gains
-    known = NAMES["known_of"](Case(m, 3))
+    known = NAMES["known_of"](m, 3)
     beta, kc, low, high = Fraction(3), Fraction(2), Fraction(1, 2), Fraction(7, 3)
     form = scalar_form(gains, hyperbolic(m).constants(), RobotBounds(beta, kc, low, high))
     assert float(known.drift(beta, kc)) == pytest.approx(float(form.drift), rel=1e-3)
@@ -153,31 +152,31 @@ def test_large_members_and_many_joints_for_every_arm():
 
 # Faults -----------------------------------------------------------------------------------------------------
 
-FUNCTION = "h(case.m, x), dh(case.m, x), potential(case.m, x)"
+FUNCTION = "h(m, x), dh(m, x), potential(m, x)"
 """h, h' and U as every property of V takes them."""
-BOUNDS = "FamilyBounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))"
+BOUNDS = "FamilyBounds(n, gamma(m), rho(m), secant_bound(m))"
 LESS = [
-    BOUNDS.replace("gamma(case.m)", "1"),
-    BOUNDS.replace("rho(case.m)", "1"),
-    BOUNDS.replace("secant_bound(case.m)", "expr('0.8')"),
+    BOUNDS.replace("gamma(m)", "1"),
+    BOUNDS.replace("rho(m)", "1"),
+    BOUNDS.replace("secant_bound(m)", "expr('0.8')"),
 ]
 FAULTS = [
     (
         "h.slope",
-        "Bounds(case.n, gamma(case.m), rho(case.m), secant_bound(case.m))",
-        "Bounds(case.n, gamma(case.m), rho(case.m), expr('0.8'))",
+        "Bounds(n, gamma(m), rho(m), secant_bound(m))",
+        "Bounds(n, gamma(m), rho(m), expr('0.8'))",
     ),
-    ("h.bound", "every_entry=for_all(h(case.m, x) <= known.gamma)", "every_entry=for_all(h(case.m, x) <= 1)"),
-    ("h.steep", "dh(case.m, x) <= known.rho", "dh(case.m, x) <= known.gamma"),
+    ("h.bound", "every_entry=for_all(h(m, x) <= known.gamma)", "every_entry=for_all(h(m, x) <= 1)"),
+    ("h.steep", "dh(m, x) <= known.rho", "dh(m, x) <= known.gamma"),
     ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
     *(("h.bounds", BOUNDS, wrong) for wrong in LESS),
-    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) + 1"),
-    ("V.positive", FUNCTION, "h(case.m, x), dh(case.m, x), 2 * potential(case.m, x)"),
-    ("V.unbounded", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) / 2"),
+    ("V.positive", FUNCTION, "h(m, x), dh(m, x), potential(m, x) + 1"),
+    ("V.positive", FUNCTION, "h(m, x), dh(m, x), 2 * potential(m, x)"),
+    ("V.unbounded", FUNCTION, "h(m, x), dh(m, x), potential(m, x) / 2"),
     ("V.unbounded", FUNCTION, "x, expr(1), x**2 / 2"),
-    ("V.smooth", FUNCTION, "h(case.m, x), 2 * dh(case.m, x), potential(case.m, x)"),
+    ("V.smooth", FUNCTION, "h(m, x), 2 * dh(m, x), potential(m, x)"),
     ("V.smooth", FUNCTION, "x**3, 3 * x**2, x**4 / 4"),
-    ("equilibrium", FUNCTION, "-h(case.m, x), -dh(case.m, x), -potential(case.m, x)"),
+    ("equilibrium", FUNCTION, "-h(m, x), -dh(m, x), -potential(m, x)"),
     ("equilibrium", FUNCTION, "x**3 - x, 3 * x**2 - 1, x**4 / 4 - x**2 / 2"),
     ("rate", "total(loops.terms(s))", "total(loops.terms(s)[1:])"),
     ("rate", "rate(dot(s.e, s.e))", "rate(dot(s.e, s.w))"),
@@ -197,15 +196,15 @@ FAULTS = [
     ("arm.M", "arm.mass_below()", "type(arm.mass_below())(arm.mass, (), arm.beta / 2)"),
     (
         "arm.C",
-        "ArmBounds(case.robot).coriolis_below()",
-        "(lambda arm: type(arm.coriolis_below())(arm.mass, (), arm.kc / 100))(ArmBounds(case.robot))",
+        "ArmBounds(robot).coriolis_below()",
+        "(lambda arm: type(arm.coriolis_below())(arm.mass, (), arm.kc / 100))(ArmBounds(robot))",
     ),
     ("arm.stable", '"b_min": arm.b_min', '"b_min": 2 * arm.b_min'),
     ("arm.stable", '"b_max": arm.b_max', '"b_max": arm.b_max / 2'),
-    ("arm.stable", '"kp": min(case.gains.kp)', '"kp": 2 * min(case.gains.kp)'),
-    ("arm.stable", '"kv_max": max(case.gains.kv)', '"kv_max": max(case.gains.kv) / 2'),
-    ("arm.stable", '"eps0": eps0_of(case)', '"eps0": 2 * eps0_of(case)'),
-    ("arm.stable", "arm=ArmBounds(case.robot).under(case.gains), ", ""),
+    ("arm.stable", '"kp": min(gains.kp)', '"kp": 2 * min(gains.kp)'),
+    ("arm.stable", '"kv_max": max(gains.kv)', '"kv_max": max(gains.kv) / 2'),
+    ("arm.stable", '"eps0": eps0_of(m, n, robot, gains)', '"eps0": 2 * eps0_of(m, n, robot, gains)'),
+    ("arm.stable", "arm=ArmBounds(robot).under(gains), ", ""),
     ("arm.properties", "plus(turning, transpose(turning))", "plus(turning, turning)"),
 ]
 

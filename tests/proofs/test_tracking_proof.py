@@ -91,7 +91,7 @@ class Motion:
 
     def form(self, speed):
         """−[a b] Θ' [a b]ᵀ with the bound v_d = speed, and the sum of the sizes of its terms."""
-        known, arm = NAMES["known_of"](self.case), NAMES["ArmBounds"](self.case.robot.fixed())
+        known, arm = NAMES["known_of"](self.case.m, self.case.n), NAMES["ArmBounds"](self.case.robot.fixed())
         c = float(known.drift(arm.beta, arm.kc))
         d = float(known.cross(arm.b_max, max(self.case.gains.kv)))
         a, b = np.linalg.norm(self.family.h(self.e), axis=1), np.linalg.norm(self.w, axis=1)
@@ -132,14 +132,14 @@ def test_every_speed_has_its_eps0(altered, speed):
 
 def test_an_eps0_for_a_lower_speed_is_not_enough(altered):
     path = altered(
-        "case.gains.kv))\n    return min(case.gains.kp), arm.b_min, c, d, arm.kc * SPEED",
-        "case.gains.kv))\n    return min(case.gains.kp), arm.b_min, c, d, arm.kc * SPEED",
+        "gains.kv))\n    return min(gains.kp), arm.b_min, c, d, arm.kc * SPEED",
+        "gains.kv))\n    return min(gains.kp), arm.b_min, c, d, arm.kc * SPEED",
     )
     source = path.read_text(encoding="utf-8")
     path.write_text(
         source.replace(
-            "    k, b, c, d, turn = form_numbers(case)\n\n    def",
-            "    k, b, c, d, turn = form_numbers(case)\n    turn = turn / 2\n\n    def",
+            "    k, b, c, d, turn = form_numbers(m, n, robot, gains)\n\n    def",
+            "    k, b, c, d, turn = form_numbers(m, n, robot, gains)\n    turn = turn / 2\n\n    def",
         ),
         encoding="utf-8",
     )
@@ -151,7 +151,7 @@ def test_an_eps0_that_is_too_large_is_refuted(altered):
     assert verdicts(path, ("arm.21.theta", "21")) == {"arm.21.theta": "refuted", "21": "proved"}
 
 
-FUNCTION = "h(case.m, x), dh(case.m, x), potential(case.m, x)"
+FUNCTION = "h(m, x), dh(m, x), potential(m, x)"
 FAULTS = [
     ("21.loop", "scaled(s.kp, s.h) - scaled(s.kv, s.hw)", "scaled(s.kp, s.h) + scaled(s.kv, s.hw)"),
     ("21.loop", "+ s.C @ speed + weight", "+ s.C @ s.w + weight"),
@@ -162,11 +162,11 @@ FAULTS = [
     ("21.9", "eps**2 * kc * vd * a**2 +", "eps**2 * kc * vd * a**2 / 2 +"),
     ("21.form", "return eps * (k - eps * turn),", "return eps * k,"),
     ("21.form", "-eps / 2 * (d + turn + eps * c)", "-eps / 2 * (d + eps * c)"),
-    ("21.loop", "function_of(case), desired=True", "(-h(case.m, x), -dh(case.m, x), x), desired=True"),
-    ("21.below", FUNCTION, "h(case.m, x), dh(case.m, x), potential(case.m, x) + 1"),
-    ("21.below", FUNCTION, "h(case.m, x), dh(case.m, x), 2 * potential(case.m, x)"),
-    ("21.above", FUNCTION, "-h(case.m, x), -dh(case.m, x), -potential(case.m, x)"),
-    ("21.above", FUNCTION, "h(case.m, x), dh(case.m, x), x**2"),
+    ("21.loop", "function_of(m), desired=True", "(-h(m, x), -dh(m, x), x), desired=True"),
+    ("21.below", FUNCTION, "h(m, x), dh(m, x), potential(m, x) + 1"),
+    ("21.below", FUNCTION, "h(m, x), dh(m, x), 2 * potential(m, x)"),
+    ("21.above", FUNCTION, "-h(m, x), -dh(m, x), -potential(m, x)"),
+    ("21.above", FUNCTION, "h(m, x), dh(m, x), x**2"),
     (
         "21.small",
         'nonnegative("more", "kv_max", "kc", "vd")',
@@ -176,7 +176,7 @@ FAULTS = [
     ("arm.21", '"vd": SPEED', '"vd": 2 * SPEED'),
     ("arm.21", '"beta": arm.beta', '"beta": arm.beta / 100'),
     ("arm.21", '"kc": arm.kc,', '"kc": arm.kc / 100,'),
-    ("arm.21", "arm=arm.under(case.gains), ", ""),
+    ("arm.21", "arm=arm.under(gains), ", ""),
 ]
 
 
