@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from fractions import Fraction
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.claims.case import lacking
@@ -12,21 +11,22 @@ from lyapcheck.claims.products import Matrix, Vector, vector
 
 if TYPE_CHECKING:
     from lyapcheck.robots import Number, RobotModel
+    from lyapcheck.robots.dynamics import Place
 
 
 def mass_matrix(robot: RobotModel) -> Matrix:
     """M(q) in the variables q1, …, qn and the uncertain numbers of the robot by name."""
-    return robot.mass_at(*_angles(robot), _lift(), _parameters(robot))
+    return _place(robot).mass()
 
 
 def coriolis_matrix(robot: RobotModel, x: Sequence[Expr]) -> Matrix:
     """C(q, x) of the Christoffel symbols."""
-    return robot.coriolis_at(*_angles(robot), x, _lift(), _parameters(robot))
+    return _place(robot).coriolis(x)
 
 
 def gravity_vector(robot: RobotModel) -> Vector:
     """g(q)."""
-    return robot.gravity_at(*_angles(robot), _lift(), _parameters(robot))
+    return _place(robot).gravity()
 
 
 def rate_of(a: Matrix, w: Sequence[Expr]) -> Matrix:
@@ -34,17 +34,12 @@ def rate_of(a: Matrix, w: Sequence[Expr]) -> Matrix:
     return [[total(diff(entry, f"q{k + 1}") * w[k] for k in range(len(w))) for entry in row] for row in a]
 
 
-def _angles(robot: RobotModel) -> tuple[Vector, Vector]:
+def _place(robot: RobotModel) -> Place:
+    """The polynomials, written out, at the angles q1, …, qn."""
     q = vector("q", robot.n)
-    return [sin(angle) for angle in q], [cos(angle) for angle in q]
-
-
-def _parameters(robot: RobotModel) -> dict[str, Expr]:
-    return {name: var(name) for name in robot.parameters}
-
-
-def _lift() -> Callable[[Fraction], Expr]:
-    return expr
+    sines, cosines = [sin(angle) for angle in q], [cos(angle) for angle in q]
+    parameters = {name: var(name) for name in robot.parameters}
+    return robot.dynamics.polynomials.at(sines, cosines, parameters, expr)
 
 
 def torque_limits(robot: RobotModel) -> list[Fraction]:

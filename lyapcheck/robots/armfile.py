@@ -5,8 +5,8 @@ Every number is a plain decimal, read exactly, or a table that says more about i
     mass = { value = 23.902, unit = "kg", source = "…", assumed = true, low = 23, high = 25, note = "why" }
 
 An assumed number needs a reason (``note`` or ``source``). One with ``low`` and ``high`` may have any value
-between them: it becomes a parameter of the model. Units are SI and fixed by the key. The number of an arm's
-``links`` or ``joints`` tables is its number of joints, at most nine.
+between them: it becomes a parameter of the model. Units are SI and fixed by the key. An arm has as
+many joints as ``links`` or ``joints`` tables: at most twelve links, or nine joints of a printed model.
 
 A **chain of links** gives M and the potential by derivation. All frames are parallel to the base frame at
 q = 0, lengths in m. An inertia about the centre of mass is one number when all axes are parallel, else a
@@ -74,7 +74,6 @@ from pathlib import Path
 
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots import trig
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
@@ -121,19 +120,14 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: 
     joints = plan.joints
     numbers = {key: number.widened(spread) for key, number in plan.numbers().items()}
     parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used()}
-    ring = trig.trig_ring(len(joints), tuple(parameters))
-    polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
-    polys |= dict(zip(parameters, ring.gens()[2 * len(joints) :], strict=True))
-    mass, potential = plan.build(ring, polys)
+    dynamics = plan.build(numbers, tuple(parameters))
     for joint in joints:
         numbers |= joint.numbers()
     return RobotModel(
         name=name,
         title=title,
         joints=tuple(joint.name for joint in joints),
-        ring=ring,
-        mass=mass,
-        potential=potential,
+        dynamics=dynamics,
         viscous=tuple(joint.viscous.widened(spread) for joint in joints if joint.viscous is not None),
         coulomb=tuple(joint.coulomb for joint in joints),
         torque_limit=tuple(joint.torque_limit for joint in joints),
@@ -143,6 +137,4 @@ def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: 
         parameters=parameters,
         remarks=remarks,
         printed=plan.torques,
-        chain=plan.exact(ring, polys),
-        chain_bounds=plan.bounds(ring, polys),
     )

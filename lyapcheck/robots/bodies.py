@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
+from lyapcheck.check.numbers.matrices import is_positive_semidefinite
+from lyapcheck.robots.chain_bounds import bodily
 from lyapcheck.robots.fields import ArmFields, Sign
 from lyapcheck.robots.number import Number
-from lyapcheck.robots.tensors import positive_semidefinite
 
 _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _PLACE = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
@@ -101,11 +102,9 @@ def _broken_rule(tensor: dict[str, Number]) -> str:
     Both conditions are convex and the entries independent, so the corners of the ranges decide.
     """
     for matrix in _corners(tensor):
-        if not positive_semidefinite(matrix):
+        if not is_positive_semidefinite(matrix):
             return "must be positive semidefinite"
-        half = sum((matrix[i][i] for i in range(3)), Fraction(0)) / 2
-        second = [[half * (i == k) - matrix[i][k] for k in range(3)] for i in range(3)]
-        if not positive_semidefinite(second):
+        if not bodily(matrix):
             return "must obey the triangle inequality (no principal moment above the sum of the others)"
     return ""
 

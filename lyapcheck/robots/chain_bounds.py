@@ -19,16 +19,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import fmpq_mpoly
-
-from lyapcheck.robots import trig
-from lyapcheck.robots.links import Link, least_pivots
-from lyapcheck.robots.tensors import positive_semidefinite
+from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.numbers.matrices import is_positive_definite, is_positive_semidefinite
+from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.robots.dynamics import Chain
 
 _DIGITS = 10**12
 _HALVINGS = 30
 _STEPS = 30
-Tensor = list[list[Fraction]]
+Vector = Sequence[Fraction]
+Tensor = Sequence[Vector]
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class ChainBounds:
     """Bounds for all angles.
 
     Args:
-        pivots: lower bounds of the pivots of M from the tip, kg·m²; see ``least_pivots`` of the links.
+        pivots: lower bounds of the pivots of M from the tip, kg·m²: the moment of each link about its axis.
         lambda_min: lower bound of λmin(M), kg·m².
         lambda_max: upper bound of λmax(M), kg·m².
         gravity: upper bound of every |g_i|, N·m.
@@ -50,36 +50,35 @@ class ChainBounds:
     k_c: Fraction | None
 
 
-def chain_bounds(links: Sequence[Link], gravity: Sequence[fmpq_mpoly]) -> ChainBounds | None:
-    """The bounds of a chain, ``None`` where uncertain parameters enter.
+def chain_bounds(chain: Chain) -> ChainBounds:
+    """The bounds of a chain of exact links.
 
-    Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side.
+    Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side. Eliminating from the tip,
+        M = UᵀDU with U unit triangular and D_k = s_kᵀ A_k s_k, where the articulated inertia A_k is that of
+        link k alone plus a positive semidefinite part: D_k is never below the moment of link k.
+
+    References: articulated bodies, featherstone2008rigid chapter 7.
     """
-    entries = [x for link in links for x in (*link.axis, *link.origin, *link.com, link.mass)]
-    entries += [x for link in links for row in link.inertia for x in row]
-    if not all(x.is_constant() for x in (*entries, *gravity)):
-        return None
-    masses = [_value(link.mass) for link in links]
-    tensors = [[[_value(x) for x in row] for row in link.inertia] for link in links]
+    links = chain.links
+    masses, tensors = [link.mass for link in links], [link.inertia for link in links]
     spectra = [_spectrum(tensor) for tensor in tensors]
     reach = _reach(links)
     return ChainBounds(
-        least_pivots(links),
+        tuple(link.about_axis for link in links),
         _smallest([low for low, _ in spectra]),
         _largest(masses, [high for _, high in spectra], reach),
         tuple(
-            _norm([_value(x) for x in gravity])
-            * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
+            _norm(chain.fall) * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
             for row in reach
         ),
-        _whirl(masses, [high for _, high in spectra], reach) if all(map(_bodily, tensors)) else None,
+        _coriolis(masses, [high for _, high in spectra], reach) if all(map(bodily, tensors)) else None,
     )
 
 
-def _reach(links: Sequence[Link]) -> list[list[Fraction]]:
+def _reach(links: Sequence[RigidLink]) -> list[list[Fraction]]:
     """ρ_ik, 0 for links before the joint; what link i itself holds keeps its distance from axis i."""
-    arms = [_norm([_value(x) for x in link.com]) for link in links]
-    steps = [_norm([_value(x) for x in link.origin]) for link in links]
+    arms = [_norm(link.com) for link in links]
+    steps = [_norm(link.origin) for link in links]
     n = len(links)
     rows = [[Fraction(0)] * n for _ in range(n)]
     for i, link in enumerate(links):
@@ -90,10 +89,9 @@ def _reach(links: Sequence[Link]) -> list[list[Fraction]]:
     return rows
 
 
-def _from_axis(link: Link, point: Sequence[fmpq_mpoly]) -> Fraction:
+def _from_axis(link: RigidLink, point: Vector) -> Fraction:
     """The distance of a point of a link from the axis of its joint."""
-    (a, b, c), (x, y, z) = ([_value(entry) for entry in vector] for vector in (link.axis, point))
-    return _norm([b * z - c * y, c * x - a * z, a * y - b * x])
+    return _norm(Algebra(Fraction).cross(link.axis, point))
 
 
 def _smallest(inertia: Sequence[Fraction]) -> Fraction:
@@ -123,7 +121,7 @@ def _largest(
     return _radius([[entry(i, j) for j in joints] for i in joints])
 
 
-def _whirl(
+def _coriolis(
     masses: Sequence[Fraction], inertia: Sequence[Fraction], reach: Sequence[Sequence[Fraction]]
 ) -> Fraction:
     """ρ(Σ_i N_i²)^½ with N_i = (N_ijk)_jk, which bounds Σ N_ijk z_i x_j y_k for unit vectors."""
@@ -141,10 +139,13 @@ def _whirl(
     return _root(_radius(squares))
 
 
-def _bodily(tensor: Tensor) -> bool:
-    """Whether the second moments ½tr(I) − I are positive semidefinite."""
+def bodily(tensor: Tensor) -> bool:
+    """Whether some body has this inertia: the second moments ½tr(I) − I are positive semidefinite.
+
+    They are so exactly when no principal moment is above the sum of the others.
+    """
     half = (tensor[0][0] + tensor[1][1] + tensor[2][2]) / 2
-    return positive_semidefinite([[half * (i == k) - tensor[i][k] for k in range(3)] for i in range(3)])
+    return is_positive_semidefinite([[half * (i == k) - tensor[i][k] for k in range(3)] for i in range(3)])
 
 
 def _radius(rows: Sequence[Sequence[Fraction]]) -> Fraction:
@@ -172,14 +173,13 @@ def _spectrum(tensor: Tensor) -> tuple[Fraction, Fraction]:
 
 
 def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
-    """Whether ±(A − shift I) is positive definite, by its leading minors."""
-    a = [[sign * (x - (shift if i == k else 0)) for k, x in enumerate(row)] for i, row in enumerate(tensor)]
-    pair = a[0][0] * a[1][1] - a[0][1] ** 2
-    whole = a[2][2] * pair - a[0][0] * a[1][2] ** 2 - a[1][1] * a[0][2] ** 2 + 2 * a[0][1] * a[0][2] * a[1][2]
-    return a[0][0] > 0 and pair > 0 and whole > 0
+    """Whether ±(A − shift I) is positive definite."""
+    return is_positive_definite(
+        [[sign * (x - (shift if i == k else 0)) for k, x in enumerate(row)] for i, row in enumerate(tensor)]
+    )
 
 
-def _norm(vector: Sequence[Fraction]) -> Fraction:
+def _norm(vector: Vector) -> Fraction:
     """The length, rounded up."""
     return _root(sum((x * x for x in vector), Fraction(0)))
 
@@ -193,7 +193,3 @@ def _root(square: Fraction) -> Fraction:
 def _above(value: Fraction) -> Fraction:
     """A short rational that is not smaller."""
     return Fraction(math.ceil(value * _DIGITS**2), _DIGITS**2)
-
-
-def _value(poly: fmpq_mpoly) -> Fraction:
-    return trig.fraction(poly.leading_coefficient()) if poly != 0 else Fraction(0)

@@ -1,25 +1,22 @@
-"""The robot model: exact inertia matrix and potential, and everything that follows from them."""
+"""The robot model: exact dynamics, and what is known of every number."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
-from lyapcheck.robots import trig
-from lyapcheck.robots.chain import Chain
-from lyapcheck.robots.chain_bounds import ChainBounds
+from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
+from lyapcheck.robots.dynamics import Chain, Dynamics, Lift, Place
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.printed_torques import PrintedTorques
 
 T = TypeVar("T")
-Lift = Callable[[Fraction], T]
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +30,16 @@ class RobotModel:
         name: short name (``"buap3"``).
         title: one line for reports.
         joints: names of the joints, base first.
-        ring: generators s1…sn, c1…cn and one for each entry of ``parameters``.
-        mass: M(q), rows of polynomials in normal form, kg·m².
-        potential: potential energy, J.
+        dynamics: M, C, g and the potential energy.
         viscous: diagonal of B, N·m·s/rad.
         coulomb: Coulomb friction torques, N·m; ``None`` where nothing is known.
         torque_limit: largest torque of each motor, N·m; ``None`` where nothing is known.
         encoder: counts per turn; ``None`` where nothing is known.
         gravity_bound: k_gi where the source prints them, N·m.
         numbers: every number of the arm with its provenance.
-        parameters: the numbers with a range that enter M or the potential, in generator order.
+        parameters: the numbers with a range that enter M or the potential, in the order of ``dynamics``.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
         printed: C and g as the source prints them, where it does; nothing is derived from them.
-        chain: the links where they are known and exact.
-        chain_bounds: for a chain of exact links what masses and distances say for all angles.
 
     Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
     that no source prints.
@@ -57,9 +50,7 @@ class RobotModel:
     name: str
     title: str
     joints: tuple[str, ...]
-    ring: fmpq_mpoly_ctx
-    mass: tuple[tuple[fmpq_mpoly, ...], ...]
-    potential: fmpq_mpoly
+    dynamics: Dynamics
     viscous: tuple[Number, ...]
     coulomb: tuple[Number | None, ...]
     torque_limit: tuple[Number | None, ...]
@@ -69,8 +60,6 @@ class RobotModel:
     parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
-    chain: Chain | None = None
-    chain_bounds: ChainBounds | None = None
 
     @property
     def n(self) -> int:
@@ -83,40 +72,57 @@ class RobotModel:
         assumed = [number.sentence(name) for name, number in self.numbers.items() if number.assumed]
         return (*self.remarks, *assumed)
 
-    @cached_property
+    @property
+    def mass(self) -> tuple[tuple[fmpq_mpoly, ...], ...]:
+        """M(q), rows of polynomials in normal form, kg·m²; raises `TooLong` where those are not worth it."""
+        return self.dynamics.polynomials.mass
+
+    @property
+    def potential(self) -> fmpq_mpoly:
+        """The potential energy as a polynomial, J."""
+        return self.dynamics.polynomials.potential
+
+    @property
     def christoffel(self) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]:
         """c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), so that C(q,x)_ij = Σ_k c_ijk x_k."""
-        joints = range(self.n)
-        slope = [[[trig.derivative(entry, k) for k in joints] for entry in row] for row in self.mass]
-        return tuple(
-            tuple(
-                tuple((slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) / 2 for k in joints) for j in joints
-            )
-            for i in joints
-        )
+        return self.dynamics.polynomials.christoffel
+
+    @property
+    def gravity(self) -> tuple[fmpq_mpoly, ...]:
+        """g(q) = ∂potential/∂q as polynomials, N·m."""
+        return self.dynamics.polynomials.gravity
+
+    @property
+    def ring(self) -> fmpq_mpoly_ctx:
+        """Generators s1…sn, c1…cn and one for each entry of ``parameters``."""
+        return self.potential.context()
+
+    @property
+    def chain(self) -> Chain | None:
+        """The links where they are known and exact."""
+        return self.dynamics if isinstance(self.dynamics, Chain) and not self.parameters else None
 
     @cached_property
-    def gravity(self) -> tuple[fmpq_mpoly, ...]:
-        """g(q) = ∂potential/∂q, N·m."""
-        return tuple(trig.derivative(self.potential, i) for i in range(self.n))
+    def chain_bounds(self) -> ChainBounds | None:
+        """What masses and distances of exact links say for all angles."""
+        return None if self.chain is None else chain_bounds(self.chain)
 
-    def point(
+    def at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> list[T]:
-        """The values of all generators: sines, cosines, and parameters (nominal where not given)."""
-        given = parameters or {}
-        chosen = [given.get(name, lift(number.value)) for name, number in self.parameters.items()]
-        return [*sin, *cos, *chosen]
+    ) -> Place:
+        """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
+        known = parameters or {}
+        values = {
+            name: known[name] if name in known else lift(number.value)
+            for name, number in self.parameters.items()
+        }
+        return self.dynamics.at(sin, cos, values, lift)
 
     def mass_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[list[T]]:
-        """M(q), kg·m², in any arithmetic: sin and cos are (n,), lift turns a Fraction into a T."""
-        values = self.point(sin, cos, lift, parameters)
-        places = [(i, j) for i in range(self.n) for j in range(i, self.n)]
-        upper = trig.evaluate_all([self.mass[i][j] for i, j in places], values, lift)
-        known = dict(zip(places, upper, strict=True))
-        return [[known[min(i, j), max(i, j)] for j in range(self.n)] for i in range(self.n)]
+        """M(q), (n, n), kg·m², in any arithmetic."""
+        return self.at(sin, cos, lift, parameters).mass()
 
     def coriolis_at(
         self,
@@ -126,43 +132,21 @@ class RobotModel:
         lift: Lift[T],
         parameters: Mapping[str, T] | None = None,
     ) -> list[list[T]]:
-        """C(q, x) of the Christoffel symbols, kg·m²/s, in any arithmetic; x is (n,), rad/s."""
-        symbols = [
-            (i, j, k) for i, j, k in product(range(self.n), repeat=3) if self.christoffel[i][j][k] != 0
-        ]
-        values = self.point(sin, cos, lift, parameters)
-        rates = trig.evaluate_all([self.christoffel[i][j][k] for i, j, k in symbols], values, lift)
-        terms: dict[tuple[int, int], list[T]] = {}
-        for (i, j, k), rate in zip(symbols, rates, strict=True):
-            moving: Any = rate
-            terms.setdefault((i, j), []).append(moving * x[k])
-        return [[trig.total(terms.get((i, j), []), lift) for j in range(self.n)] for i in range(self.n)]
+        """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, in any arithmetic; x is (n,), rad/s."""
+        return self.at(sin, cos, lift, parameters).coriolis(x)
 
     def gravity_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[T]:
-        """g(q), N·m, in any arithmetic."""
-        return trig.evaluate_all(self.gravity, self.point(sin, cos, lift, parameters), lift)
+        """g(q), (n,), N·m, in any arithmetic."""
+        return self.at(sin, cos, lift, parameters).gravity()
 
     def potential_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> T:
         """The potential energy, J, in any arithmetic."""
-        return trig.evaluate(self.potential, self.point(sin, cos, lift, parameters), lift)
-
-    def __getstate__(self) -> dict[str, Any]:
-        """The fields with polynomials as plain terms: polynomials of python-flint cannot be pickled."""
-        state = {entry.name: getattr(self, entry.name) for entry in fields(self)}
-        state["ring"] = tuple(self.parameters)
-        state["mass"] = [[trig.to_terms(poly) for poly in row] for row in self.mass]
-        state["potential"] = trig.to_terms(self.potential)
-        return state
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        ring = trig.trig_ring(len(state["joints"]), state["ring"])
-        mass = tuple(tuple(trig.from_terms(ring, terms) for terms in row) for row in state["mass"])
-        potential = trig.from_terms(ring, state["potential"])
-        self.__dict__.update(state | {"ring": ring, "mass": mass, "potential": potential})
+        found: T = self.at(sin, cos, lift, parameters).potential()
+        return found
 
     def fixed(self, **parameters: Fraction | int) -> RobotModel:
         """The same arm with every uncertain parameter of M and the potential at one exact value.
@@ -184,7 +168,4 @@ class RobotModel:
         values = {
             name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
         }
-        ring = trig.trig_ring(self.n)
-        mass = tuple(tuple(trig.substitute(entry, values, ring) for entry in row) for row in self.mass)
-        potential = trig.substitute(self.potential, values, ring)
-        return replace(self, ring=ring, mass=mass, potential=potential, parameters={})
+        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})

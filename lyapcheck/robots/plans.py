@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
-from flint import fmpq_mpoly, fmpq_mpoly_ctx
-
+from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import Body, components, read_bodies
-from lyapcheck.robots.chain import Chain, exact_chain
-from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
+from lyapcheck.robots.dynamics import Chain, Dynamics, Polynomials, Share
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import Joint, read_joints
-from lyapcheck.robots.links import Link, chain
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.printed import Printed, is_angle, read_printed
 from lyapcheck.robots.printed_torques import PrintedTorques, read_torques
 
-_MOST_JOINTS = 9
+MOST_JOINTS = 12
+MOST_PRINTED = 9
+"""A name like c12 is the cosine of q1 + q2, so that joints have one digit."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
-Dynamics = tuple[tuple[tuple[fmpq_mpoly, ...], ...], fmpq_mpoly]
 
 
 class Plan(Protocol):
@@ -45,14 +44,8 @@ class Plan(Protocol):
     def used(self) -> set[str]:
         """The names of the numbers that enter M or the potential."""
 
-    def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
-        """M and the potential, with the given polynomials for the numbers."""
-
-    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
-        """What masses and distances say of M and gravity, where they are known."""
-
-    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
-        """The links in plain numbers, where they are known and exact."""
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+        """M and the potential, with these values of the numbers and these names as parameters."""
 
 
 @dataclass(frozen=True)
@@ -76,25 +69,17 @@ class ChainPlan:
         """All of them."""
         return set(self.numbers())
 
-    def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
-        """M and the potential of the chain."""
-        return chain(ring, self._links(ring, numbers), self._gravity(ring, numbers))
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+        """The chain."""
 
-    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
-        """The bounds of the links."""
-        return chain_bounds(self._links(ring, numbers), self._gravity(ring, numbers))
+        def entry(name: str) -> Any:
+            if name in parameters:
+                return Share(name)
+            return numbers[name].value if name in numbers else Fraction(0)
 
-    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
-        """The links."""
-        return exact_chain(self._links(ring, numbers), self._gravity(ring, numbers))
-
-    def _gravity(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[fmpq_mpoly]:
-        zero = trig.constant(ring, 0)
-        return [numbers.get(f"gravity_{letter}", zero) for letter in "xyz"]
-
-    def _links(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> list[Link]:
         bodies = zip(self.joints, self.bodies, strict=True)
-        return [_link(ring, joint.name, body, numbers) for joint, body in bodies]
+        links = tuple(_link(joint.name, body, entry) for joint, body in bodies)
+        return Chain(links, tuple(entry(f"gravity_{letter}") for letter in "xyz"), parameters)
 
 
 @dataclass(frozen=True)
@@ -115,17 +100,13 @@ class PrintedPlan:
         """Those that occur in a term."""
         return self.printed.names()
 
-    def build(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Dynamics:
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
         """M and the potential as printed."""
-        return self.printed.build(ring, numbers)
-
-    def bounds(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> ChainBounds | None:
-        """None: what is printed need not come from bodies."""
-        return None
-
-    def exact(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> Chain | None:
-        """None."""
-        return None
+        n = len(self.joints)
+        ring = trig.trig_ring(n, parameters)
+        polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
+        polys |= dict(zip(parameters, ring.gens()[2 * n :], strict=True))
+        return Polynomials(*self.printed.build(ring, polys), parameters)
 
 
 def read_plan(top: ArmFields) -> Plan | None:
@@ -176,7 +157,7 @@ def _read_printed(
     taken = {name for joint in joints for name in joint.numbers()}
     entries = {} if numbers is None else _read_numbers(numbers, taken)
     names = [] if numbers is None else list(numbers.data)
-    n = min(len(joints), _MOST_JOINTS)
+    n = min(len(joints), MOST_PRINTED)
     printed = read_printed(model, n, names)
     compared = None if torques is None else read_torques(torques, n, names)
     _close([*tables, model, *([] if torques is None else [torques])])
@@ -184,8 +165,9 @@ def _read_printed(
 
 
 def _read_joints(top: ArmFields, key: str, tables: list[ArmFields]) -> list[Joint]:
-    if len(tables) > _MOST_JOINTS:
-        top.fail(key, f"has more than {_MOST_JOINTS} joints", "give an arm of fewer joints")
+    most = MOST_JOINTS if key == "links" else MOST_PRINTED
+    if len(tables) > most:
+        top.fail(key, f"has more than {most} joints", "give an arm of fewer joints")
     return read_joints(tables)
 
 
@@ -205,19 +187,22 @@ def _close(tables: list[ArmFields]) -> None:
         table.close()
 
 
-def _link(ring: fmpq_mpoly_ctx, name: str, body: Body, numbers: Mapping[str, fmpq_mpoly]) -> Link:
-    axis = [trig.constant(ring, x.value) for x in body.axis]
-    zero = trig.constant(ring, 0)
-
-    def entry(key: str) -> Any:
-        return numbers.get(f"{name}_{key}", zero)
-
+def _link(name: str, body: Body, entry: Callable[[str], Any]) -> RigidLink:
+    axis = tuple(x.value for x in body.axis)
     if "inertia" in body.inertia:
-        inertia = [[entry("inertia") * a * b for b in axis] for a in axis]
+        own = entry(f"{name}_inertia")
+        inertia = tuple(tuple(_times(own, a * b) for b in axis) for a in axis)
     else:
-        inertia = [[entry(key) for key in row] for row in _TENSOR]
-    origin, com = ([entry(f"{key}_{letter}") for letter in "xyz"] for key in ("origin", "com"))
-    return Link(axis, origin, entry("mass"), com, inertia)
+        inertia = tuple(tuple(entry(f"{name}_{key}") for key in row) for row in _TENSOR)
+    origin, com = (tuple(entry(f"{name}_{key}_{letter}") for letter in "xyz") for key in ("origin", "com"))
+    return RigidLink(axis, origin, entry(f"{name}_mass"), com, inertia, UNIT)
+
+
+def _times(number: Any, factor: Fraction) -> Any:
+    """The multiple of an exact number or of a parameter."""
+    if isinstance(number, Share):
+        return replace(number, factor=factor) if factor else factor
+    return number * factor
 
 
 _TENSOR = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))

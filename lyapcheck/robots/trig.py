@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 T = TypeVar("T")
+Terms = list[tuple[tuple[int, ...], Fraction]]
+"""Exponents of the generators and the coefficient of each monomial."""
 
 
 def trig_ring(n: int, parameters: Sequence[str] = ()) -> fmpq_mpoly_ctx:
@@ -46,7 +48,7 @@ def fraction(coefficient: fmpq) -> Fraction:
     return Fraction(int(coefficient.p), int(coefficient.q))
 
 
-def to_terms(poly: fmpq_mpoly) -> list[tuple[tuple[int, ...], Fraction]]:
+def to_terms(poly: fmpq_mpoly) -> Terms:
     """The polynomial as plain data, in the order of its ring."""
     return [(tuple(int(power) for power in powers), fraction(value)) for powers, value in poly.terms()]
 
@@ -93,27 +95,21 @@ def evaluate(poly: fmpq_mpoly, values: Sequence[T], lift: Callable[[Fraction], T
     Soundness: as good as the arithmetic: with containing ``+``, ``*`` and ``lift`` the result contains
     the value at every point of ``values``.
     """
-    return evaluate_all([poly], values, lift)[0]
+    return evaluate_all([to_terms(poly)], values, lift)[0]
 
 
-def evaluate_all(polys: Sequence[fmpq_mpoly], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
+def evaluate_all(polys: Sequence[Terms], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
     """The values of several polynomials of one ring, each monomial computed once; see `evaluate`."""
     known: dict[tuple[int, ...], T] = {}
-    return [total([_term(term, known, values, lift) for term in poly.terms()], lift) for poly in polys]
 
+    def term(powers: tuple[int, ...], coefficient: Fraction) -> T:
+        if not any(powers):
+            return lift(coefficient)
+        value: Any = _monomial(powers, known, values)
+        result: T = value if coefficient == 1 else lift(coefficient) * value
+        return result
 
-def _term(
-    term: tuple[Sequence[int], fmpq],
-    known: dict[tuple[int, ...], T],
-    values: Sequence[Any],
-    lift: Callable[[Fraction], T],
-) -> T:
-    powers, coefficient = tuple(int(power) for power in term[0]), fraction(term[1])
-    if not any(powers):
-        return lift(coefficient)
-    value: Any = _monomial(powers, known, values)
-    result: T = value if coefficient == 1 else lift(coefficient) * value
-    return result
+    return [total([term(*entry) for entry in poly], lift) for poly in polys]
 
 
 def _monomial(powers: tuple[int, ...], known: dict[tuple[int, ...], T], values: Sequence[Any]) -> T:

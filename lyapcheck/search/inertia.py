@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.inertia import Bisection, Links, Mass
-from lyapcheck.check.loop.links import RigidLink
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
-_FIELDS = ("axis", "origin", "mass", "com", "inertia", "turn")
 _LINKS: dict[Mass, Links] = {}
 """The links of arms that were looked at, by the M(q) that they make."""
 
@@ -25,8 +23,7 @@ def remember(robot: RobotModel) -> None:
     """Keep the links of an arm for statements that have only its M(q)."""
     fixed = robot.fixed()
     if fixed.chain is not None:
-        links = (RigidLink(*(getattr(link, name) for name in _FIELDS)) for link in fixed.chain.links)
-        _LINKS[mass_of(fixed)] = Links(tuple(links))
+        _LINKS[mass_of(fixed)] = Links(fixed.chain.links)
 
 
 def mass_proof(mass: Mass) -> Bisection | Links:

@@ -10,7 +10,7 @@ from itertools import product
 
 from lyapcheck.check.numbers.fourier import Fourier, constant, cosine, sine, size
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.trig import evaluate_all
+from lyapcheck.robots.trig import evaluate_all, to_terms
 
 Row = tuple[Fraction, ...]
 
@@ -27,12 +27,9 @@ def gravity_sizes(model: RobotModel) -> Row:
 
 def coriolis_squares(model: RobotModel) -> Row:
     """At least Σ_jk sup |c_ijk(q)|² for each i, so that |(C(q, x) y)_i| is at most its root times ‖x‖ ‖y‖."""
-    values = model.point(*_circle(model.n), constant)
-    joints = range(model.n)
-    rows = [
-        [model.christoffel[i][j][k] for j, k in product(joints, joints) if model.christoffel[i][j][k] != 0]
-        for i in joints
-    ]
+    values, joints = [x for part in _circle(model.n) for x in part], range(model.n)
+    values += [constant(number.value) for number in model.parameters.values()]
+    rows = [[to_terms(model.christoffel[i][j][k]) for j, k in product(joints, joints)] for i in joints]
     sizes = [map(size, evaluate_all(row, values, constant)) for row in rows]
     return tuple(sum((size**2 for size in row), Fraction(0)) for row in sizes)
 

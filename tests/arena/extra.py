@@ -51,7 +51,7 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
-from lyapcheck.check.loop.links import RigidLink
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose

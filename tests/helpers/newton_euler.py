@@ -85,8 +85,8 @@ def _numbers(element, key, default="0 0 0") -> np.ndarray:
 
 
 def rpy(angles) -> np.ndarray:
-    """Rz(yaw) Ry(pitch) Rx(roll); an angle that is written like a right one is one."""
-    near = [RIGHT * round(x / RIGHT) if abs(x - RIGHT * round(x / RIGHT)) < 1e-5 else x for x in angles]
+    """Rz(yaw) Ry(pitch) Rx(roll); an angle written like a right one in ten digits is one."""
+    near = [RIGHT * round(x / RIGHT) if abs(x - RIGHT * round(x / RIGHT)) < 1e-9 else x for x in angles]
     roll, pitch, yaw = (_about(np.eye(3)[i], angle) for i, angle in enumerate(near))
     return yaw @ pitch @ roll
 

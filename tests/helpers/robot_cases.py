@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.robots import trig
-from lyapcheck.robots.links import Link, chain
+from lyapcheck.check.loop.chain import UNIT, RigidLink
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
 
@@ -73,24 +73,16 @@ def model_of(
     links: list[dict[str, object]], gravity: tuple[object, ...] = (0, 0, Fraction(-981, 100))
 ) -> RobotModel:
     n = len(links)
-    ring = trig.trig_ring(n)
 
-    def lifted(value: object) -> object:
-        return (
-            [lifted(item) for item in value]
-            if isinstance(value, list | tuple)
-            else trig.constant(ring, value)
-        )
+    def exact_parts(value: object) -> object:
+        return tuple(map(exact_parts, value)) if isinstance(value, list | tuple) else Fraction(value)
 
-    mass, potential = chain(
-        ring, [Link(**{key: lifted(value) for key, value in link.items()}) for link in links], lifted(gravity)
-    )
+    plain = [{"turn": UNIT} | {key: exact_parts(value) for key, value in link.items()} for link in links]
+    chain = Chain(tuple(RigidLink(**link) for link in plain), exact_parts(gravity))
     names = tuple(f"joint{i}" for i in range(n))
     nothing = (None,) * n
     friction = (Number(Fraction(1)),) * n
-    return RobotModel(
-        "random", "", names, ring, mass, potential, friction, nothing, nothing, nothing, nothing, {}
-    )
+    return RobotModel("random", "", names, chain, friction, nothing, nothing, nothing, nothing, {})
 
 
 def exact(value: Fraction) -> fmpq:

@@ -80,7 +80,7 @@ def test_coriolis_torque_does_no_work_beyond_the_mass_rate(data: st.DataObject) 
     n, lift = model.n, Fraction
     sin, cos = zip(*data.draw(angles(n)), strict=True)
     w = data.draw(rates(n))
-    values = model.point(sin, cos, lift)
+    values = [*sin, *cos, *(number.value for number in model.parameters.values())]
     coriolis = model.coriolis_at(sin, cos, w, lift)
     for i, j in product(range(n), repeat=2):
         slope = sum(

@@ -17,8 +17,9 @@ from flint import arb
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
-from lyapcheck.check.loop.links import Motion, RigidLink
+from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
@@ -215,10 +216,10 @@ def by_links(statement: MassAbove, proof: Links) -> Accepted:
     require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
     require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
     same = len(proof.links) == len(statement.mass) and all(link.fits for link in proof.links)
-    require(same, "links", len(proof.links), "must be one real body a joint")
-    motion = Motion(proof.links)
-    require(motion.makes(statement.mass), "links", "", "do not make this M(q)")
-    require(motion.first_to_move(), "links", "", "have one without energy about its own axis")
+    require(same, "links", len(proof.links), "must be one joint and real body for each row")
+    require(makes(proof.links, statement.mass), "links", "", "do not make this M(q)")
+    moves = all(link.about_axis > 0 for link in proof.links)
+    require(moves, "links", "", "have one without energy about its own axis")
     return Accepted("proved", "exact")
 
 

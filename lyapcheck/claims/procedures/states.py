@@ -181,6 +181,7 @@ def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fractio
 def _model(statement: Decreasing) -> Any:
     """A robot model with the arm's M and B and nothing else."""
     from lyapcheck.robots import Number, RobotModel, trig
+    from lyapcheck.robots.dynamics import Polynomials
 
     n = len(statement.kp)
     names = tuple(f"p{k + 1}" for k in range(len(statement.parameters)))
@@ -193,9 +194,11 @@ def _model(statement: Decreasing) -> Any:
         name="arm",
         title="arm",
         joints=tuple(f"joint {i + 1}" for i in range(n)),
-        ring=ring,
-        mass=tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass),
-        potential=trig.constant(ring, 0),
+        dynamics=Polynomials(
+            tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass),
+            trig.constant(ring, 0),
+            names,
+        ),
         viscous=tuple(Number(b, low=low, high=high) for b, (low, high) in rows),
         coulomb=unknown,
         torque_limit=unknown,

@@ -18,7 +18,7 @@ from lyapcheck.constants.storage.problem import Problem
 from lyapcheck.constants.storage.program import Proposal, propose
 from lyapcheck.constants.storage.weight import weight
 from lyapcheck.constants.storage.whirl import whirl_bound
-from lyapcheck.robots.chain import Chain
+from lyapcheck.robots.dynamics import Chain
 
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
 _BITS = 256

@@ -9,8 +9,9 @@ from fractions import Fraction
 import numpy as np
 from flint import fmpq
 
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.constants.storage.exact import Exact, cross, exact, unit, zeros
-from lyapcheck.robots.chain import Chain, RigidLink
+from lyapcheck.robots.dynamics import Chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,7 @@ def hinges(chain: Chain) -> tuple[list[Hinge], Exact]:
         own = _upright(link)
         result.append(_hinge(link, before, own))
         before = own
-    return result, _column(chain.gravity)
+    return result, _column(chain.fall)
 
 
 def _hinge(link: RigidLink, before: Exact, own: Exact) -> Hinge:

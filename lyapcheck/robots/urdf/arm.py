@@ -6,23 +6,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from flint import fmpq_mpoly_ctx
-
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots import trig
-from lyapcheck.robots.chain import exact_chain
-from lyapcheck.robots.chain_bounds import chain_bounds
-from lyapcheck.robots.links import Link, chain
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.physics import impossible_state
-from lyapcheck.robots.urdf.assemble import Segment, segments
+from lyapcheck.robots.urdf.assemble import moved_bodies
 from lyapcheck.robots.urdf.bodies import check_bodies, impossible, moved_links
 from lyapcheck.robots.urdf.fields import Triple, UrdfNotes
 from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
 from lyapcheck.robots.urdf.parts import UrdfJoint, read_parts
-from lyapcheck.robots.urdf.rotations import UNIT, Roundings
+from lyapcheck.robots.urdf.rotations import Roundings
 from lyapcheck.robots.urdf.tree import Tree, build_tree, choose_chain, held
 from lyapcheck.robots.urdf.xml import Element, read_xml
 
@@ -55,7 +51,7 @@ def read_urdf(
     if notes.problems:
         raise InputError(notes.problems)
     roundings = Roundings()
-    bodies = segments(tree, chain, roundings)
+    bodies = moved_bodies(tree, chain, roundings)
     remarks = (*roundings.sentences(), *_remarks(tree, chain))
     model = _model(_Read(path, root, tree, chain, bodies, remarks), gravity or gravity_numbers(EARTH))
     broken = impossible_state(model)
@@ -83,15 +79,11 @@ class _Read:
     root: Element
     tree: Tree
     chain: tuple[UrdfJoint, ...]
-    bodies: list[Segment]
+    bodies: tuple[RigidLink, ...]
     remarks: tuple[str, ...]
 
 
 def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
-    ring = trig.trig_ring(len(read.chain))
-    links = [_link(ring, body) for body in read.bodies]
-    free_fall = [trig.constant(ring, entry.value) for entry in gravity]
-    mass, potential = chain(ring, links, free_fall)
     file, stem = printable(read.path.name), printable(read.path.stem)
     motors = [motor_of(joint, file) for joint in read.chain]
     numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", gravity, strict=True) if x.value}
@@ -101,9 +93,7 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
         name=stem,
         title=f"{read.root.attributes.get('name', stem)[:80]} (URDF)",
         joints=tuple(joint.name for joint in read.chain),
-        ring=ring,
-        mass=mass,
-        potential=potential,
+        dynamics=Chain(read.bodies, tuple(entry.value for entry in gravity)),
         viscous=tuple(motor.viscous for motor in motors),
         coulomb=tuple(motor.coulomb for motor in motors),
         torque_limit=tuple(motor.torque_limit for motor in motors),
@@ -111,22 +101,6 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
         gravity_bound=nothing,
         numbers=numbers,
         remarks=read.remarks,
-        chain=exact_chain(links, free_fall),
-        chain_bounds=chain_bounds(links, free_fall),
-    )
-
-
-def _link(ring: fmpq_mpoly_ctx, body: Segment) -> Link:
-    def lifted(vector: Triple) -> list[object]:
-        return [trig.constant(ring, x) for x in vector]
-
-    return Link(
-        lifted(body.axis),
-        lifted(body.origin),
-        trig.constant(ring, body.mass),
-        lifted(body.com),
-        [lifted(row) for row in body.inertia],
-        None if body.turn == UNIT else [lifted(row) for row in body.turn],
     )
 
 

@@ -10,65 +10,36 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.loop.chain import UNIT, RigidLink
+from lyapcheck.check.numbers.vectors import ZERO, Algebra
+from lyapcheck.robots.urdf.bodies import tensor
 from lyapcheck.robots.urdf.fields import ORIGIN, Triple
 from lyapcheck.robots.urdf.parts import UrdfJoint, UrdfLink
-from lyapcheck.robots.urdf.rotations import (
-    UNIT,
-    Rotation,
-    Roundings,
-    apply,
-    conjugate,
-    from_rpy,
-    product,
-    tidy,
-    unit,
-)
+from lyapcheck.robots.urdf.rotations import Rotation, Roundings, from_rpy, tidy, unit
 from lyapcheck.robots.urdf.tree import Tree, carrier
 
-_ZERO = Fraction(0)
-
-
-@dataclass(frozen=True)
-class Segment:
-    """One joint of the chain and all that it moves up to the next one, in the frame of the joint.
-
-    Args:
-        turn: rotation from the frame of the joint at its zero position to that of the joint before.
-        axis: of length exactly 1.
-        origin: of the joint, in the frame of the joint before (or the base), m.
-        mass: kg.
-        com: centre of mass from the joint, m.
-        inertia: about the centre of mass, kg·m².
-    """
-
-    turn: Rotation
-    axis: Triple
-    origin: Triple
-    mass: Fraction
-    com: Triple
-    inertia: Rotation
+OF = Algebra(Fraction)
 
 
 @dataclass(frozen=True)
 class _Pose:
     rotation: Rotation
-    place: Triple
+    place: tuple[Fraction, ...]
 
 
 _HERE = _Pose(UNIT, ORIGIN)
 
 
-def segments(tree: Tree, chain: tuple[UrdfJoint, ...], roundings: Roundings) -> list[Segment]:
-    """The moved bodies, base first."""
+def moved_bodies(tree: Tree, chain: tuple[UrdfJoint, ...], roundings: Roundings) -> tuple[RigidLink, ...]:
+    """The joints of the chain, base first, each with all that it moves up to the next one as one body."""
     moved_by = carrier(tree, chain)
     local, joints = _poses(tree, chain, roundings)
     result = []
     for i, joint in enumerate(chain):
         axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
         links = [link for link in tree.links.values() if moved_by[link.name] == i]
-        pose = joints[joint.name]
-        result.append(_segment(pose, axis, links, local, roundings))
-    return result
+        result.append(_body(joints[joint.name], axis, links, local, roundings))
+    return tuple(result)
 
 
 def _poses(
@@ -79,54 +50,37 @@ def _poses(
     for joint in tree.downwards():
         above = links[joint.parent]
         turn = from_rpy(joint.rpy, f"joint {joint.name}", roundings)
-        place = _plus(above.place, apply(above.rotation, joint.xyz))
-        pose = _Pose(tidy(product(above.rotation, turn)), place)
+        place = OF.add(above.place, OF.apply(above.rotation, joint.xyz))
+        pose = _Pose(tidy(OF.product(above.rotation, turn)), tuple(place))
         if joint in chain:
             joints[joint.name], pose = pose, _HERE
         links[joint.child] = pose
     return links, joints
 
 
-def _segment(
+def _body(
     joint: _Pose, axis: Triple, links: list[UrdfLink], poses: Mapping[str, _Pose], roundings: Roundings
-) -> Segment:
+) -> RigidLink:
     masses = [(link.mass, _centre(link, poses[link.name])) for link in links]
-    mass = sum((m for m, _ in masses), _ZERO)
-    moment = tuple(sum((m * c[k] for m, c in masses), _ZERO) for k in range(3))
-    com = ORIGIN if mass == 0 else (moment[0] / mass, moment[1] / mass, moment[2] / mass)
-    total = [[_ZERO] * 3 for _ in range(3)]
+    mass = sum((m for m, _ in masses), ZERO)
+    moment = OF.add(ORIGIN, *(OF.scaled(m, c) for m, c in masses))
+    com = ORIGIN if mass == 0 else tuple(OF.scaled(1 / mass, moment))
+    total = [[ZERO] * 3 for _ in range(3)]
     for link, (m, c) in zip(links, masses, strict=True):
-        own = _inertia(link, poses[link.name], roundings)
-        arm = _minus(c, com)
-        square = sum((x * x for x in arm), _ZERO)
-        for i in range(3):
-            for k in range(3):
-                total[i][k] += own[i][k] + m * ((square if i == k else 0) - arm[i] * arm[k])
-    return Segment(joint.rotation, axis, joint.place, mass, com, _matrix(total))
+        arm = OF.add(c, OF.scaled(Fraction(-1), com))
+        square = OF.dot(arm, arm)
+        spread = [[m * (square * UNIT[i][k] - arm[i] * arm[k]) for k in range(3)] for i in range(3)]
+        total = OF.sum(total, _inertia(link, poses[link.name], roundings), spread)
+    return RigidLink(axis, joint.place, mass, com, tuple(map(tuple, total)), joint.rotation)
 
 
-def _centre(link: UrdfLink, pose: _Pose) -> Triple:
+def _centre(link: UrdfLink, pose: _Pose) -> list[Fraction]:
     """The centre of mass of a link from the joint that moves it."""
-    return _plus(pose.place, apply(pose.rotation, link.com))
+    return OF.add(pose.place, OF.apply(pose.rotation, link.com))
 
 
-def _inertia(link: UrdfLink, pose: _Pose, roundings: Roundings) -> Rotation:
-    xx, yy, zz, xy, xz, yz = link.inertia
-    tensor = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+def _inertia(link: UrdfLink, pose: _Pose, roundings: Roundings) -> list[list[Fraction]]:
     if not any(link.inertia):
-        return tensor
+        return [[ZERO] * 3 for _ in range(3)]
     turn = from_rpy(link.rpy, f"inertia of link {link.name}", roundings)
-    return conjugate(tidy(product(pose.rotation, turn)), tensor)
-
-
-def _plus(a: Triple, b: Triple) -> Triple:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def _minus(a: Triple, b: Triple) -> Triple:
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-def _matrix(rows: list[list[Fraction]]) -> Rotation:
-    first, second, third = ((row[0], row[1], row[2]) for row in rows)
-    return first, second, third
+    return OF.congruent(tidy(OF.product(pose.rotation, turn)), tensor(link))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.robots.tensors import positive_semidefinite
+from lyapcheck.check.numbers.matrices import is_positive_semidefinite
+from lyapcheck.robots.chain_bounds import bodily
 from lyapcheck.robots.urdf.fields import UrdfNotes
 from lyapcheck.robots.urdf.parts import UrdfJoint, UrdfLink
 from lyapcheck.robots.urdf.tree import Tree, carrier
@@ -18,7 +19,7 @@ def moved_links(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[UrdfLink]:
 def check_bodies(links: list[UrdfLink], notes: UrdfNotes) -> None:
     """Note every link whose inertia is not positive semidefinite: M would not be positive definite."""
     for link in links:
-        if not positive_semidefinite(tensor(link)):
+        if not is_positive_semidefinite(tensor(link)):
             repair = "check the signs and the point about which it is given (the centre of mass)"
             notes.fail(
                 link.element, f"link {link.name}: inertia", "", "must be positive semidefinite", repair
@@ -27,15 +28,10 @@ def check_bodies(links: list[UrdfLink], notes: UrdfNotes) -> None:
 
 def impossible(links: list[UrdfLink]) -> list[str]:
     """The links with a principal moment above the sum of the others: no body has that, but many files do."""
-    return [link.name for link in links if not _triangle(tensor(link))]
+    return [link.name for link in links if not bodily(tensor(link))]
 
 
 def tensor(link: UrdfLink) -> list[list[Fraction]]:
     """The inertia of a link as the file gives it."""
     xx, yy, zz, xy, xz, yz = link.inertia
     return [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-
-
-def _triangle(a: list[list[Fraction]]) -> bool:
-    half = (a[0][0] + a[1][1] + a[2][2]) / 2
-    return positive_semidefinite([[half * (i == k) - a[i][k] for k in range(3)] for i in range(3)])

@@ -1,9 +1,9 @@
 """Rotations with rational entries: exactly orthogonal, and within 10⁻¹⁵ rad of the angles as written.
 
 The sine and cosine of a decimal angle other than 0 are never rational, so an angle of a file cannot be kept
-exactly. An angle within 10⁻⁵ rad of a multiple of π/2 is taken as that multiple, for that is what a file
-means by 1.5708; any other one is replaced by a rational point of the circle close to it. Both are told to
-the reader.
+exactly. An angle within 10⁻⁹ rad of a multiple of π/2 is taken as that multiple, for that is what a file
+means by 1.57079632679; any other one, 1.5708 too, is replaced by a rational point of the circle close to it.
+Both are told to the reader.
 
 References: the half-angle parametrisation of the circle; a quaternion with rational entries gives a
 rational rotation.
@@ -12,23 +12,25 @@ rational rotation.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from flint import arb, ctx, fmpq, fmpz_mat
 
+from lyapcheck.check.loop.chain import UNIT
+from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.robots.urdf.fields import Triple
 
-SNAP = Fraction(1, 100_000)
+SNAP = Fraction(1, 10**9)
 """Radians."""
 CLOSE = Fraction(1, 10**15)
 _STEP = Fraction(1, 10**16)
 _LARGE = 10**26
 _BITS = 256
 
-Rotation = tuple[Triple, Triple, Triple]
-_ZERO, _ONE = Fraction(0), Fraction(1)
-UNIT: Rotation = ((_ONE, _ZERO, _ZERO), (_ZERO, _ONE, _ZERO), (_ZERO, _ZERO, _ONE))
+Rotation = tuple[tuple[Fraction, ...], ...]
+_OF = Algebra(Fraction)
 
 
 @dataclass
@@ -57,10 +59,11 @@ class Roundings:
 
 def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
     """Rz(yaw) Ry(pitch) Rx(roll), the fixed-axis angles of URDF, rad."""
-    result = UNIT
+    result: Rotation = UNIT
     for axis, angle in enumerate(rpy):
         if angle:
-            result = product(_turn(axis, *_circle(angle, place, roundings)), result)
+            turn = _turn(axis, *_circle(angle, place, roundings))
+            result = _rotation(_OF.product(turn, result))
     return result
 
 
@@ -69,8 +72,8 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
     quarters, rest = _quarters(angle)
     if abs(rest) <= SNAP:
         if abs(rest) > CLOSE:
-            roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, _ZERO))
-        sine, cosine = _ZERO, _ONE
+            roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, ZERO))
+        sine, cosine = ZERO, Fraction(1)
     else:
         if place not in roundings.rounded:
             roundings.rounded.append(place)
@@ -111,9 +114,9 @@ def _middle(ball: arb) -> Fraction:
 
 def _turn(axis: int, sine: Fraction, cosine: Fraction) -> Rotation:
     """The rotation about a coordinate axis."""
-    rows = [[_ZERO] * 3 for _ in range(3)]
+    rows = [[ZERO] * 3 for _ in range(3)]
     j, k = (axis + 1) % 3, (axis + 2) % 3
-    rows[axis][axis] = _ONE
+    rows[axis][axis] = Fraction(1)
     rows[j][j] = rows[k][k] = cosine
     rows[k][j], rows[j][k] = sine, -sine
     return _rotation(rows)
@@ -124,7 +127,7 @@ def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
 
     Soundness: the answer has length exactly 1 whatever was rounded (stereographic projection).
     """
-    square = sum((x * x for x in vector), _ZERO)
+    square = sum((x * x for x in vector), ZERO)
     length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
     if length * length == square:
         x, y, z = (component / length for component in vector)
@@ -155,8 +158,9 @@ def _near(x: Fraction) -> Fraction:
     return x.limit_denominator(10**digits)
 
 
-def tidy(rotation: Rotation) -> Rotation:
+def tidy(rows: Sequence[Sequence[Fraction]]) -> Rotation:
     """The rotation itself, or where its entries have grown long one within 10⁻¹⁵ rad with shorter ones."""
+    rotation = _rotation(rows)
     if all(entry.denominator < _LARGE for row in rotation for entry in row):
         return rotation
     return _from_quaternion(_quaternion(rotation))
@@ -204,25 +208,5 @@ def _from_quaternion(q: tuple[int, int, int, int]) -> Rotation:
     return _rotation([[entry / n for entry in row] for row in rows])
 
 
-def product(a: Rotation, b: Rotation) -> Rotation:
-    """A B."""
-    return _rotation(
-        [[sum((a[i][k] * b[k][j] for k in range(3)), _ZERO) for j in range(3)] for i in range(3)]
-    )
-
-
-def apply(a: Rotation, x: Triple) -> Triple:
-    """A x."""
-    first, second, third = (sum((row[k] * x[k] for k in range(3)), _ZERO) for row in a)
-    return first, second, third
-
-
-def conjugate(a: Rotation, tensor: Rotation) -> Rotation:
-    """A T Aᵀ."""
-    transposed = _rotation([[a[j][i] for j in range(3)] for i in range(3)])
-    return product(product(a, tensor), transposed)
-
-
-def _rotation(rows: list[list[Fraction]]) -> Rotation:
-    first, second, third = ((row[0], row[1], row[2]) for row in rows)
-    return first, second, third
+def _rotation(rows: Sequence[Sequence[Fraction]]) -> Rotation:
+    return tuple(map(tuple, rows))

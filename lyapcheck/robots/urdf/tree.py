@@ -10,7 +10,7 @@ from lyapcheck.robots.urdf.fields import UrdfNotes
 from lyapcheck.robots.urdf.parts import MOVING, UrdfJoint, UrdfLink
 from lyapcheck.robots.urdf.xml import Element
 
-MOST_JOINTS = 9
+MOST_JOINTS = 12
 _SHOWN = 8
 
 

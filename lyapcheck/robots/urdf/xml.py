@@ -6,6 +6,7 @@ tags means nothing in URDF and is dropped.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
@@ -20,6 +21,9 @@ _MOST_ELEMENTS = 100_000
 _MOST_DEPTH = 40
 _LONGEST = 10_000
 _SHOWN = 60
+_DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?\s+<\?xml[^>]*>")
+"""A declaration after white space, which XML forbids and others read; what it says is not needed."""
+_NO_BREAK = re.compile(rb"[^\n]")
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,7 @@ def parse_xml(data: bytes, shown: str) -> Element:
     except UnicodeDecodeError:
         raise refused(shown, None, "is not UTF-8 text", "save it as UTF-8") from None
     try:
-        return _Builder(shown).run(data)
+        return _Builder(shown).run(_DECLARATION.sub(lambda found: _NO_BREAK.sub(b" ", found[0]), data, 1))
     except expat.ExpatError as error:
         what = expat.ErrorString(error.code)
         raise refused(

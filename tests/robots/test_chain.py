@@ -1,0 +1,144 @@
+"""A chain of links evaluated along the links, in every arithmetic, against its polynomials."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+from flint import arb
+
+from lyapcheck import robots
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.errors import InputError
+from lyapcheck.intervals import Interval, cosine, sine
+from lyapcheck.robots import graph
+from lyapcheck.robots.dynamics import Chain, TooLong
+from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.robot_cases import circle
+from tests.helpers.urdf_texts import generic
+
+N = 5
+Q = [0.3, -1.1, 2.5, 0.7, -2.9]
+X = [0.5, -1.5, 2.0, 0.25, -0.75]
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> robots.RobotModel:
+    file = tmp_path_factory.mktemp("chain") / "arm.urdf"
+    file.write_text(generic(N, seed=4))
+    return robots.load(file)
+
+
+def all_of(place: Any, x: list[Any]) -> list[Any]:
+    """Every number of M, C, g and U."""
+    rows = [*place.mass(), *place.coriolis(x), place.gravity(), [place.potential()]]
+    return [entry for row in rows for entry in row]
+
+
+def both(arm: robots.RobotModel, sin: Any, cos: Any, x: Any, lift: Any) -> tuple[list[Any], list[Any]]:
+    """Along the links, and by the polynomials."""
+    chain = arm.dynamics
+    assert isinstance(chain, Chain)
+    return all_of(chain.at(sin, cos, {}, lift), x), all_of(chain.polynomials.at(sin, cos, {}, lift), x)
+
+
+def test_rational_points_of_the_circle_give_the_same_rationals(arm: robots.RobotModel) -> None:
+    sin, cos = zip(*(circle(Fraction(k - 2, 3)) for k in range(N)), strict=True)
+    along, expanded = both(arm, sin, cos, [Fraction(k, 2) for k in range(N)], Fraction)
+    assert along == expanded
+
+
+def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm: robots.RobotModel) -> None:
+    half = 1e-5
+    wide = [arb(q).union(arb(q + half)) for q in Q]
+    along = all_of(arm.at([q.sin() for q in wide], [q.cos() for q in wide], to_arb), list(map(arb, X)))
+    boxes = [Interval(np.array([q]), np.array([q + half])) for q in Q]
+    ranges = all_of(
+        arm.at(list(map(sine, boxes)), list(map(cosine, boxes)), Interval.of),
+        [Interval.exact(x) for x in X],
+    )
+    for share in (0.0, 0.4, 1.0):
+        q = [arb(x) + half * share * (1 - 1e-9) for x in Q]
+        sin, cos = [x.sin() for x in q], [x.cos() for x in q]
+        _, exact = both(arm, sin, cos, list(map(arb, X)), to_arb)
+        assert all(ball.overlaps(value) for ball, value in zip(along, exact, strict=True))
+        assert all(
+            float(found.lo.item()) <= float(value.upper()) and float(value.lower()) <= float(found.hi.item())
+            for found, value in zip(ranges, exact, strict=True)
+        )
+    sharp = max(float(ball.rad()) for ball in along)
+    assert sharp < 0.01
+
+
+def test_doubles_and_graphs_agree_with_balls(arm: robots.RobotModel) -> None:
+    q = list(map(arb, Q))
+    _, exact = both(arm, [x.sin() for x in q], [x.cos() for x in q], list(map(arb, X)), to_arb)
+    model, angles, rates = NumericModel(arm), ca.SX.sym("q", N), ca.SX.sym("x", N)
+    doubles = np.concatenate(
+        [
+            model.mass(np.array(Q)).ravel(),
+            model.coriolis(np.array(Q), np.array(X)).ravel(),
+            model.gravity(np.array(Q)),
+            [model.potential(np.array(Q))],
+        ]
+    )
+    parts = [graph.mass(arm, angles), graph.coriolis(arm, angles, rates)]
+    parts += [graph.gravity(arm, angles), graph.potential(arm, angles)]
+    # CasADi stacks columns
+    flat = ca.vertcat(*(ca.vec(part.T) for part in parts))
+    nodes = np.array(ca.Function("f", [angles, rates], [flat])(Q, X))[:, 0]
+    expected = [float(value) for value in exact]
+    np.testing.assert_allclose(doubles, expected, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(nodes, expected, rtol=1e-12, atol=1e-12)
+
+
+def test_the_rate_of_the_mass_matrix_is_C_and_its_transpose(arm: robots.RobotModel) -> None:
+    model, q, x, step = NumericModel(arm), np.array(Q), np.array(X), 1e-6
+    rate = (model.mass(q + step * x) - model.mass(q - step * x)) / (2 * step)
+    C = model.coriolis(q, x)
+    np.testing.assert_allclose(rate, C + C.T, atol=1e-7)
+    y = np.array(X[::-1])
+    np.testing.assert_allclose(C @ y, model.coriolis(q, y) @ x, atol=1e-12)
+
+
+def test_parameters_enter_along_the_links_as_in_the_polynomials(tmp_path: Path) -> None:
+    """Four joints, the mass and the inertia of the last one uncertain."""
+    link = (
+        '[[links]]\nname = "j{}"\naxis = [{}]\norigin = [0.1, 0.2, 0.3]\nmass = {}\n'
+        "com = [0.1, 0, 0.2]\ninertia = {{ ixx = {}, iyy = 0.3, izz = 0.2 }}\nviscous = 1\n"
+    )
+    ranged = "{ value = 2, low = 1, high = 3 }", "{ value = 0.3, low = 0.25, high = 0.35 }"
+    axes = ("0, 0, 1", "0, 1, 0", "0.6, 0.8, 0", "1, 0, 0")
+    links = [link.format(k, axis, *(("1", "0.3") if k < 3 else ranged)) for k, axis in enumerate(axes)]
+    file = tmp_path / "arm.toml"
+    file.write_text('title = "four"\nsource = "a test"\ngravity = [0, 0, -9.81]\n' + "".join(links))
+    arm = robots.load(file)
+    assert set(arm.parameters) == {"j3_mass", "j3_ixx"}
+    sin, cos = zip(*(circle(Fraction(k - 2, 3)) for k in range(4)), strict=True)
+    x, values = [Fraction(k, 2) for k in range(4)], {"j3_mass": Fraction(3, 2), "j3_ixx": Fraction(1, 4)}
+    along = all_of(arm.dynamics.at(sin, cos, values, Fraction), x)
+    assert along == all_of(arm.dynamics.polynomials.at(sin, cos, values, Fraction), x)
+    assert along == all_of(arm.fixed(**values).at(sin, cos, Fraction), x)
+    assert along != all_of(arm.at(sin, cos, Fraction), x)
+
+
+def test_polynomials_of_long_skew_chains_are_not_written_out(tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(generic(12))
+    arm = robots.load(file)
+    with pytest.raises(TooLong, match="12 links"):
+        _ = arm.mass
+
+
+def test_white_space_before_the_declaration_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    declared = '\n  <?xml version="1.0"?>\n'
+    file.write_text(declared + generic(2))
+    assert robots.load(file).n == 2
+    file.write_text(declared + generic(2).replace("<mass", "\n<mss", 1))
+    with pytest.raises(InputError, match=r"arm\.urdf:3"):
+        robots.load(file)
