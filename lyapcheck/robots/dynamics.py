@@ -230,9 +230,7 @@ class Chain(Dynamics):
 
         def tidy(poly: fmpq_mpoly) -> fmpq_mpoly:
             if len(poly) > MOST_TERMS:
-                rule = (
-                    f"has more than {MOST_TERMS} terms for these {self.n} links, too many to be written out"
-                )
+                rule = f"has more than {MOST_TERMS} terms for these {self.n} links, too many to write out"
                 repair = "give an arm of fewer joints, or with axes along or across each other"
                 raise TooLong(Problem("arm", None, "M(q)", "", rule, repair))
             return trig.normal_form(poly)
