@@ -23,6 +23,12 @@ def folders(package: str) -> list[str]:
     return [os.path.join(os.path.abspath(root), *inner) for root in roots if root]
 
 
+def modules(path: Iterable[str]) -> tuple[str, ...]:
+    """The modules in some folders that are not private, sorted."""
+    files = {name for folder in path if os.path.isdir(folder) for name in os.listdir(folder)}
+    return tuple(sorted(name[:-3] for name in files if name.endswith(".py") and name[0] != "_"))
+
+
 def defining(function: str, path: Iterable[str]) -> tuple[str, ...]:
     """The modules in some folders that define a function, sorted; they are read, not imported."""
     start = f"def {function}(".encode()

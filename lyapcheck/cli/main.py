@@ -1,4 +1,4 @@
-"""The command line: one file a command, and only the one that is run gets imported."""
+"""The command line: a file a command, and only the one that is run gets imported."""
 
 from __future__ import annotations
 
@@ -9,20 +9,16 @@ import select
 import stat
 import sys
 
-from lyapcheck import cli
+from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.stopping import Stopping
 from lyapcheck.errors import InputError, argument_error
-from lyapcheck.extensions import defining
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from typing import TextIO
-
-    import typer
-
-COMMANDS = defining("command", cli.__path__)
 
 CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
@@ -32,11 +28,22 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 """What a standard output that takes no more says; files are written elsewhere, by who says their names."""
 
 
-def build_app(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
-    """The Typer application with the named commands."""
-    from lyapcheck.cli.app import build
+def run(words: Sequence[str]) -> int:
+    """Do what the words of a command line ask for, and return the exit code.
 
-    return build(names)
+    Raises:
+        InputError: they, or a file that they name, cannot be used.
+    """
+    if not words or words[0] not in NAMES:
+        from lyapcheck.cli.program import run_program
+
+        return run_program(words)
+    from lyapcheck.cli.parser import Parser
+
+    command = load(words[0])
+    parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
+    command.arguments(parser)
+    return int(command.run(**parser.parse(words[1:])))
 
 
 def main() -> None:
@@ -45,7 +52,9 @@ def main() -> None:
     try:
         _require_output()
         with Stopping():
-            _run()
+            code = run(sys.argv[1:])
+            sys.stdout.flush()
+        sys.exit(code)
     except BrokenPipeError:
         _drop(sys.stdout)
         sys.exit(CLOSED_PIPE)
@@ -69,19 +78,6 @@ def main() -> None:
             "this is a fault in lyapcheck, run again with LYAPCHECK_DEBUG=1 and report what it prints"
         )
         sys.exit(Exit.INTERNAL)
-
-
-def _run() -> None:
-    """Run the command, all its output written, and leave."""
-    wanted = sys.argv[1] if len(sys.argv) > 1 else ""
-    try:
-        build_app((wanted,) if wanted in COMMANDS else COMMANDS)(prog_name="lyapcheck")
-    except SystemExit as leave:
-        # what Typer makes of a reader that went away is 1, which here would mean refuted
-        if isinstance(leave.__context__, BrokenPipeError):
-            raise leave.__context__ from None
-        sys.stdout.flush()
-        raise
 
 
 def _require_output() -> None:

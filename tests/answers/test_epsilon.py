@@ -8,13 +8,11 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.epsilon.compute import epsilon, round_down
 from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.loop.states import confirms_positive
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
@@ -22,6 +20,7 @@ from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
 from lyapcheck.search.setting import Setting
+from tests.helpers.command import invoke
 
 F = Fraction
 ARM = load("reyes-kelly2")
@@ -172,7 +171,7 @@ def test_round_down(value: str, digits: int, expected: str) -> None:
 
 
 def run(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(build_app(("epsilon", "table")), ["epsilon", *arguments])
+    result = invoke("epsilon", *arguments)
     if isinstance(result.exception, InputError):
         return 2, str(result.exception)
     return result.exit_code, result.stdout

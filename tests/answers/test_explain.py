@@ -12,7 +12,6 @@ import mpmath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from typer.testing import CliRunner
 
 from lyapcheck.answers.explain import explain
 from lyapcheck.check.expressions.expression import variables
@@ -22,9 +21,9 @@ from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
-from lyapcheck.cli.main import build_app
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Bullets
+from tests.helpers.command import invoke
 
 KNOWN = {
     "gamma_1": "1",
@@ -35,7 +34,7 @@ KNOWN = {
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("explain",)), ["explain", *arguments])
+    return invoke("explain", *arguments)
 
 
 EVERY = [(script, known) for script in SHIPPED for known in load_proof(find_script(script)).claims]

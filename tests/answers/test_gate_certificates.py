@@ -10,7 +10,6 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
 
 from lyapcheck import load_robot, named_family
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
@@ -25,6 +24,7 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
 from lyapcheck.verdicts import Exit
+from tests.helpers.command import Done, invoke
 
 TABLE2 = paper_gain_file("table2_shoulder_elbow")
 
@@ -321,12 +321,12 @@ def test_the_command_takes_strict(
 # --- written down ------------------------------------------------------------------------------
 
 
-def judged_by_command(*words: str) -> Result:
-    return CliRunner().invoke(cli.build_app(("gate",)), ["gate", *words])
+def judged_by_command(*words: str) -> Done:
+    return invoke("gate", *words)
 
 
 def recheck(folder: Path) -> tuple[int, str]:
-    done = CliRunner().invoke(cli.build_app(("recheck",)), ["recheck", str(folder)])
+    done = invoke("recheck", str(folder))
     return done.exit_code, done.output
 
 

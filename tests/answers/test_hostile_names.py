@@ -13,8 +13,8 @@ from xml.etree import ElementTree as ET
 import pytest
 from markdown_it import MarkdownIt
 
+from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.cli.main import main
-from lyapcheck.cli.tune import TuneFormat
 from lyapcheck.output import escapes
 from lyapcheck.output.escapes import document_text, printable
 from lyapcheck.output.formats import JudgedFormat
@@ -189,7 +189,7 @@ COMMANDS = [
     *(f"bounds one.toml {SHORT} --max-boxes 20 --format {form}" for form in JudgedFormat),
     *(f"robot arm.toml --max-boxes 20 --format {form}" for form in JudgedFormat),
     *(f"robot arm.urdf --max-boxes 20 --format {form}" for form in JudgedFormat),
-    *(f"tune arm.toml --compare gains.toml --format {form}" for form in TuneFormat),
+    *(f"tune arm.toml --compare gains.toml --format {form}" for form in FORMATS),
     *(f"table --m 1 --robot arm.toml --format {f}" for f in ("text", "json", "csv", "markdown", "latex")),
     *(
         f"check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd --format {f}"

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.robot import build
 from lyapcheck.check.kinds.compared import Compared, MovingPosture, SameHarmonics
@@ -25,10 +24,10 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Monomials, Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-from lyapcheck.cli.main import build_app
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Exit, Verdict
+from tests.helpers.command import invoke
 from tests.robots.test_arm_files import PRINTED
 
 ONE: Monomials = (((0, 0, 0, 0), Fraction(1)),)
@@ -187,10 +186,9 @@ def test_certified_ends_hold_at_random_states_and_are_near_the_numeric_ones(name
 
 
 def test_certificates_are_accepted_by_recheck(tmp_path: Path) -> None:
-    app = build_app(("robot", "recheck"))
     made = tmp_path / "made"
-    result = CliRunner().invoke(
-        app, ["robot", "reyes-kelly2", "--certificates", str(made), "--format", "json", "--max-boxes", "200"]
+    result = invoke(
+        "robot", "reyes-kelly2", "--certificates", str(made), "--format", "json", "--max-boxes", "200"
     )
     assert result.exit_code == 0
     document = json.loads(result.stdout)
@@ -201,6 +199,6 @@ def test_certificates_are_accepted_by_recheck(tmp_path: Path) -> None:
         assert constant["numeric"] == {"lower": constant["lower"], "upper": constant["upper"]}
         for side, end in constant["certified"].items():
             assert (end is not None) == (f"{constant['name']}.{side}.json" in files)
-    checked = CliRunner().invoke(app, ["recheck", str(made)])
+    checked = invoke("recheck", str(made))
     assert checked.exit_code == 0
     assert "0 refused, 0 undecided" in checked.stdout

@@ -14,11 +14,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from typer.testing import CliRunner
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
-from lyapcheck.cli.main import build_app
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.arm_waves import ArmWaves
 from lyapcheck.constants.basis import Products, Sums, basis_of
@@ -29,6 +27,7 @@ from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.command import invoke
 from tests.helpers.robot_cases import relaxed
 from tests.helpers.urdf_texts import ARMS, TWO, generic
 
@@ -36,7 +35,7 @@ SEEDS = st.integers(0, 10**6)
 
 
 def run(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(build_app(("robot", "table")), ["robot", *arguments])
+    result = invoke("robot", *arguments)
     if isinstance(result.exception, InputError):
         raise result.exception
     return result.exit_code, result.stdout

@@ -12,19 +12,18 @@ from pathlib import Path
 
 import mpmath
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.table import build_table
 from lyapcheck.cli.m_range import parse_m
-from lyapcheck.cli.main import build_app
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import Format
+from tests.helpers.command import invoke
 
 SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("table",)), ["table", *arguments])
+    return invoke("table", *arguments)
 
 
 @pytest.fixture(scope="module")

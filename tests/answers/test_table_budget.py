@@ -9,19 +9,18 @@ from fractions import Fraction
 
 import pytest
 from flint import arb
-from typer.testing import CliRunner
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.table import LIMITS
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
+from tests.helpers.command import invoke
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("table",)), ["table", *arguments])
+    return invoke("table", *arguments)
 
 
 def test_the_budget_is_the_limit_that_the_gate_judges_by():

@@ -14,18 +14,17 @@ from xml.etree import ElementTree as ET
 
 import mpmath
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.table import Budget, build_table, slope_at_zero
-from lyapcheck.cli.main import build_app
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import Format
+from tests.helpers.command import invoke
 
 MEMBERS = (1, 2, 3, 40, 1000)
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("table",)), ["table", *arguments])
+    return invoke("table", *arguments)
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,6 @@ import mpmath
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from typer.testing import CliRunner
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune import Targets, tune
@@ -23,21 +22,21 @@ from lyapcheck.answers.tune.program import propose
 from lyapcheck.answers.tune.room import Room
 from lyapcheck.answers.tune.rounding import best_units, binding
 from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms
+from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.cli.decimals import parse_decimals
-from lyapcheck.cli.main import build_app
-from lyapcheck.cli.tune import TuneFormat
 from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load
+from tests.helpers.command import invoke
 
 ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("tune", "gate")), ["tune", *arguments])
+    return invoke("tune", *arguments)
 
 
 def judged(text, folder):
@@ -282,7 +281,7 @@ def test_only_plain_decimals_are_read(text):
 def test_the_written_file_passes_the_gate_command(tmp_path):
     out = tmp_path / "gains.toml"
     assert run("buap3", "--m", "1:5", "--out", str(out)).exit_code == 0
-    assert CliRunner().invoke(build_app(("tune", "gate")), ["gate", str(out)]).exit_code == 0
+    assert invoke("gate", str(out)).exit_code == 0
 
 
 def test_an_arm_file_is_named_relative_to_the_gain_file(tmp_path, monkeypatch):
@@ -296,7 +295,7 @@ def test_an_arm_file_is_named_relative_to_the_gain_file(tmp_path, monkeypatch):
     assert [result.verdict for result in gate(read_gain_file("gains/mine.toml"))] == ["accepted"] * 3
 
 
-@pytest.mark.parametrize("form", TuneFormat)
+@pytest.mark.parametrize("form", FORMATS)
 def test_formats_are_the_same_bytes_each_time(form):
     first, second = (run("buap3", "--format", form, "--damping", "0.05") for _ in range(2))
     assert first.exit_code == 0
@@ -331,7 +330,7 @@ def test_markdown_tables_have_as_many_cells_as_heads():
 
 def test_asking_for_help_or_importing_the_api_loads_no_solver():
     code = (
-        "import sys, lyapcheck.answers.tune, lyapcheck.cli.tune\n"
+        "import sys, lyapcheck.answers.tune, lyapcheck.cli.commands.tune\n"
         "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

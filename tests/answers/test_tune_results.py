@@ -11,21 +11,20 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune import Targets, tune
-from lyapcheck.cli.main import build_app
-from lyapcheck.cli.tune import TuneFormat
+from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from tests.helpers.command import invoke
 
 UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
 
 
 def run(*arguments):
-    return CliRunner().invoke(build_app(("tune", "gate")), ["tune", *arguments])
+    return invoke("tune", *arguments)
 
 
 def test_every_bad_option_is_named_in_one_go(tmp_path):
@@ -123,7 +122,7 @@ def test_printing_prints_what_the_command_prints():
     assert f"{tune('reyes-kelly2', [2, 5])}\n" == run("reyes-kelly2", "--m", "2,5").stdout
 
 
-@pytest.mark.parametrize("form", TuneFormat)
+@pytest.mark.parametrize("form", FORMATS)
 def test_every_format_holds_the_gains(form):
     assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
 

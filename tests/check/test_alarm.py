@@ -4,10 +4,9 @@ import json
 from subprocess import CompletedProcess
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.claims import fresh_check
-from lyapcheck.cli.main import build_app
+from tests.helpers.command import invoke
 
 SCRIPT = """
 from lyapcheck.claims import Constant, Proof, expr
@@ -33,7 +32,7 @@ def contradicting(monkeypatch):
 
 def test_an_alarm_of_the_checker_is_the_only_thing_that_is_said(contradicting, tmp_path):
     (tmp_path / "one.py").write_text(SCRIPT, encoding="utf-8")
-    shown = CliRunner().invoke(build_app(), ["check", str(tmp_path / "one.py")])
+    shown = invoke("check", str(tmp_path / "one.py"))
     assert shown.exit_code == 4
     assert "proved and refuted" in shown.output
     assert "1 ≤ 2" in shown.output

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.bounds.certificates import certificates
 from lyapcheck.answers.bounds.compare import compare
@@ -23,12 +22,12 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.trusted import closure
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict
+from tests.helpers.command import invoke
 
 F = Fraction
 Document = dict[str, Any]
@@ -238,14 +237,13 @@ viscous = 0.5
 def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     gains, made = tmp_path / "gains.toml", tmp_path / "made"
     gains.write_text(GAINS.format(robot="reyes-kelly2"))
-    app, runner = build_app(), CliRunner()
     asked = ["bounds", str(gains), "--target", "45,90", "--delta", "10", "--time", "0.5"]
-    found = runner.invoke(app, [*asked, "--certificates", str(made), "--format", "json"])
+    found = invoke(*asked, "--certificates", str(made), "--format", "json")
     assert found.exit_code == 0
     assert {path.name for path in made.iterdir()} == {
         f"one.{kind}.json" for kind in ("settling", "disturbed", "resting")
     }
-    rechecked = runner.invoke(app, ["recheck", str(made), "--trusted"])
+    rechecked = invoke("recheck", str(made), "--trusted")
     assert rechecked.exit_code == 0
     assert "3 accepted (3 proved" in rechecked.stdout
     assert "loop.decay.estimate" in rechecked.stdout
@@ -260,7 +258,7 @@ def test_an_arm_that_is_none_has_no_bounds(tmp_path: Path) -> None:
     (tmp_path / "hollow.toml").write_text(HOLLOW)
     gains.write_text(GAINS.format(robot="hollow.toml"))
     asked = ["bounds", str(gains), "--target", "5,0", "--delta", "10", "--time", "0.1"]
-    found = CliRunner().invoke(build_app(), [*asked, "--disturbance", "0.1,0.1", "--certificates", str(made)])
+    found = invoke(*asked, "--disturbance", "0.1,0.1", "--certificates", str(made))
     assert found.exit_code == 3
     assert "M(q) is not positive definite at q = (" in found.stdout
     assert "certified: within" not in found.stdout

@@ -10,16 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.refusal import Refused
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
+from tests.helpers.command import invoke
 
 F = Fraction
 Document = dict[str, Any]
@@ -133,14 +132,14 @@ def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certific
 
 
 def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
-    app, folder = build_app(("epsilon", "recheck")), tmp_path / "certificates"
+    folder = tmp_path / "certificates"
     gains = str(paper_gain_file("table2_shoulder_elbow"))
     options = ["--m", "1", "--starts", "4", "--max-boxes", "2000", "--ranges"]
-    first = CliRunner().invoke(app, ["epsilon", gains, *options, "--certificates", str(folder)])
+    first = invoke("epsilon", gains, *options, "--certificates", str(folder))
     assert first.exit_code == 0, first.output
     names = sorted(path.name for path in folder.iterdir())
     assert names == ["tau_m1.certified.json", "tau_m1.falsified.json", "tau_m1.scalar.json"]
-    again = CliRunner().invoke(app, ["recheck", str(folder)])
+    again = invoke("recheck", str(folder))
     assert again.exit_code == 0, again.output
     assert "3 accepted" in again.output
 

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
@@ -11,10 +10,10 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import ArmBounds, decreasing, run_proof
 from lyapcheck.claims.procedures import propose
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
+from tests.helpers.command import invoke
 
 GAINS = paper_gain_file("table2_shoulder_elbow")
 ARM = """
@@ -91,9 +90,7 @@ def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
 def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path: Path) -> None:
     folder = tmp_path / "certificates"
     options = ["--m", "1", "--starts", "4", "--max-boxes", "100", "--certificates", str(folder)]
-    run = CliRunner().invoke(
-        build_app(("epsilon", "recheck")), ["epsilon", str(GAINS), "--robot", str(arm(tmp_path)), *options]
-    )
+    run = invoke("epsilon", str(GAINS), "--robot", str(arm(tmp_path)), *options)
     assert run.exit_code != 2, run.output
     assert [path.name for path in folder.iterdir()] == ["tau_m1.falsified.json"]
     assert "asymptotically stable" not in run.output

@@ -528,7 +528,7 @@ def test_an_empty_environment_with_the_checker_alone_rechecks_the_published_proo
     python = tmp_path / "env" / "bin" / "python"
     (site,) = (tmp_path / "env" / "lib").glob("python*/site-packages")
     (site / "checker.pth").write_text(f"{packages}\n")
-    missing = subprocess.run([python, "-I", "-c", "import typer"], capture_output=True, check=False)
+    missing = subprocess.run([python, "-I", "-c", "import rich"], capture_output=True, check=False)
     assert missing.returncode == 1, "the environment must be empty"
     run_ = subprocess.run(
         [python, "-I", "-m", "lyapcheck.check", str(made)], capture_output=True, text=True, check=False

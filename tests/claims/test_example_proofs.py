@@ -3,13 +3,12 @@
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
-from lyapcheck.cli.main import build_app
 from lyapcheck.verdicts import Exit, Verdict
+from tests.helpers.command import invoke
 
 EXAMPLES = Path(find_script("published.py")).parent / "examples"
 ARCTAN, MUST_FAIL = EXAMPLES / "arctan.py", EXAMPLES / "must_fail.py"
@@ -44,7 +43,7 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
 
 
 def test_the_command_says_so_too():
-    run = CliRunner().invoke(build_app(), ["check", str(MUST_FAIL), "--m", "1", "--only", "wrong"])
+    run = invoke("check", str(MUST_FAIL), "--m", "1", "--only", "wrong")
     assert run.exit_code == Exit.REFUTED
     assert "✗  wrong " in run.output
 

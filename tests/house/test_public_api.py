@@ -17,7 +17,7 @@ import lyapcheck
 from lyapcheck import _HOMES
 from lyapcheck import __all__ as PUBLIC
 
-HEAVY = ("numpy", "scipy", "sympy", "casadi", "cvxpy", "matplotlib", "flint", "rich", "typer", "jinja2")
+HEAVY = ("numpy", "scipy", "sympy", "casadi", "cvxpy", "matplotlib", "flint", "rich", "jinja2", "argparse")
 OBJECTS = [name for name in PUBLIC if name != "__version__"]
 
 

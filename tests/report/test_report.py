@@ -16,9 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from PIL import Image
-from typer.testing import CliRunner
 
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError, argument_error
@@ -32,6 +30,7 @@ from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Report
 from lyapcheck.report.text import bracket, listed, number, span_words, together, witness_words
 from lyapcheck.report.write import render, require_folder, write
+from tests.helpers.command import invoke
 
 VOID = {"meta", "link", "img", "br"}
 
@@ -278,7 +277,7 @@ BROKEN = [
 @pytest.mark.parametrize(("arguments", "expected"), BROKEN)
 def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    result = CliRunner().invoke(build_app(("report", "table")), ["report", "--out", str(out), *arguments])
+    result = invoke("report", "--out", str(out), *arguments)
     said = str(result.exception) if isinstance(result.exception, InputError) else result.output
     assert expected in said
     assert result.exit_code != 0

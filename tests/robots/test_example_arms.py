@@ -6,17 +6,16 @@ import json
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from lyapcheck.cli.main import build_app
 from lyapcheck.robots import load
+from tests.helpers.command import invoke
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ARMS = [("ur5", 6), ("panda", 7)]
 
 
 def run(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(build_app(), list(arguments))
+    result = invoke(*arguments)
     return result.exit_code, result.stdout
 
 

@@ -6,11 +6,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.check.loop import proves
-from lyapcheck.cli.main import build_app
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
@@ -18,6 +16,7 @@ from lyapcheck.robots import load, names
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.setting import Setting
+from tests.helpers.command import invoke
 
 F = Fraction
 GAINS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
@@ -78,7 +77,7 @@ def test_a_wider_spread_certifies_and_refutes_less() -> None:
 @pytest.mark.parametrize("percent", ["0", "100", "-5", "nan"])
 def test_percentages_out_of_range_are_refused(percent: str) -> None:
     gains = str(paper_gain_file("table2_shoulder_elbow"))
-    result = CliRunner().invoke(build_app(("epsilon", "table")), ["epsilon", gains, f"--spread={percent}"])
+    result = invoke("epsilon", gains, f"--spread={percent}")
     assert isinstance(result.exception, InputError)
     assert "above 0 and below 100" in str(result.exception)
 

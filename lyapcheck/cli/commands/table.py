@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.options import add_format, add_members
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
@@ -17,30 +16,41 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.table import Table
+    from lyapcheck.cli.parser import Parser
 
 _MOST_DIGITS = 2_000
 _QUIET_ROWS = 500
 
 
-def command(
-    m: Annotated[str, typer.Option("--m", help="Members of the family: 3, 1,2,5 or 1:12.")] = "1:12",
-    digits: Annotated[int, typer.Option(help="Significant digits.")] = 30,
-    robot: Annotated[
-        str | None, typer.Option(help="Add what this arm's torque limits leave to k_p + k_v of each joint.")
-    ] = None,
-    asymptotics: Annotated[
-        bool,
-        typer.Option("--asymptotics", help="Add the leading terms for m → ∞, and what is left beside them."),
-    ] = False,
-    plot: Annotated[
-        Path | None, typer.Option(help="Draw them against m into this folder, as SVG and PNG.")
-    ] = None,
-    format: Annotated[Format, typer.Option(help="How to write it.")] = Format.TEXT,  # noqa: A002
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    add_members(parser, "1:12")
+    parser.add_whole("--digits", "Significant digits.", default=30)
+    about = "Add what this arm's torque limits leave to k_p + k_v of each joint."
+    parser.add_argument("--robot", metavar="ROBOT", help=about)
+    about = "Add the leading terms for m → ∞, and what is left beside them."
+    parser.add_argument("--asymptotics", action="store_true", help=about)
+    about = "Draw them against m into this folder, as SVG and PNG."
+    parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
+    add_format(parser, Format)
+
+
+def run(
+    m: str,
+    digits: int,
+    robot: str | None,
+    asymptotics: bool,
+    plot: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
     """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
 
     γ = sup h, ρ = sup |h'|, L = sup h(x)/x over x > 0. Every digit in a text is correct; the bounds in JSON
     and CSV enclose the exact number.
+
+    Examples:
+      lyapcheck table --m 1:3 --digits 50
+      lyapcheck table --m 1,2,5 --robot buap3 --format latex
     """
     members = parse_m(m)
     if not 1 <= digits <= _MOST_DIGITS:
@@ -59,7 +69,7 @@ def command(
     if folder is not None:
         _draw(table, folder)
     show(table, format)
-    raise typer.Exit(int(Exit.PROVED))
+    return Exit.PROVED
 
 
 def _draw(table: Table, folder: Path) -> None:

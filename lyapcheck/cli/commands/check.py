@@ -4,28 +4,41 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-import typer
+from lyapcheck.cli.options import add_certificates, add_format, add_members
+from lyapcheck.verdicts import Exit
 
-from lyapcheck.output.formats import JudgedFormat
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
 
 
-def command(
-    proof: Annotated[
-        str, typer.Argument(help="A proof script; published.py is the paper's.", metavar="PROOF.py")
-    ],
-    m: Annotated[str, typer.Option("--m", help="Members of the family: 3, 1,2,5 or 1:12.")] = "1:3",
-    robot: Annotated[str | None, typer.Option(help="A robot name or file. Default: the paper's arm.")] = None,
-    n: Annotated[int | None, typer.Option("--n", help="Number of joints, in place of a robot.")] = None,
-    gains: Annotated[str | None, typer.Option(help="A gain file. Default: the paper's Table 2.")] = None,
-    only: Annotated[list[str] | None, typer.Option(help="Report this claim only; may be repeated.")] = None,
-    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
-    certificates: Annotated[
-        str | None, typer.Option(help="Write a certificate per decided claim there; see recheck.")
-    ] = None,
-    timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each claim took.")] = False,
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    parser.add_argument("proof", metavar="PROOF.py", help="A proof script; published.py is the paper's.")
+    add_members(parser, "1:3")
+    parser.add_argument("--robot", metavar="ROBOT", help="A robot name or file; the paper's arm if missing.")
+    parser.add_whole("--n", "Number of joints, in place of a robot.")
+    parser.add_argument("--gains", metavar="FILE", help="A gain file; the paper's Table 2 if missing.")
+    parser.add_argument(
+        "--only", metavar="ID", action="append", help="Report this claim only; may be repeated."
+    )
+    add_certificates(parser, "Write a certificate per decided claim there")
+    parser.add_argument("--timings", action="store_true", help="Add the seconds each claim took.")
+    add_format(parser)
+
+
+def run(
+    proof: str,
+    m: str,
+    robot: str | None,
+    n: int | None,
+    gains: str | None,
+    only: list[str] | None,
+    certificates: Path | None,
+    timings: bool,
+    format: str,  # noqa: A002
+) -> Exit:
     """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
 
     A proof script is a program: run only what you trust with your files. It cannot influence a verdict,
@@ -33,6 +46,10 @@ def command(
 
     Exit code 0: all proved, 1: something refuted, 2: the script or an input cannot be used, 3: something
     undecided and nothing refuted.
+
+    Examples:
+      lyapcheck check published.py --m 1:5
+      lyapcheck check my_proof.py --robot arm.urdf --only 16.6 --certificates proof/
     """
     from dataclasses import replace
 
@@ -43,7 +60,6 @@ def command(
     from lyapcheck.cli.progress import progress
     from lyapcheck.cli.show import show
     from lyapcheck.errors import argument_error
-    from lyapcheck.verdicts import Exit
 
     if n is not None and robot is not None:
         raise argument_error(
@@ -51,15 +67,15 @@ def command(
         )
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
-    folder = None if certificates is None else open_folder("--certificates", Path(certificates))
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     try:
         with progress("check") as advance:
             result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
     except Alarm as alarm:
         sys.stderr.write(f"ALARM: {alarm}\n")
-        raise typer.Exit(int(Exit.INTERNAL)) from alarm
+        return Exit.INTERNAL
     if folder is not None:
         for name, certificate in result.certificates.items():
             write_whole(folder / name, certificate.text())
     show(replace(result, timings=timings), format)
-    raise typer.Exit(int(result.exit_code))
+    return result.exit_code

@@ -5,22 +5,21 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
-from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
     from lyapcheck.answers.epsilon import EpsilonResult
+    from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
 
@@ -38,44 +37,55 @@ class Budget:
     seed: int
 
 
-def command(
-    file: Annotated[Path, typer.Argument(help="A gain file.", metavar="FILE")],
-    robot: Annotated[
-        str | None,
-        typer.Option(help="A built-in arm or an arm file, instead of the one the gain file names."),
-    ] = None,
-    m: Annotated[
-        str | None, typer.Option("--m", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
-    ] = None,
-    max_boxes: Annotated[int, typer.Option(help="Budget of branch and bound.", min=1)] = 400_000,
-    jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
-    ranges: Annotated[
-        bool, typer.Option("--ranges", help="For all values of what is uncertain about the arm.")
-    ] = False,
-    spread: Annotated[
-        float | None,
-        typer.Option(help="Percent: every number of the arm without a range gets ± that; implies --ranges."),
-    ] = None,
-    seconds: Annotated[
-        float | None,
-        typer.Option(help="Time for branch and bound; the answer then depends on the machine.", min=0),
-    ] = None,
-    weights: Annotated[
-        bool, typer.Option("--weights", help="Also search weights Λ in y = w − εΛh, joint by joint.")
-    ] = False,
-    starts: Annotated[int, typer.Option(help="Starts of each optimised search.", min=1)] = 30,
-    seed: Annotated[int, typer.Option(help="Seed of the sampled states.", min=0)] = 20190301,
-    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
-    certificates: Annotated[
-        Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
-    ] = None,
-    timings: Annotated[bool, typer.Option("--timings", help="Add the seconds each gain set took.")] = False,
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    add_gain_file(parser)
+    add_robot(parser)
+    about = "Only the gain sets of these members: 3, 1,2,5 or 1:12."
+    parser.add_argument("--m", metavar="M", help=about)
+    parser.add_whole("--max-boxes", "Budget of branch and bound.", default=400_000, least=1)
+    parser.add_whole("--jobs", "Processes for checking the boxes.", default=2, least=1, most=64)
+    about = "For all values of what is uncertain about the arm."
+    parser.add_argument("--ranges", action="store_true", help=about)
+    about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
+    parser.add_real("--spread", about)
+    about = "Time for branch and bound; the answer then depends on the machine."
+    parser.add_real("--seconds", about, least=0)
+    about = "Also search weights Λ in y = w − εΛh, joint by joint."
+    parser.add_argument("--weights", action="store_true", help=about)
+    parser.add_whole("--starts", "Starts of each optimised search.", default=30, least=1)
+    parser.add_whole("--seed", "Seed of the sampled states.", default=20190301, least=0)
+    add_certificates(parser)
+    parser.add_argument("--timings", action="store_true", help="Add the seconds each gain set took.")
+    add_format(parser)
+
+
+def run(
+    file: Path,
+    robot: str | None,
+    m: str | None,
+    max_boxes: int,
+    jobs: int,
+    ranges: bool,
+    spread: float | None,
+    seconds: float | None,
+    weights: bool,
+    starts: int,
+    seed: int,
+    certificates: Path | None,
+    timings: bool,
+    format: str,  # noqa: A002
+) -> Exit:
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
 
     For each gain set: the end of (18), the ε₀ of norms, the largest ε₀ proved at every state, and the
-    smallest that a state refutes. Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has
-    none.
+    smallest that a state refutes.
+
+    Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has none.
+
+    Examples:
+      lyapcheck epsilon gains.toml --m 1 --certificates proof/
+      lyapcheck epsilon gains.toml --robot pelican2 --spread 5
     """
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
@@ -87,14 +97,14 @@ def command(
     folder = None if certificates is None else open_folder("--certificates", certificates)
     budget = Budget(max_boxes, jobs, ranges or spread is not None, weights, seconds, starts, seed)
     with progress("epsilon") as advance:
-        results, times = _run(chosen, model, budget, advance)
+        results, times = _each(chosen, model, budget, advance)
     if folder is not None:
         _write_certificates(folder, results)
     from lyapcheck.answers.epsilon import EpsilonResults
 
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
     missing = any(result.certified is None for result in results)
-    raise typer.Exit(int(Exit.UNDECIDED if missing else Exit.PROVED))
+    return Exit.UNDECIDED if missing else Exit.PROVED
 
 
 def _share(spread: float | None) -> Fraction:
@@ -132,7 +142,7 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
     return chosen
 
 
-def _run(
+def _each(
     gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""

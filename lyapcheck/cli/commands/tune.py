@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import sys
-from enum import StrEnum
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.options import add_format, add_members
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
@@ -22,6 +20,7 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune import Targets
+    from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
 
 ONE = (Fraction(1),)
@@ -29,47 +28,57 @@ ONE = (Fraction(1),)
 PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 
 
-if TYPE_CHECKING:
-
-    class TuneFormat(StrEnum):
-        """What every answer can be written in, and the gain file alone."""
-
-        TEXT = "text"
-        TOML = "toml"
-
-else:
-    TuneFormat = StrEnum("TuneFormat", {name.upper(): name for name in (*Format, "toml")}, module=__name__)
+FORMATS = (*Format, "toml")
+"""What every answer can be written in, and the gain file alone."""
 
 
-def command(
-    robot: Annotated[
-        str, typer.Argument(help="A built-in arm or an arm file (.toml, .urdf).", metavar="ROBOT")
-    ],
-    m: Annotated[str, typer.Option("--m", help="Members of the family: 3, 1,2,5 or 1:12.")] = "1:3",
-    digits: Annotated[int, typer.Option(help="Decimal places of the gains.")] = 3,
-    peak_share: Annotated[
-        str, typer.Option(help="Share of each torque limit that may be used, 0.8 or 0.8,0.9,1.")
-    ] = "1",
-    kv_share: Annotated[
-        str | None,
-        typer.Option(help="Share that k_v takes, at least, of the largest that (19) admits. Default: 1."),
-    ] = None,
-    kv_min: Annotated[str | None, typer.Option(help="Lower bound of k_v, N·m, instead of a share.")] = None,
-    damping: Annotated[str | None, typer.Option(help="Lower bound of each joint's damping ratio.")] = None,
-    torque: Annotated[str | None, typer.Option(help="Torque limits instead of the arm's, N·m.")] = None,
-    gravity: Annotated[str | None, typer.Option(help="Gravity bounds instead of the arm's, N·m.")] = None,
-    viscous_min: Annotated[str | None, typer.Option(help="λmin(B) instead of the arm's, N·m·s/rad.")] = None,
-    compare: Annotated[
-        Path | None, typer.Option(help="A gain file to compare with. For buap3: the paper's Table 2.")
-    ] = None,
-    out: Annotated[Path | None, typer.Option(help="Write the gain file there.")] = None,
-    format: Annotated[TuneFormat, typer.Option(help="How to write it.")] = TuneFormat.TEXT,  # noqa: A002
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
+    add_members(parser, "1:3")
+    parser.add_whole("--digits", "Decimal places of the gains.", default=3)
+    about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1."
+    parser.add_argument("--peak-share", metavar="SHARES", default="1", help=about)
+    about = "Share that k_v takes, at least, of the largest that (19) admits; 1 if missing."
+    parser.add_argument("--kv-share", metavar="SHARES", help=about)
+    about = "Lower bound of k_v, N·m, instead of a share."
+    parser.add_argument("--kv-min", metavar="TORQUES", help=about)
+    about = "Lower bound of each joint's damping ratio."
+    parser.add_argument("--damping", metavar="RATIOS", help=about)
+    parser.add_argument("--torque", metavar="TORQUES", help="Torque limits instead of the arm's, N·m.")
+    parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds instead of the arm's, N·m.")
+    parser.add_argument("--viscous-min", metavar="N", help="λmin(B) instead of the arm's, N·m·s/rad.")
+    about = "A gain file to compare with. For buap3: the paper's Table 2."
+    parser.add_argument("--compare", metavar="FILE", type=Path, help=about)
+    parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gain file there.")
+    add_format(parser, FORMATS)
+
+
+def run(
+    robot: str,
+    m: str,
+    digits: int,
+    peak_share: str,
+    kv_share: str | None,
+    kv_min: str | None,
+    damping: str | None,
+    torque: str | None,
+    gravity: str | None,
+    viscous_min: str | None,
+    compare: Path | None,
+    out: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
     """The largest gains that an arm's limits admit, as a gain file that the gate accepts.
 
     For each m the largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets, exact to
-    the last digit: no gain can be one unit larger. Exit code 0: every m has gains, 2: unusable input or no
-    gains exist, 3: the arm's limits are not known.
+    the last digit: no gain can be one unit larger.
+
+    Exit code 0: every m has gains, 2: unusable input or no gains exist, 3: the arm's limits are not known.
+
+    Examples:
+      lyapcheck tune buap3 --m 1:5
+      lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
     from lyapcheck.answers.tune import tune
     from lyapcheck.answers.tune.gain_file import gain_file_text
@@ -85,14 +94,14 @@ def command(
     tuning = tune(robot, members or (), targets, bounds, against)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
-    if format is not TuneFormat.TOML:
+    if format != "toml":
         show(tuning, format)
     else:
         sys.stdout.write(document_text(gain_file_text(tuning)))
         for item in tuning.sets:
             for reason in item.reasons:
                 print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
-    raise typer.Exit(int(tuning.exit))
+    return tuning.exit
 
 
 def _targets(

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.options import add_certificates, add_format, add_robot
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
@@ -25,41 +24,51 @@ if TYPE_CHECKING:
 MOST_TORQUE = 1e6
 
 
-def command(
-    file: Annotated[Path, typer.Argument(help="A gain file of bounded controllers.", metavar="FILE")],
-    robot: Annotated[
-        str | None,
-        typer.Option(help="A built-in arm or an arm file, instead of the one the gain file names."),
-    ] = None,
-    target: Annotated[
-        str | None,
-        typer.Option(help="Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."),
-    ] = None,
-    start: Annotated[
-        str | None, typer.Option(help="Initial joint angles in degrees; all 0 if missing.")
-    ] = None,
-    delta: Annotated[float, typer.Option(help="The error to come below, in degrees.")] = 1.0,
-    disturbance: Annotated[
-        str | None, typer.Option(help="Bounds in N·m of torques of any sign, one a joint: 0.1,0.1,0.05.")
-    ] = None,
-    friction: Annotated[
-        str | None,
-        typer.Option(help="Bounds in N·m of dry friction, one a joint; those of the arm if missing."),
-    ] = None,
-    time: Annotated[float, typer.Option(help="Duration of the simulated runs in s.")] = 5.0,
-    max_boxes: Annotated[int, typer.Option(help="Budget of boxes for each attempt.", min=1)] = 60_000,
-    jobs: Annotated[int, typer.Option(help="Processes for checking the boxes.", min=1, max=64)] = 2,
-    certificates: Annotated[
-        Path | None, typer.Option(help="Write the certificates of each gain set there; see recheck.")
-    ] = None,
-    format: Annotated[JudgedFormat, typer.Option(help="How to write it.")] = JudgedFormat.TEXT,  # noqa: A002
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    parser.add_argument("file", metavar="FILE", type=Path, help="A gain file of bounded controllers.")
+    add_robot(parser)
+    about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
+    parser.add_argument("--target", metavar="ANGLES", help=about)
+    parser.add_argument(
+        "--start", metavar="ANGLES", help="Initial joint angles in degrees; all 0 if missing."
+    )
+    parser.add_real("--delta", "The error to come below, in degrees.", default=1.0)
+    about = "Bounds in N·m of torques of any sign, one a joint: 0.1,0.1,0.05."
+    parser.add_argument("--disturbance", metavar="TORQUES", help=about)
+    about = "Bounds in N·m of dry friction, one a joint; those of the arm if missing."
+    parser.add_argument("--friction", metavar="TORQUES", help=about)
+    parser.add_real("--time", "Duration of the simulated runs in s.", default=5.0)
+    parser.add_whole("--max-boxes", "Budget of boxes for each attempt.", default=60_000, least=1)
+    parser.add_whole("--jobs", "Processes for checking the boxes.", default=2, least=1, most=64)
+    add_certificates(parser)
+    add_format(parser)
+
+
+def run(
+    file: Path,
+    robot: str | None,
+    target: str | None,
+    start: str | None,
+    delta: float,
+    disturbance: str | None,
+    friction: str | None,
+    time: float,
+    max_boxes: int,
+    jobs: int,
+    certificates: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
 
     From V and a margin of dV/dt < 0: a time after which every error stays below --delta, for all postures,
     and the errors that bounded torques and dry friction can leave.
 
     Exit code 0: all bounds are certified, 2: unusable input, 3: one is not.
+
+    Examples:
+      lyapcheck bounds gains.toml --delta 0.5
+      lyapcheck bounds gains.toml --disturbance 0.1,0.1,0.05 --friction 0,0,0
     """
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
@@ -76,14 +85,14 @@ def command(
         raise InputError(problems)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
-        found = _run(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
+        found = _compare(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
     if folder is not None:
         _write_certificates(folder, found)
     from lyapcheck.answers.bounds.answer import Comparisons
 
     show(Comparisons(tuple(found), gain_file), format)
     whole = all(one.certified for one in found)
-    raise typer.Exit(int(Exit.PROVED if whole else Exit.UNDECIDED))
+    return Exit.PROVED if whole else Exit.UNDECIDED
 
 
 def _write_certificates(folder: Path, found: list[Comparison]) -> None:
@@ -132,7 +141,7 @@ def _torques(option: str, text: str | None, model: RobotModel, problems: list[Pr
 Asked = tuple[float, tuple[float, ...], tuple[float, ...] | None]
 
 
-def _run(
+def _compare(
     gains: tuple[GainSet, ...],
     model: RobotModel,
     task: Task,

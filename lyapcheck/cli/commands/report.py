@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.progress import progress
@@ -15,6 +13,7 @@ from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
     from lyapcheck.report.build import Subject
     from lyapcheck.report.model import Report
 
@@ -25,35 +24,47 @@ _PRINT = (
 )
 
 
-def command(
-    more: Annotated[
-        list[str] | None, typer.Argument(help="More members, after --m.", metavar="[M]...")
-    ] = None,
-    m: Annotated[str, typer.Option("--m", help="Members of the family: 1 2 3, 1,2,5 or 1:12.")] = "1:3",
-    robot: Annotated[str | None, typer.Option(help="A built-in arm or an arm file.")] = None,
-    gains: Annotated[
-        Path | None, typer.Option(help="A gain file; the paper's Table 2 and its PD baseline if missing.")
-    ] = None,
-    out: Annotated[Path, typer.Option(help="The folder to write to.")] = Path("reports"),
-    format: Annotated[str, typer.Option(help="Which of html, md and json.")] = "html,md,json",  # noqa: A002
-) -> None:
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    about = "Members of the family: 1 2 3, 1,2,5 or 1:12."
+    parser.add_argument("--m", metavar="M", nargs="+", default=["1:3"], help=f"{about} [1:3]")
+    parser.add_argument("--robot", metavar="ROBOT", help="A built-in arm or an arm file.")
+    about = "A gain file; the paper's Table 2 and its PD baseline if missing."
+    parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
+    about = "The folder to write to."
+    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("reports"), help=about)
+    about = "Which of html, md and json, separated by commas."
+    parser.add_argument("--format", metavar="FORMATS", default="html,md,json", help=about)
+
+
+def run(
+    m: list[str],
+    robot: str | None,
+    gains: Path | None,
+    out: Path,
+    format: str,  # noqa: A002
+) -> Exit:
     """Check proof, gains and closed loop for each m and write it all up in a folder.
 
     Without arguments: the paper's arm and gains for m = 1, 2, 3, into reports/. Exit code 0 when the report
     is written, whatever it says; 2: unusable input.
+
+    Examples:
+      lyapcheck report
+      lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
     from lyapcheck.report.write import render, require_folder, write
 
     formats = _formats(format)
     require_folder("--out", out)
-    subject = _subject(" ".join([m, *(more or [])]), robot, gains)
+    subject = _subject(",".join(m), robot, gains)
     from lyapcheck.report.build import build
 
     with progress("report") as advance:
         report = build(subject, advance)
     write(render(report, formats), out)
     sys.stdout.write(document_text(_summary(report, out, formats)))
-    raise typer.Exit(int(Exit.PROVED))
+    return Exit.PROVED
 
 
 def _formats(text: str) -> tuple[str, ...]:

@@ -1,0 +1,91 @@
+"""``lyapcheck gate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lyapcheck.cli.options import add_certificates, add_format
+from lyapcheck.cli.show import show
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.gate import GateAnswer
+    from lyapcheck.cli.parser import Parser
+    from lyapcheck.verdicts import Exit
+
+
+CONDITIONS = ("10", "10p", "19", "scalar", "global")
+"""The conditions that can decide."""
+GAMMAS = ("true", "printed")
+"""Which γ the conditions use."""
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
+    parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
+    about = (
+        "A condition that must hold; may be repeated. scalar and global: dV/dt < 0 proved for the arm. "
+        "10p and 19 if missing."
+    )
+    parser.add_choice("--condition", CONDITIONS, about, repeated=True)
+    parser.add_choice("--gamma", GAMMAS, "The certified γ, or the one the paper prints.", default="true")
+    about = "What is undecided counts as a failure, exit code 1."
+    parser.add_argument("--strict", action="store_true", help=about)
+    add_certificates(parser, "Write the certificate of each check there")
+    add_format(parser)
+
+
+def run(
+    files: list[str],
+    robot: str | None,
+    condition: list[str] | None,
+    gamma: str,
+    strict: bool,
+    certificates: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
+    """Accept or reject gains by the paper's conditions, as the checker judges them.
+
+    For each gain set and joint: value, limit, margin and the largest value that would pass.
+
+    Exit code 0: all accepted, 1: something rejected, 2: a file cannot be used, 3: undecided.
+
+    Examples:
+      lyapcheck gate gains.toml
+      lyapcheck gate config/*.toml --format junit > gate.xml
+      lyapcheck gate gains.toml --condition 10p --condition scalar
+    """
+    from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
+    from lyapcheck.cli.output import open_folder
+    from lyapcheck.control.arm_limits import ArmLimits
+    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.errors import InputError, Problem
+
+    folder = None if certificates is None else open_folder("--certificates", certificates)
+    results: list[GateAnswer] = []
+    problems: list[Problem] = []
+    arms: dict[str, ArmLimits] = {}
+    deciding = tuple(condition or DECIDING)
+    for file in files:
+        try:
+            results.append(gate(read_gain_file(file), robot, deciding, gamma, strict, arms))
+        except InputError as error:
+            problems += error.problems
+    answer = GateAnswer(result for found in results for result in found)
+    if answer:
+        if folder is not None:
+            _write_certificates(folder, answer)
+        show(answer, format)
+    if problems:
+        raise InputError(problems)
+    return answer.exit_code
+
+
+def _write_certificates(folder: Path, answer: GateAnswer) -> None:
+    """One file for each check that was decided."""
+    from lyapcheck.answers.gate.certificates import certificates
+    from lyapcheck.cli.output import write_whole
+
+    for name, certificate in certificates(answer).items():
+        write_whole(folder / name, certificate.text())

@@ -1,0 +1,55 @@
+"""``lyapcheck recheck``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lyapcheck.check import command
+from lyapcheck.check.command import FORMATS, HELP
+from lyapcheck.check.limits import MOST, Limits
+from lyapcheck.check.recheck import Outcome
+from lyapcheck.cli.options import add_format
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    about = "Certificate files, or directories of them."
+    parser.add_argument("certificates", metavar="CERTIFICATE...", nargs="+", help=about)
+    parser.add_argument("--full", action="store_true", help=HELP["full"])
+    parser.add_argument("--trusted", action="store_true", help=HELP["trusted"])
+    parser.add_whole("--seconds", HELP["seconds"], default=Limits.seconds, least=1, most=MOST)
+    parser.add_whole("--memory", HELP["memory"], default=Limits.memory, least=1, most=MOST)
+    add_format(parser)
+
+
+def run(
+    certificates: list[str],
+    full: bool,
+    trusted: bool,
+    seconds: int,
+    memory: int,
+    format: str,  # noqa: A002
+) -> int:
+    """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
+
+    What is printed as a statement is rendered from its data; the words of its author are marked as such. A
+    certificate is undecided as long as one that it uses is not at hand.
+
+    Exit code 0: all accepted, 1: some refused, 2: a file cannot be read, 3: some undecided and none refused,
+    4: one statement both proved and refuted.
+
+    Examples:
+      lyapcheck recheck proof/
+      lyapcheck recheck proof/16.6.json --trusted
+    """
+
+    def written(outcome: Outcome, with_trusted: bool) -> str:
+        from lyapcheck.answers.recheck import Recheck
+
+        return Recheck(outcome, with_trusted).written(format)
+
+    formats = {format: written} | dict(FORMATS)  # text and JSON are the checker's own
+    return command.run(certificates, format, full, trusted, seconds, memory, formats)

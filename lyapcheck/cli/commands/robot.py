@@ -1,0 +1,64 @@
+"""``lyapcheck robot``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lyapcheck.cli.options import add_certificates, add_format
+from lyapcheck.cli.progress import progress
+from lyapcheck.cli.show import show
+from lyapcheck.output.escapes import printable
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
+    from lyapcheck.verdicts import Exit
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    about = "A built-in arm, or an arm file (.toml, .urdf)."
+    parser.add_argument("robot", metavar="NAME|FILE", help=about)
+    about = "For a URDF: the link that ends the chain; the longest chain if missing."
+    parser.add_argument("--tip", metavar="LINK", help=about)
+    about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
+    parser.add_whole("--max-boxes", about, least=1)
+    add_certificates(parser, "Write the certificates of what is decided there")
+    add_format(parser)
+
+
+def run(
+    robot: str,
+    tip: str | None,
+    max_boxes: int | None,
+    certificates: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
+    """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
+
+    λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it: ends that a certificate
+    shows, and the sharper ones of floating point (numeric; wider where the budget of boxes ends). Friction,
+    torque limits, and every number with its source. Where the source prints C or g too, the print is compared
+    with what M and the potential give.
+
+    Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
+
+    Examples:
+      lyapcheck robot buap3
+      lyapcheck robot arm.urdf --tip hand --certificates proof/
+    """
+    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.robots import load, names
+
+    model = load(robot, tip)
+    from lyapcheck.answers.robot import build
+
+    folder = None if certificates is None else open_folder("--certificates", certificates)
+    with progress("robot") as advance:
+        report = build(model, max_boxes, advance)
+    if folder is not None:
+        for name, certificate in report.certificates.items():
+            write_whole(folder / name, certificate.text())
+    show(replace(report, path="" if robot in names() else printable(robot)), format)
+    return report.exit_code

@@ -1,0 +1,180 @@
+"""The parser of the command line: argparse, whose refusals name the value, the rule and the repair."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from lyapcheck.errors import InputError, Problem, argument_error
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+WIDTH = 80
+_NEGATIVE = re.compile(r"-\.?\d")
+"""How a value begins that is not an option: ``-45,0,90``."""
+
+
+class Parser(argparse.ArgumentParser):
+    """What a command takes; its description has paragraphs, of which those with indented lines are kept."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(
+            formatter_class=_formatter, allow_abbrev=False, exit_on_error=False, add_help=False, **settings
+        )
+        self.usage = "%(prog)s [options]"  # all options on one line, as argparse has them, nobody can read
+        self._negative_number_matcher = _NEGATIVE  # as in Python 3.14: -45,0,90 is a value
+        self.actions: list[argparse.Action] = []
+        self.add_argument("-h", "--help", action="help", help="Show this help and leave.")
+
+    def add_argument(self, *names: str, help: str = "", **settings: Any) -> argparse.Action:  # type: ignore[override]  # noqa: A002
+        """Add an argument or an option; its default is told at the end of its help."""
+        default = settings.get("default")
+        if default is not None and default is not False:
+            help += " [%(default)s]"  # noqa: A001
+        action = super().add_argument(*names, help=help, **settings)
+        self.actions.append(action)
+        if not action.option_strings:
+            self.usage = f"{self.usage} {action.metavar}"
+        return action
+
+    def add_choice(
+        self,
+        option: str,
+        values: Iterable[str],
+        help: str,  # noqa: A002
+        *,
+        default: str | None = None,
+        repeated: bool = False,
+        metavar: str = "",
+    ) -> None:
+        """Add an option that takes one of some words, or a list of them if it may be repeated."""
+        words = tuple(map(str, values))
+
+        def read(word: str) -> str:
+            if word not in words:
+                rule = f"is not one of {', '.join(words)}"
+                raise argument_error(option, word, rule, nearest(word, words) or f"write {option} {words[0]}")
+            return word
+
+        self.add_argument(
+            option,
+            type=read,
+            choices=words,  # for completion in a shell
+            metavar=metavar or option.removeprefix("--").upper(),
+            default=default,
+            action="append" if repeated else "store",
+            help=f"{help} One of {', '.join(words)}.",
+        )
+
+    def add_whole(
+        self,
+        option: str,
+        help: str,  # noqa: A002
+        *,
+        default: int | None = None,
+        least: int | None = None,
+        most: int | None = None,
+    ) -> None:
+        """Add an option that takes a whole number between two ends."""
+        self._add_number(option, int, "a whole number", (least, most), default, help)
+
+    def add_real(
+        self,
+        option: str,
+        help: str,  # noqa: A002
+        *,
+        default: float | None = None,
+        least: float | None = None,
+    ) -> None:
+        """Add an option that takes a number."""
+        self._add_number(option, float, "a number", (least, None), default, help)
+
+    def _add_number(
+        self,
+        option: str,
+        kind: Callable[[str], Any],
+        what: str,
+        ends: tuple[float | None, float | None],
+        default: float | None,
+        help: str,  # noqa: A002
+    ) -> None:
+        least, most = ends
+
+        def read(word: str) -> Any:
+            try:
+                value = kind(word)
+            except ValueError:
+                example = 1 if least is None else least
+                raise argument_error(option, word, f"is not {what}", f"write {option} {example}") from None
+            if least is not None and value < least:
+                raise argument_error(option, word, f"must be at least {least}", f"write {option} {least}")
+            if most is not None and value > most:
+                raise argument_error(option, word, f"must be at most {most}", f"write {option} {most}")
+            return value
+
+        self.add_argument(option, type=read, metavar="N", default=default, help=help)
+
+    def parse(self, words: Sequence[str]) -> dict[str, Any]:
+        """The values of arguments and options by name, from words in any order.
+
+        Raises:
+            InputError: options that there are not, or the first thing that is wrong with the others.
+        """
+        options = [name for action in self.actions for name in action.option_strings]
+        before = words[: words.index("--")] if "--" in words else words
+        given = [word.partition("=")[0] for word in before if _is_option(word)]
+        unknown = [word for word in given if word not in options]
+        if unknown:
+            rule = "is not an option here"
+            raise InputError([self._problem(word, rule, nearest(word, options)) for word in unknown])
+        try:
+            found, surplus = self.parse_known_intermixed_args(words)
+        except argparse.ArgumentError as wrong:
+            subject = wrong.argument_name or "arguments"
+            raise InputError(self._problem(subject, wrong.message)) from None
+        if surplus:
+            raise InputError([self._problem(word, "is one argument too many") for word in surplus])
+        return vars(found)
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse a command line; argparse calls this with what it finds wrong.
+
+        Raises:
+            InputError: with that message.
+        """
+        raise InputError(self._problem("arguments", message))
+
+    def print_help(self, file: object = None) -> None:
+        """Write the help to standard output, and raise where it takes none, unlike argparse."""
+        print(self.format_help(), end="", flush=True)
+
+    def format_help(self) -> str:
+        """The help, its paragraphs filled."""
+        from inspect import cleandoc
+        from textwrap import fill
+
+        paragraphs = cleandoc(self.description or "").split("\n\n")
+        self.description = "\n\n".join(text if "\n  " in text else fill(text, WIDTH) for text in paragraphs)
+        return super().format_help()
+
+    def _problem(self, subject: str, rule: str, repair: str = "") -> Problem:
+        return Problem(self.prog, None, subject, "", rule, repair or f"see {self.prog} --help")
+
+
+def _is_option(word: str) -> bool:
+    return word.startswith("-") and word != "-" and not _NEGATIVE.match(word)
+
+
+def nearest(word: str, names: Iterable[str]) -> str:
+    """A question for the name that a word is a slip of the pen for; empty where there is none."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word, list(names), n=1)
+    return f"did you mean {near[0]}?" if near else ""
+
+
+def _formatter(prog: str) -> argparse.HelpFormatter:
+    """Of one width: argparse makes one for every argument, and to ask for that of the terminal takes time."""
+    return argparse.RawDescriptionHelpFormatter(prog, max_help_position=26, width=WIDTH)
