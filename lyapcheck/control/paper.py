@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from importlib import resources
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
@@ -14,7 +13,7 @@ PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
 
 def proofs_folder() -> Path:
     """Where the proof scripts and the paper's gains are: in an installed package, or at a checkout's top."""
-    package = Path(str(resources.files("lyapcheck")))
+    package = Path(__file__).parents[1]
     inside = package / "proofs"
     return inside if inside.is_dir() else package.parent / "proofs"
 

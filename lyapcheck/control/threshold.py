@@ -46,19 +46,20 @@ class Threshold:
     def __init__(self, budget: Tree, n: int, gamma: Tree | None, operator: str = "<") -> None:
         self.bounded, self.operator = gamma is not None, operator
         self.limit = _quotient(budget, (root(Fraction(n)), gamma or ONE))
-        self._known: dict[Fraction, Judgement] = {}
+        self._known: dict[tuple[int, int], Judgement] = {}
         self._near: dict[int, Enclosure] = {}
         self._largest: dict[int, Written | None] = {}
 
     def judged(self, value: Fraction, places: int = 0) -> Judgement:
         """What the checker says of a positive value with so many decimal places."""
-        if value not in self._known:
+        key = value.as_integer_ratio()  # hashing a fraction takes longer
+        if key not in self._known:
             if self.bounded:
                 statement = Constant(Relation(number(value), self.operator, self.limit))
-                self._known[value] = judged(statement, _proofs(places))
+                self._known[key] = judged(statement, _proofs(places))
             else:
-                self._known[value] = judged(*self._against(value))
-        return self._known[value]
+                self._known[key] = judged(*self._against(value))
+        return self._known[key]
 
     def admits(self, value: Fraction, places: int = 0) -> bool:
         """Whether the checker proves that a positive value passes."""

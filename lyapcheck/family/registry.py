@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cache, lru_cache
 from importlib import import_module
-from pkgutil import iter_modules
 
 from lyapcheck.errors import argument_error
+from lyapcheck.extensions import modules
 from lyapcheck.family import members
 from lyapcheck.family.base import Family
 
@@ -16,7 +16,7 @@ LARGEST_M = 100_000
 @cache
 def names() -> tuple[str, ...]:
     """The names of all families, sorted."""
-    return tuple(sorted(module.name for module in iter_modules(members.__path__)))
+    return modules(members.__path__)
 
 
 @lru_cache(maxsize=None, typed=True)  # typed: 1 == 1.0 == True, and only the first is an m

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from difflib import get_close_matches
 from fractions import Fraction
 from typing import Any, Self
 
@@ -119,6 +118,8 @@ class Fields:
         known = sorted(set(self._asked))
         for key in self.data:
             if key not in known:
+                from difflib import get_close_matches
+
                 near = get_close_matches(key, known, 1)
                 repair = (
                     f"did you mean {near[0]}?" if near else f"remove it, or use one of: {', '.join(known)}"

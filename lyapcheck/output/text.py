@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
 from textwrap import wrap
 from unicodedata import combining, east_asian_width
 
@@ -46,7 +47,11 @@ class _Writer:
 
     def _titled(self, line: str) -> str:
         mark, space, rest = line.partition(" ")
-        return f"{self._cell(mark)}{space}{self._in(BOLD, rest)}" if mark in COLOURS else self._in(BOLD, line)
+        return (
+            f"{self._in(COLOURS[mark], mark)}{space}{self._in(BOLD, rest)}"
+            if mark in COLOURS
+            else self._in(BOLD, line)
+        )
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         for block in blocks:
@@ -77,14 +82,18 @@ class _Writer:
         if table.caption:
             yield from _wrapped(table.caption)
         cells = [tuple(map(printable, row)) for row in (table.heads, *table.rows)]
+        natural = _natural(cells)
+        if _excess(natural) <= 0:
+            yield from self._sheet(cells, natural, table.align)
+            return
         for number, columns in enumerate(_sheets(table, cells)):
             if number:
                 yield ""
             align = "".join(table.align[i] for i in columns)
-            yield from self._sheet([tuple(row[i] for i in columns) for row in cells], align)
+            sheet = [tuple(row[i] for i in columns) for row in cells]
+            yield from self._sheet(sheet, _fitting(sheet, align), align)
 
-    def _sheet(self, cells: Sequence[tuple[str, ...]], align: str) -> Iterator[str]:
-        widths = _fitting(cells, align)
+    def _sheet(self, cells: Sequence[tuple[str, ...]], widths: Sequence[int], align: str) -> Iterator[str]:
         heads, *rows = cells
         yield from self._row(heads, widths, align, BOLD)
         yield self._in(DIM, GAP.join("─" * width for width in widths))
@@ -93,32 +102,31 @@ class _Writer:
 
     def _row(self, row: Sequence[str], widths: Sequence[int], align: str, style: str = "") -> Iterator[str]:
         """The lines of a row: one, unless a cell is wider than its column."""
-        if all(_width(cell) <= width for cell, width in zip(row, widths, strict=True)):
-            stacks = [[cell] for cell in row]
-        else:
-            stacks = [
-                _wrapped(cell, width, broken=True) or [""] for cell, width in zip(row, widths, strict=True)
-            ]
-        for k in range(max(map(len, stacks))):
-            parts = []
-            for stack, width, side in zip(stacks, widths, align, strict=True):
-                cell = stack[k] if k < len(stack) else ""
-                space = " " * (width - _width(cell))
-                shown = self._in(style, cell) if style and cell else self._cell(cell)
-                parts.append(shown + space if side == "l" else space + shown)
-            yield GAP.join(parts).rstrip()
+        spaces = [width - _width(cell) for cell, width in zip(row, widths, strict=True)]
+        if min(spaces) >= 0:
+            yield self._line(row, spaces, align, style)
+            return
+        stacks = [_wrapped(cell, width, broken=True) or [""] for cell, width in zip(row, widths, strict=True)]
+        for line in zip_longest(*stacks, fillvalue=""):
+            spaces = [width - _width(cell) for cell, width in zip(line, widths, strict=True)]
+            yield self._line(line, spaces, align, style)
 
-    def _cell(self, text: str) -> str:
-        return self._in(COLOURS[text], text) if text in COLOURS else text
+    def _line(self, cells: Sequence[str], spaces: Sequence[int], align: str, style: str) -> str:
+        """Cells that fit, each with the spaces that fill its column."""
+        if self.colour:
+            cells = [self._in(style or COLOURS.get(cell, ""), cell) for cell in cells]
+        parts = [
+            cell + " " * space if side == "l" else " " * space + cell
+            for cell, space, side in zip(cells, spaces, align, strict=True)
+        ]
+        return GAP.join(parts).rstrip()
 
     def _in(self, style: str, text: str) -> str:
-        return f"{style}{text}{PLAIN}" if self.colour and text else text
+        return f"{style}{text}{PLAIN}" if self.colour and style and text else text
 
 
 def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
     """The columns that fit side by side, the keys with each lot of them."""
-    if _excess(_natural(cells)) <= 0:
-        return [list(range(len(table.heads)))]
     least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), table.align, strict=True)]
     keys = list(range(min(table.keys, len(least))))
     used = sum(least[i] + len(GAP) for i in keys)
@@ -188,12 +196,12 @@ def _wrapped(text: str, width: int = WIDTH, broken: bool = False) -> list[str]:
     return wrap(shown, width, break_long_words=broken, break_on_hyphens=False)
 
 
-_ODD = re.compile("[^\x20-\u02ff\u0370-\u0482\u2010-\u20cf\u2100-\u22ff\u2500-\u257f]")
+_ODD = re.compile("[^\x20-\u02ff\u0370-\u0482\u2010-\u20cf\u2100-\u22ff\u2500-\u257f✓✗]")
 """All but letters, signs and lines of which each takes one column."""
 
 
 def _width(text: str) -> int:
     """How many columns a terminal needs."""
-    if not _ODD.search(text):
+    if text.isascii() or not _ODD.search(text):
         return len(text)
     return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)

@@ -77,7 +77,6 @@ from lyapcheck.output.escapes import printable
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.overlay import read_overlay
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
 
@@ -104,6 +103,8 @@ def read_arm(path: Path, shown: str | None = None, spread: Fraction = EXACT) -> 
     if "urdf" in top.data and spread:
         top.fail("urdf", "has exact numbers only", "leave out the spread, or write the links in the arm file")
     if "urdf" in top.data and not notes.problems:
+        from lyapcheck.robots.overlay import read_overlay
+
         return read_overlay(path, title, remarks, top)
     plan = read_plan(top)
     top.close()

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
-from importlib import resources
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
 from lyapcheck.extensions import folders
 from lyapcheck.robots.armfile import EXACT, read_arm
 from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.urdf import read_urdf
 
 
 def names() -> tuple[str, ...]:
@@ -40,6 +37,8 @@ def load(name_or_path: str | Path, tip: str | None = None, spread: Fraction = EX
         rule = f"{name_or_path} is a URDF file, whose numbers are taken as exact"
         raise argument_error("spread", float(spread), rule, "leave it out, or write an arm file")
     if path.suffix.lower() == ".urdf":
+        from lyapcheck.robots.urdf import read_urdf
+
         return read_urdf(path, tip=tip)
     if not path.suffix and not path.exists():
         raise argument_error(
@@ -49,6 +48,8 @@ def load(name_or_path: str | Path, tip: str | None = None, spread: Fraction = EX
 
 
 def _advice(name: str) -> str:
+    from difflib import get_close_matches
+
     near = get_close_matches(name, names(), n=1)
     guess = f"did you mean {near[0]}? " if near else ""
     return f"{guess}built-in arms: {', '.join(names())}; or give the path of an arm file (.toml, .urdf)"
@@ -61,7 +62,7 @@ def _builtin(name: str, spread: Fraction) -> RobotModel:
 
 def _arms() -> dict[str, Path]:
     """The files of the arms by name; lyapcheck's own before others of that name."""
-    own = str(resources.files("lyapcheck.robots") / "arms")
+    own = str(Path(__file__).parent / "arms")
     files = [
         file for folder in (*folders("lyapcheck.robots.arms"), own) for file in Path(folder).glob("*.toml")
     ]

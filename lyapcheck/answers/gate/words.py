@@ -67,11 +67,10 @@ def largest_text(check: Check) -> str:
 
 def margin_text(check: Check, digits: int = 4) -> str:
     """limit − value to a few digits, never larger than it is."""
-    limit, value = check.limit, check.value
-    if limit is None or value is None:
+    if check.limit is None or check.value is None:
         return ""
-    margin = limit.lower - value
-    return _down(margin.numerator, margin.denominator, digits)
+    a, b, c, d = *check.limit.lower.as_integer_ratio(), *check.value.as_integer_ratio()
+    return _down(a * d - b * c, b * d, digits)  # which need not be in lowest terms
 
 
 def significant_down(value: Fraction, digits: int) -> str:

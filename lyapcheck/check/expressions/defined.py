@@ -19,7 +19,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree, nodes, substitute
+from lyapcheck.check.expressions.expression import LEAVES, Tree, nodes, substitute
 from lyapcheck.check.expressions.grammar import Remembered
 from lyapcheck.check.expressions.signs import MINUS, ZERO, never
 from lyapcheck.check.expressions.text import expression_text
@@ -69,7 +69,7 @@ def require_defined(tree: Tree, domain: Domain) -> None:
     Raises:
         Undefined: naming that part, and what to do.
     """
-    if not domain and tree in _DEFINED:
+    if tree[0] in LEAVES or (not domain and tree in _DEFINED):
         return
     term = undefined_term(tree, domain)
     if term is None and not domain and len(tree) > 2:

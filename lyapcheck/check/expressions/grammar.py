@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from fractions import Fraction
+from math import gcd
 from typing import Any
 
-from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS, variables
+from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS, LEAVES, variables
 from lyapcheck.check.refusal import Refused, require
 
 MAX_DEPTH = 300
@@ -33,7 +33,7 @@ class Remembered:
     They are immutable, and kept here, so that their ids stay their own.
     """
 
-    MOST = 64
+    MOST = 256
 
     def __init__(self) -> None:
         self._kept: dict[int, Any] = {}
@@ -64,6 +64,8 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
         if tree in _WELL_FORMED:
             continue
         require_tree(tree, MAX_DEPTH)
+        if tree[0] in LEAVES and tree[0] != "var":
+            continue  # short by its shape, and without variables
         size = written_out(tree, {})
         require(
             size <= MAX_SIZE,
@@ -145,7 +147,10 @@ def is_name(name: str) -> bool:
 def is_rational_text(value: Any) -> bool:
     """Whether a value is an integer or a quotient of integers in lowest terms as text, of bearable length."""
     rational = isinstance(value, str) and len(value) <= MAX_DIGITS and RATIONAL.fullmatch(value) is not None
-    return rational and str(Fraction(value)) == value
+    if not rational:
+        return False
+    top, _, bottom = value.partition("/")
+    return not bottom or (bottom != "1" and gcd(int(top), int(bottom)) == 1)
 
 
 def _types(*wanted: type) -> Callable[[Parts], bool]:

@@ -29,7 +29,11 @@ class Sides:
 def holds(comparison: Comparison, point: Mapping[str, arb]) -> bool | None:
     """Whether a comparison holds at a point; ``None`` where the balls do not decide it."""
     left, operator, right = comparison
-    gap = ball(right, point) - ball(left, point)
+    return sign_holds(ball(right, point) - ball(left, point), operator)
+
+
+def sign_holds(gap: arb, operator: str) -> bool | None:
+    """Whether a comparison holds whose sides differ by a gap; ``None`` where its ball does not decide it."""
     if operator == "=":
         return False if gap > 0 or gap < 0 else True if gap.is_zero() else None
     strict = operator == "<"

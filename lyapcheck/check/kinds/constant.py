@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flint import ctx
+from flint import arb, ctx
 
 from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree, Unsupported
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
 from lyapcheck.check.expressions.normal_form import normal_form
-from lyapcheck.check.expressions.witness import holds
+from lyapcheck.check.expressions.witness import sign_holds
 from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.replay import require_bits
 from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.check.verify import Accepted, rule
+
+MOST_BALLS = 256
+_BALLS: dict[tuple[int, int], tuple[Tree, arb]] = {}
 
 
 @dataclass(frozen=True)
@@ -64,11 +67,27 @@ def by_exact_numbers(statement: Constant, proof: ExactNumbers) -> Accepted:
 @rule(Constant, SeparateBalls)
 def by_separate_balls(statement: Constant, proof: SeparateBalls) -> Accepted:
     """Soundness: the ball of the difference does not touch 0."""
+    relation = statement.relation
     with ctx.workprec(require_bits(proof.bits)):
-        truth = holds(statement.relation.comparison, {})
+        truth = sign_holds(_ball(relation.right) - _ball(relation.left), relation.operator)
     if truth is None:
         raise Refused("bits", proof.bits, "are too few to tell both sides apart")
     return _with_values(statement, truth, "enclosure")
+
+
+def _ball(tree: Tree) -> arb:
+    """A ball for a side; that of an operation is kept, since one limit is compared with many numbers.
+
+    A statement is immutable once it is well-formed, and kept with its ball, so that its id stays its own.
+    """
+    if len(tree) <= 2:
+        return ball(tree)
+    key = id(tree), ctx.prec
+    if key not in _BALLS:
+        if len(_BALLS) >= MOST_BALLS:
+            _BALLS.clear()
+        _BALLS[key] = tree, ball(tree)
+    return _BALLS[key][1]
 
 
 def _with_values(statement: Constant, truth: bool, grade: str) -> Accepted:

@@ -56,6 +56,8 @@ def run(
       lyapcheck gate config/*.toml --format junit > gate.xml
       lyapcheck gate gains.toml --condition 10p --condition scalar
     """
+    import gc
+
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
     from lyapcheck.cli.output import open_folder
     from lyapcheck.control.arm_limits import ArmLimits
@@ -63,6 +65,7 @@ def run(
     from lyapcheck.errors import InputError, Problem
 
     folder = None if certificates is None else open_folder("--certificates", certificates)
+    gc.set_threshold(1_000_000)  # ten thousand sets hold no cycles, and would be looked through many times
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}

@@ -15,10 +15,11 @@ from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
-from lyapcheck.family.hyperbolic_drivers import as_graph, on_array
 from lyapcheck.family.registry import require_member
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike
 
     from lyapcheck.family.base import Doubles
@@ -38,21 +39,26 @@ class Hyperbolic(Family):
         assert self.m is not None
         return self.m
 
+    def _on_array(self, x: ArrayLike, value: Callable[[Any], Any], odd: bool) -> Doubles:
+        from lyapcheck.family.hyperbolic_drivers import on_array
+
+        return on_array(self._member, x, value, odd=odd)
+
     def h(self, x: ArrayLike) -> Doubles:
         """h_m(x)."""
-        return on_array(self._member, x, lambda of: of.h(), odd=True)
+        return self._on_array(x, lambda of: of.h(), odd=True)
 
     def dh(self, x: ArrayLike) -> Doubles:
         """h_m'(x)."""
-        return on_array(self._member, x, lambda of: of.dh(), odd=False)
+        return self._on_array(x, lambda of: of.dh(), odd=False)
 
     def potential(self, x: ArrayLike) -> Doubles:
         """U_m(x)."""
-        return on_array(self._member, x, lambda of: of.potential(), odd=False)
+        return self._on_array(x, lambda of: of.potential(), odd=False)
 
     def secant(self, x: ArrayLike) -> Doubles:
         """h_m(x)/x."""
-        return on_array(self._member, x, lambda of: of.secant(), odd=False)
+        return self._on_array(x, lambda of: of.secant(), odd=False)
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
@@ -62,6 +68,8 @@ class Hyperbolic(Family):
 
     def casadi(self, x: Any) -> CasadiForms:
         """The forms as CasADi SX, as accurate as the NumPy ones; large graphs, see ``casadi_smooth``."""
+        from lyapcheck.family.hyperbolic_drivers import as_graph
+
         return as_graph(self._member, x)
 
     def casadi_smooth(self, x: Any) -> CasadiForms:
