@@ -249,7 +249,7 @@ def test_a_claim_cannot_choose_the_exit_code(run, tmp_path, monkeypatch):
         "from lyapcheck.claims import Proof\n"
         "proof = Proof('mine', 'Mine')\n"
         "@proof.claim('a', 'nothing')\n"
-        "def a(c):\n    raise SystemExit(0)\n"
+        "def a():\n    raise SystemExit(0)\n"
     )
     Path("mine.py").write_text(script, encoding="utf-8")
     code, out, err = run("check", "mine.py")

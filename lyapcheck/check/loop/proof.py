@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
-from multiprocessing import get_context
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
@@ -61,6 +59,9 @@ def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:
     if jobs <= 1 or len(tree) < WORTH_SHARING:
         return proves_part(closure, tree, 0, 1)
     # spawned processes import afresh; the copy leaves behind what the closure has computed for itself
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         parts = [pool.submit(proves_part, replace(closure), tree, part, jobs) for part in range(jobs)]
         return all(part.result() for part in parts)

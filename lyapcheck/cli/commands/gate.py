@@ -59,12 +59,15 @@ def run(
     import gc
 
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
-    from lyapcheck.cli.output import open_folder
     from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import InputError, Problem
 
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = None
+    if certificates is not None:
+        from lyapcheck.cli.output import open_folder
+
+        folder = open_folder("--certificates", certificates)
     gc.set_threshold(1_000_000)  # ten thousand sets hold no cycles, and would be looked through many times
     results: list[GateAnswer] = []
     problems: list[Problem] = []
