@@ -16,7 +16,8 @@ Written by `make bench`; all numbers are of one run on one machine:
 
 Wall time of the whole process, start of the interpreter included, median of the runs. By hand means a script
 in `tests/benchmarks/by_hand`, timed in the same way; the ratio is by hand ÷ lyapcheck, so more than 1 means
-that lyapcheck is faster. No by-hand way comes with a proof.
+that lyapcheck is faster. Where a row says so it is processor time of the whole process. No by-hand way comes
+with a proof.
 """
 
 RATES = """

@@ -11,7 +11,7 @@ class CommandResult:
 
     Args:
         command: the command line, for the reader.
-        seconds: the median wall time of the whole process.
+        seconds: the median wall time of the whole process, or its processor time where ``agreement`` says so.
         runs: how many were measured.
         by_hand: what a user would do instead; empty if nothing compares.
         by_hand_seconds: its median wall time.

@@ -107,7 +107,7 @@ def test_many_gain_sets_by_hand_give_the_same_verdicts():
 
 
 def test_the_start_is_measured_beside_that_of_python():
-    result = gate.start(runs=2)
+    result = gate.start(gate.TABLE2, "pass", "Python alone", runs=2)
     assert float(result.agreement.split()[0]) > 0
     assert result.by_hand_seconds > 0
     assert result.seconds > 0
