@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.answers.tune.tuning import tune as tune_gains
-    from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
+    from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
     from lyapcheck.check.numbers.enclosure import Enclosure
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.family.base import Family
+    from lyapcheck.family.compared import gamma_less_than
     from lyapcheck.family.registry import named as named_family
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
@@ -140,7 +141,7 @@ _HOMES = {
     "build_table": "answers.table",
     "epsilon": "answers.epsilon",
     "explain": "answers.explain",
-    "gamma_less_than": "check.numbers.constants",
+    "gamma_less_than": "family.compared",
     "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.constants",
     "limits_for": "control.limits",

@@ -118,11 +118,11 @@ class Recheck(Answer):
     def _code(self) -> Iterator[Section]:
         """The rules and modules behind all that is proved, and behind all that is refuted."""
         for verdict, code in self.data().get("trusted", {}).items():
-            modules = code["modules"]
-            total = (f"{len(modules)} modules", str(sum(modules.values())))
-            rows = [*((name, str(count)) for name, count in modules.items()), total]
+            lines, short = code["modules"], code["code"]
+            total = (f"{len(lines)} modules", str(sum(short.values())), str(sum(lines.values())))
+            rows = [*((name, str(short[name]), str(count)) for name, count in lines.items()), total]
             rules = Paragraph(f"Rules: {', '.join(code['rules'])}.")
-            table = Table(("module", "lines"), tuple(rows))
+            table = Table(("definitions in", "code", "lines"), tuple(rows))
             yield Section(f"Trusted for all that is {verdict}", (rules, table))
 
 

@@ -6,10 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from lyapcheck.check.numbers.constants import Constants, gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
+from lyapcheck.family.compared import gamma_less_than
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells

@@ -19,8 +19,6 @@ from typing import Any, NoReturn
 
 from lyapcheck.check.codec import from_json, is_text, require_keys, to_json
 from lyapcheck.check.expressions.grammar import MAX_NAME
-from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
@@ -184,17 +182,9 @@ def judge(certificate: Certificate) -> Accepted:
     if accepted.verdict == "refuted":
         require(not certificate.uses, "uses", ", ".join(certificate.uses), "a refutation rests on nothing")
         return accepted
-    for theorem in theorems_of(certificate.statement):
-        for hypothesis, claim in theorem.hypotheses:
-            require(claim in certificate.uses, hypothesis, claim, "the hypothesis is not among the uses")
+    for hypothesis, claim in certificate.statement.hypotheses_shown_by:
+        require(claim in certificate.uses, hypothesis, claim, "the hypothesis is not among the uses")
     return accepted
-
-
-def theorems_of(statement: Statement) -> list[Theorem]:
-    """The theorems that a statement applies."""
-    if isinstance(statement, AllOf):
-        return [theorem for _, part in statement.parts for theorem in theorems_of(part)]
-    return [statement] if isinstance(statement, Theorem) else []
 
 
 def _texts(data: Any, where: str) -> dict[str, str]:

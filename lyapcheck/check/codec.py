@@ -18,9 +18,8 @@ from unicodedata import category, is_normalized
 from lyapcheck.check import kinds
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import MAX_DEPTH, is_rational_text
-from lyapcheck.check.kinds.for_all import Piece
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Piece, Proof, Statement
 
 kinds.load()
 T = TypeVar("T")

@@ -7,16 +7,11 @@ from dataclasses import fields, is_dataclass, replace
 from json import JSONDecodeError
 from typing import Any
 
-from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, sealed, theorems_of
+from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, sealed
 from lyapcheck.check.codec import name_of
 from lyapcheck.check.finding import Finding, shortened
-from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
-from lyapcheck.check.kinds.for_all import Piece
-from lyapcheck.check.kinds.theorem import THEOREMS
 from lyapcheck.check.refusal import Refused, plain, require
-from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.theorems.premises import unmet
-from lyapcheck.check.verify import RULES
+from lyapcheck.check.statement import Piece, Proof, Statement
 
 
 def certificate_of(content: bytes) -> tuple[Certificate, Any]:
@@ -63,9 +58,7 @@ def lacking(digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) 
         stated[claim] = premise.statement
     certificate, data = certificate_of(content)
     require(data["digest"] == digest, "digest", digest, "changed while it was judged")
-    theorems = theorems_of(certificate.statement)
-    found = (unmet(theorem, stated) for theorem in theorems)
-    return plain(next((lacks for lacks in found if lacks is not None), ""))
+    return plain(certificate.statement.lacks(stated) or "")
 
 
 def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
@@ -92,21 +85,13 @@ def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full
     return replace(
         found,
         grade=grade,
-        statement=shortened(_text(statement, certificate.proof), full),
+        statement=shortened(statement.decided_text(certificate.proof), full),
         statement_digest=shows[0][0],
         shows=shows,
-        theorems=tuple((t.name, THEOREMS[t.name].reference) for t in theorems_of(statement) if shown),
+        theorems=statement.theorems if shown else (),
         granted=statement.granted,
         rules=tuple(sorted(set(_rules(certificate)))),
     )
-
-
-def _text(statement: Statement, proof: Proof) -> str:
-    """The statement; of a conjunction that one part refutes, that part first."""
-    if isinstance(statement, AllOf) and isinstance(proof, OnePart) and len(statement.parts) > 1:
-        part = statement.parts[proof.part][1]
-        return f"({proof.part + 1}) {_text(part, proof.proof)}, which is part of: {statement.text()}"
-    return statement.text()
 
 
 def decided_by(
@@ -114,32 +99,28 @@ def decided_by(
 ) -> Iterator[tuple[Any, str, str]]:
     """A statement and its parts, as data, that an accepted proof decides; the verdict, and which part."""
     yield data, verdict, where
-    if isinstance(statement, AllOf):
-        decided: dict[int, Proof] = {}
-        if isinstance(proof, EveryPart):
-            decided = dict(enumerate(proof.parts))
-        if isinstance(proof, OnePart):
-            decided = {proof.part: proof.proof}
-        for k, own in decided.items():
-            inner = f"{where}.{k + 1}" if where else f"part {k + 1}"
-            yield from decided_by(statement.parts[k][1], own, verdict, data["parts"][k][1], inner)
+    for k, part, own in statement.decided(proof):
+        inner = f"{where}.{k + 1}" if where else f"part {k + 1}"
+        yield from decided_by(part, own, verdict, data["parts"][k][1], inner)
 
 
 def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
-    """The rule of the proof, and the kinds and rules inside it, each with the module that it is in."""
+    """The rule of the proof, and the kinds and rules inside it, each with the classes that it is of."""
     kind, by = type(certificate.statement), type(certificate.proof)
-    yield f"{name_of(kind)} by {name_of(by)}", RULES[kind, by].__module__
-    if theorems_of(certificate.statement):
-        yield "premises", unmet.__module__
+    yield f"{name_of(kind)} by {name_of(by)}", f"{_place(kind)} {_place(by)}"
     waiting: list[Any] = [*_values(certificate.statement), *_values(certificate.proof)]
     while waiting:
         value = waiting.pop()
         if isinstance(value, (Statement, Proof, Piece)):
-            yield name_of(type(value)), type(value).__module__
+            yield name_of(type(value)), _place(type(value))
         if is_dataclass(value):
             waiting += _values(value)
         elif isinstance(value, tuple) and not _is_expression(value):
             waiting += value
+
+
+def _place(cls: type) -> str:
+    return f"{cls.__module__}:{cls.__name__}"
 
 
 def _is_expression(value: tuple[Any, ...]) -> bool:

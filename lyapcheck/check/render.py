@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain
-from lyapcheck.check.trusted import modules
+from lyapcheck.check.trusted import Size, modules, totals
 
 SCHEMA = "lyapcheck/recheck/2"
 STATUSES = ("accepted", "refused", "undecided")
@@ -58,7 +58,7 @@ def as_json(outcome: Outcome, trusted: bool = False) -> str:
     }
     if trusted:
         data["trusted"] = {
-            verdict: {"rules": _names(rules), "modules": modules(rules)} for verdict, rules in _sums(outcome)
+            verdict: {"rules": _names(rules), **_sizes(modules(rules))} for verdict, rules in _sums(outcome)
         }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
@@ -114,8 +114,16 @@ def _code(title: str, rules: tuple[tuple[str, str], ...]) -> Iterator[str]:
     found = modules(rules)
     yield f"trusted for {title}"
     yield f"  rules: {', '.join(_names(rules))}"
-    yield from (f"  {count:>5} {name}" for name, count in found.items())
-    yield f"  {sum(found.values()):>5} lines in {len(found)} modules"
+    yield "   code  lines"
+    yield from (f"  {size.code:>5}  {size.lines:>5} {name}" for name, size in found.items())
+    yield "{:>7}  {:>5} of definitions in {} modules".format(*totals(found), len(found))
+
+
+def _sizes(found: dict[str, Size]) -> dict[str, dict[str, int]]:
+    return {
+        "modules": {name: size.lines for name, size in found.items()},
+        "code": {name: size.code for name, size in found.items()},
+    }
 
 
 def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:

@@ -5,13 +5,17 @@ References: ``johansson2017arb``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from lyapcheck.check.expressions.defined import require_defined_at
+from lyapcheck.check.expressions.domain import Domain, Interval
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.witness import Comparison, refutation
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Point, Variable
+from lyapcheck.check.statement import OfTerms, Point, Witness
+from lyapcheck.check.verify import Accepted, rule
 
 MAX_BITS = 16_384
 
@@ -40,16 +44,43 @@ def coordinates(point: Point, names: Iterable[str]) -> dict[str, Fraction]:
     return found
 
 
-def require_inside(variables: Iterable[Variable], point: dict[str, Fraction]) -> None:
+class Pointwise(OfTerms):
+    """A statement that a relation holds at every point of a domain at which its hypotheses do."""
+
+    @property
+    @abstractmethod
+    def ranges(self) -> Mapping[str, Interval]:
+        """Its variables."""
+
+    @property
+    @abstractmethod
+    def at_points(self) -> tuple[tuple[Comparison, ...], Comparison]:
+        """The hypotheses and the conclusion."""
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """All sides over the whole domain: hypotheses give no term a value."""
+        given, conclusion = self.at_points
+        return [(side, self.ranges) for one in (*given, conclusion) for side in one[::2]]
+
+
+@rule(Pointwise, Witness)
+def by_witness(statement: Pointwise, proof: Witness) -> Accepted:
+    """Soundness: a point of the domain; every hypothesis holds and the conclusion fails, in balls."""
+    point = coordinates(proof.point, statement.ranges)
+    require_inside(statement.ranges, point)
+    given, conclusion = statement.at_points
+    require_failure(conclusion, point, proof.bits, given)
+    return Accepted("refuted", "enclosure")
+
+
+def require_inside(ranges: Mapping[str, Interval], point: dict[str, Fraction]) -> None:
     """Refuse a point that lies outside the ranges of the variables.
 
     Raises:
-        Refused: a coordinate is at or below what bounds it.
+        Refused: a coordinate is beyond what bounds it.
     """
-    for v in variables:
-        x = point[v.name]
-        inside = v.low is None or x > v.low or (x == v.low and not v.strict)
-        require(inside, v.name, x, f"must be {'above' if v.strict else 'at least'} {v.low}")
+    for name, interval in ranges.items():
+        require(point[name] in interval, name, point[name], f"must be {interval}")
 
 
 def require_failure(

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
+from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import REALS, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.witness import Comparison
@@ -59,24 +60,70 @@ class Statement(ABC):
         """
 
     @abstractmethod
-    def terms(self) -> Iterable[tuple[Tree, Domain]]:
-        """Its expressions, each with the domain on all of which it must have a value; see ``defined``.
+    def require_defined(self) -> None:
+        """Refuse terms that may be without a value somewhere on their domain; see ``Total``, ``OfTerms``.
 
-        A kind that consists of other statements leaves theirs to them.
+        Raises:
+            Undefined: naming the first.
         """
+
+    @abstractmethod
+    def text(self) -> str:
+        """The statement in the words of mathematics, from its data alone."""
 
     @property
     def granted(self) -> tuple[str, ...]:
         """What a proof of it takes for granted about the world, in sentences."""
         return ()
 
-    @abstractmethod
-    def text(self) -> str:
-        """The statement in the words of mathematics, from its data alone."""
+    @property
+    def theorems(self) -> tuple[tuple[str, str], ...]:
+        """The theorems that it applies, by name, and where each is proved."""
+        return ()
+
+    @property
+    def hypotheses_shown_by(self) -> tuple[tuple[str, str], ...]:
+        """Pairs (hypothesis, id of the claim that shows it): a proof must use these claims."""
+        return ()
+
+    def lacks(self, stated: Mapping[str, Statement]) -> str | None:
+        """What the claims behind its hypotheses fail to state, in words; ``None`` if nothing is missing.
+
+        ``stated`` has the statements of claims that are proved, by id; one that is not there lacks nothing.
+        """
+        return None
+
+    def decided(self, proof: Proof) -> Iterable[tuple[int, Statement, Proof]]:
+        """Which of its parts an accepted proof decides as it decides the whole, each with its own proof."""
+        return ()
+
+    def decided_text(self, proof: Proof) -> str:
+        """The statement, with what the proof decides of it first."""
+        return self.text()
 
     def attempts(self) -> Iterable[Proof]:
         """Proofs worth trying in turn, where the kind has no search of its own; the rules judge them."""
         return ()
+
+
+class Total(Statement):
+    """A statement of which all terms have values everywhere, or are those of other statements."""
+
+    def require_defined(self) -> None:
+        """Nothing to refuse."""
+
+
+class OfTerms(Statement):
+    """A statement with expressions that may be without a value."""
+
+    @abstractmethod
+    def terms(self) -> Iterable[tuple[Tree, Domain]]:
+        """Its expressions, each with the domain on all of which it must have a value."""
+
+    def require_defined(self) -> None:
+        """Refuse terms that may be without a value."""
+        for tree, domain in self.terms():
+            require_defined(tree, domain)
 
 
 @dataclass(frozen=True)
@@ -112,6 +159,12 @@ class Witness(Proof):
     rule = "witness"
     point: Point
     bits: int = 192
+
+
+class Piece:
+    """A part of a proof that is no proof by itself."""
+
+    rule: ClassVar[str]
 
 
 Ends = tuple[Fraction, Fraction]

@@ -1,84 +1,249 @@
-"""The code that a verdict rests on: the modules of its rules and what these import, and a fixed core.
+"""The code that a verdict rests on: the definitions that can be reached from those that read and judge it.
 
-The core reads and judges every certificate; it counts as itself, since what it imports beyond that is there
-for other kinds of statement. A rule counts with all that its module imports, as the sources say.
+A definition is a function, a method, a class without its methods, or a constant of a module. From one that is
+reached the sources lead to others, always to too many rather than too few:
+
+- a name leads to what the module defines or imports under it, annotations of functions aside;
+- a method of a class that is reached counts where its name stands behind a dot anywhere in code that is
+  reached, whatever stands before the dot, or in a text; so do those whose names Python itself calls;
+- a rule counts where both its kind of statement and its kind of proof do, or what they derive from;
+- what runs when a module is imported, and is no definition, counts with the first definition of that module.
+
+Kinds of statement and proof are reached by the certificate at hand, which is all that makes objects of them.
+Command line and rendering are left out: they print what was decided.
 """
 
 from __future__ import annotations
 
 import ast
+import io
+import tokenize
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 PACKAGE = "lyapcheck.check"
 ROOT = Path(__file__).parent
-CORE = tuple(
-    f"{PACKAGE}.{name}"
-    for name in (
-        "certificate",
-        "codec",
-        "expressions.grammar",
-        "files",
-        "finding",
-        "guard",
-        "judging",
-        "limits",
-        "recheck",
-        "refusal",
-        "statement",
-        "verify",
-        "worker",
-    )
-)
-"""Command line and rendering are not among them: they decide nothing."""
-FOLDERS = (f"{PACKAGE}.numbers.functions",)
-"""Packages of which every file is imported; so each counts."""
+CORE = (f"{PACKAGE}.recheck:recheck", f"{PACKAGE}.worker:serve")
+"""What every verdict goes through."""
+BY_NAME = (f"{PACKAGE}.judging", f"{PACKAGE}.numbers.functions")
+"""Modules that are imported by name as the checker runs: their functions are reached behind a dot."""
+Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
-def modules(rules: Iterable[tuple[str, str]]) -> dict[str, int]:
-    """The modules that some rules rest on, each with its lines."""
-    found = set(CORE)
-    for name in {module for _, module in rules}:
-        found |= closure(name)
-    return {name: lines(name) for name in sorted(found)}
+@dataclass
+class Definition:
+    """A definition: where it stands and what it leads to.
+
+    ``code`` are the parts of its source that count, ``lines`` those that it takes; a class has ``methods``.
+    """
+
+    module: str
+    name: str
+    code: list[ast.AST]
+    lines: set[int]
+    methods: dict[str, str] = field(default_factory=dict)
+    names: set[str] = field(default_factory=set)
+    behind_dots: set[str] = field(default_factory=set)
+    judges: tuple[str, ...] = ()
+
+    @property
+    def place(self) -> str:
+        """``module:name``."""
+        return f"{self.module}:{self.name}"
+
+
+@dataclass(frozen=True)
+class Size:
+    """Lines of code, and with documentation, comments and blanks inside definitions."""
+
+    code: int
+    lines: int
+
+
+def modules(rules: Iterable[tuple[str, str]]) -> dict[str, Size]:
+    """The modules that some rules, pairs (name, places of its classes), rest on, and how much of each.
+
+    Lines of imports count where a definition that is reached uses what they import.
+    """
+    found = reached(place for _, places in rules for place in places.split())
+    return {name: _size(name, found) for name in sorted({place.split(":")[0] for place in found})}
+
+
+def totals(found: dict[str, Size]) -> tuple[int, int]:
+    """Lines of code, and all lines."""
+    return sum(size.code for size in found.values()), sum(size.lines for size in found.values())
+
+
+def reached(places: Iterable[str] = ()) -> frozenset[str]:
+    """The definitions, as ``module:name``, that the core and some places lead to."""
+    return _reached(frozenset(places))
 
 
 @cache
-def closure(module: str) -> frozenset[str]:
-    """A module with all of the checker that it imports, directly or not."""
-    found, waiting = {module}, [module]
+def _reached(places: frozenset[str]) -> frozenset[str]:
+    known, found, dots = definitions(), set[str](), set[str]()
+    waiting = {*CORE, *places}
     while waiting:
-        new = {name for name in imported(waiting.pop()) if name not in found}
-        found |= new
-        waiting += new
+        found |= waiting
+        new = [known[place] for place in waiting]
+        dots |= {name for one in new for name in one.behind_dots}
+        named = {name for one in new for name in (*one.names, *_at_import(one.module))}
+        waiting = {*named, *_beside(known, found, dots)} & set(known) - found
     return frozenset(found)
 
 
+def _beside(known: dict[str, Definition], found: set[str], dots: set[str]) -> Iterator[str]:
+    """What is reached without its own name: methods, functions of modules imported by name, and rules."""
+    for place, one in known.items():
+        if place in found:
+            yield from (own for name, own in one.methods.items() if name in dots or name.startswith("__"))
+        elif one.judges:
+            yield from [place] * (found >= set(one.judges))
+        elif one.name in dots and f"{one.module}.".startswith(tuple(f"{name}." for name in BY_NAME)):
+            yield place
+
+
 @cache
-def imported(module: str) -> frozenset[str]:
-    """The modules of the checker that one names in its imports, wherever they stand, or has in its folder."""
-    inside = source(module).parent.glob("[!_]*.py") if module in FOLDERS else ()
-    named = _named(ast.parse(source(module).read_bytes()))
-    return frozenset((*named, *(f"{module}.{file.stem}" for file in inside)))
+def definitions() -> dict[str, Definition]:
+    """All definitions of the checker by place."""
+    found: dict[str, Definition] = {}
+    for file in ROOT.rglob("*.py"):
+        inner = file.relative_to(ROOT).with_suffix("").parts
+        module = ".".join((PACKAGE, *(inner[:-1] if inner[-1] == "__init__" else inner)))
+        found |= {one.place: one for one in _defined(module)}
+    for one in found.values():
+        for node in (node for part in one.code for node in _running(part)):
+            _lead(one, node)
+    return found
 
 
-def _named(tree: ast.Module) -> Iterator[str]:
-    for node in ast.walk(tree):
+def _defined(module: str) -> Iterator[Definition]:
+    for node in tree(module).body:
+        span = _span(node)
+        if isinstance(node, ast.ClassDef):
+            methods = [part for part in node.body if isinstance(part, Function)]
+            for part in methods:
+                yield Definition(module, f"{node.name}.{part.name}", [part], _span(part))
+                span -= _span(part)
+            rest = [part for part in node.body if not isinstance(part, Function)]
+            named = {part.name: f"{module}:{node.name}.{part.name}" for part in methods}
+            yield Definition(module, node.name, [*node.bases, *node.decorator_list, *rest], span, named)
+        elif isinstance(node, Function):
+            yield Definition(module, node.name, [node], span, judges=_judges(module, node))
+        elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            names = (part for target in targets for part in ast.walk(target) if isinstance(part, ast.Name))
+            yield from (Definition(module, name.id, [node], span) for name in names)
+        elif not isinstance(node, (ast.Import, ast.ImportFrom)) and not _is_text(node):
+            yield Definition(module, f"line {node.lineno}", [node], span)
+
+
+def _judges(module: str, node: Function) -> tuple[str, ...]:
+    """The kinds of statement and proof of a rule."""
+    calls = [one for one in node.decorator_list if isinstance(one, ast.Call)]
+    named = [call for call in calls if isinstance(call.func, ast.Name) and call.func.id == "rule"]
+    return tuple(
+        place for call in named for part in call.args for place in _places(module, ast.unparse(part))
+    )
+
+
+def _lead(one: Definition, node: ast.AST) -> None:
+    """Note what a node of the source of a definition leads to."""
+    if isinstance(node, ast.Name):
+        one.names |= _places(one.module, node.id)
+    elif isinstance(node, ast.Attribute):
+        one.behind_dots.add(node.attr)
+        if isinstance(node.value, ast.Name):
+            one.names |= _places(one.module, f"{node.value.id}.{node.attr}")
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.isidentifier():
+        one.behind_dots.add(node.value)
+
+
+def _places(module: str, name: str) -> set[str]:
+    """What a name means in a module, or a name in a module that it imports."""
+    first, _, inner = name.partition(".")
+    meant = _imports(module).get(first, f"{module}:{first}")
+    if inner:
+        module, meant = meant.replace(":", "."), f"{meant.replace(':', '.')}:{inner}"
+    where, _, name = meant.partition(":")
+    again = where != module and source(where).exists() and name in _imports(where)
+    return _places(where, name) if again else {meant}
+
+
+@cache
+def _imports(module: str) -> dict[str, str]:
+    """The place of each name that a module imports from the checker, wherever in its source."""
+    found: dict[str, str] = {}
+    for node in ast.walk(tree(module)):
         if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{PACKAGE}."):
-            for alias in node.names:
-                inner = f"{node.module}.{alias.name}"
-                yield inner if source(inner).exists() else str(node.module)
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if f"{alias.name}.".startswith(f"{PACKAGE}."))
+            found |= {part.asname or part.name: f"{node.module}:{part.name}" for part in node.names}
+    return found
+
+
+@cache
+def _at_import(module: str) -> tuple[str, ...]:
+    return tuple(one.place for one in _defined(module) if one.name.startswith("line "))
+
+
+def _running(node: ast.AST) -> Iterator[ast.AST]:
+    """The nodes of a source that may run: annotations of functions and their variables do not."""
+    inside_function = isinstance(node, Function)
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        yield part
+        for name, value in ast.iter_fields(part):
+            idle = name == "returns" or (
+                name == "annotation" and (inside_function or isinstance(part, ast.arg))
+            )
+            if not idle:
+                parts = value if isinstance(value, list) else [value]
+                waiting += (inner for inner in parts if isinstance(inner, ast.AST))
+
+
+def _size(module: str, found: frozenset[str]) -> Size:
+    known = [one for one in definitions().values() if one.module == module and one.place in found]
+    lines = set[int]().union(*(one.lines for one in known))
+    used = {
+        part.id for one in known for top in one.code for part in ast.walk(top) if isinstance(part, ast.Name)
+    }
+    for node in tree(module).body:
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            names = {(part.asname or part.name).split(".")[0] for part in node.names}
+            lines |= _span(node) if names & used else set()
+    return Size(len(lines & code_lines(module)), len(lines))
+
+
+@cache
+def code_lines(module: str) -> frozenset[int]:
+    """The lines of a module with code on them: no documentation, comments or blanks."""
+    skipped = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+    text, found = io.StringIO(source(module).read_text("utf-8")), set[int]()
+    for token in tokenize.generate_tokens(text.readline):
+        if token.type not in (*skipped, tokenize.ENDMARKER):
+            found.update(range(token.start[0], token.end[0] + 1))
+    return frozenset(found).difference(*(_span(node) for node in ast.walk(tree(module)) if _is_text(node)))
+
+
+def _is_text(node: ast.AST) -> bool:
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+def _span(node: ast.AST) -> set[int]:
+    """The lines that a node of a source takes, its decorators among them."""
+    parts = [node, *getattr(node, "decorator_list", [])]
+    return set(range(min(part.lineno for part in parts), node.end_lineno + 1))  # type: ignore[attr-defined]
+
+
+@cache
+def tree(module: str) -> ast.Module:
+    """The source of a module, parsed."""
+    return ast.parse(source(module).read_bytes())
 
 
 def source(module: str) -> Path:
     """The file of a module of the checker."""
     path = ROOT.joinpath(*module.removeprefix(PACKAGE).strip(".").split("."))
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-
-
-def lines(module: str) -> int:
-    """How many lines the file of a module has, comments and all."""
-    return len(source(module).read_bytes().splitlines())

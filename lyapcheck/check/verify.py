@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 from flint import ctx
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 
@@ -42,6 +41,11 @@ def rule(kind: type[S], by: type[P]) -> Callable[[Callable[[S, P], Accepted]], C
     return enter
 
 
+def rule_for(kind: type[Statement], by: type[Proof]) -> Rule | None:
+    """The rule by which proofs of one class decide a kind, or what it derives from."""
+    return next((RULES[base, by] for base in kind.__mro__ if (base, by) in RULES), None)
+
+
 def verify(statement: Statement, proof: Proof) -> Accepted:
     """What a proof shows about a statement.
 
@@ -61,15 +65,14 @@ def verify(statement: Statement, proof: Proof) -> Accepted:
     """
     try:
         statement.require_well_formed()
-        judge = RULES.get((type(statement), type(proof)))
+        judge = rule_for(type(statement), type(proof))
         if judge is None:
             kind = type(statement).__name__
             raise Refused("rule", proof.rule, f"is not a way to decide a statement of kind {kind}")
         with ctx.workprec(BITS):
             accepted = judge(statement, proof)
             if accepted.verdict == "proved":
-                for tree, domain in statement.terms():
-                    require_defined(tree, domain)
+                statement.require_defined()
             return accepted
     except Refused:
         raise

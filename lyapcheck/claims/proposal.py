@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from lyapcheck.check.certificate import theorems_of
-from lyapcheck.check.theorems.premises import unmet
 from lyapcheck.claims.finding import Finding, still_open
 from lyapcheck.claims.handover import Key, Told
 from lyapcheck.claims.statements import Missing, Statement
@@ -42,8 +40,7 @@ def chained(finding: Finding, statement: Statement | Missing, used: Iterable[Pro
     if open_uses:
         return replace(still_open(rests_on(open_uses), finding.method), evidence=finding.evidence)
     stated = {row.claim.id: row.stated for row in rows if not isinstance(row.stated, Missing)}
-    for theorem in theorems_of(statement):
-        lacks = unmet(theorem, stated)
-        if lacks is not None:
-            return replace(still_open(f"{lacks}; state it there", finding.method), evidence=finding.evidence)
+    lacks = statement.lacks(stated)
+    if lacks is not None:
+        return replace(still_open(f"{lacks}; state it there", finding.method), evidence=finding.evidence)
     return finding

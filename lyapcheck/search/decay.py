@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck._types import Progress
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, RadialBounds
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.decay_arm import not_positive
 from lyapcheck.search.decay_digits import as_written, short_above, short_below
 from lyapcheck.search.decay_input import Start, start_of, torques_of

@@ -10,10 +10,10 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.check.kinds.decreasing import BoxTree, RadialBounds
+from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.decay import Margin
-from lyapcheck.check.loop.radial import Radial
+from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.radial import holds_radially, radial_data
@@ -66,7 +66,7 @@ def candidates(setting: Setting, disturbed: bool) -> list[Margin]:
 
 
 def margin_at(
-    setting: Setting, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: Radial
+    setting: Setting, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: RadialBounds
 ) -> Margin:
     """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
     closure = setting.closure(eps0)
@@ -94,15 +94,15 @@ def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialB
         outcome = certify(Problem(closure, setting.ranged), max_boxes)
         return BoxTree(outcome.tree) if outcome.proved else None
     data = reduced_radial(margin)
-    return RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
+    return data
 
 
-def reduced_radial(margin: Margin) -> Radial:
+def reduced_radial(margin: Margin) -> RadialBounds:
     """The data in r for (1 − η)B."""
     return _shrunk(margin.inertia, _root_below(1 - margin.friction))
 
 
-def _shrunk(data: Radial, root: Fraction) -> Radial:
+def _shrunk(data: RadialBounds, root: Fraction) -> RadialBounds:
     """The data with smaller weights, in which M̃, and with it μ and ν, grow by the inverse of the square."""
     weights, square = tuple(d * root for d in data.weights), root * root
     return replace(data, weights=weights, inertia=data.inertia / square, lowest=data.lowest / square)
@@ -129,7 +129,7 @@ def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
     return allows
 
 
-def _by_bounds(inertia: Radial) -> Callable[[Closure], bool]:
+def _by_bounds(inertia: RadialBounds) -> Callable[[Closure], bool]:
     """Whether the inequality in ‖e‖ holds."""
 
     def allows(closure: Closure) -> bool:

@@ -8,11 +8,11 @@ from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
     PositiveAndDecreasing,
-    RadialBounds,
     statement_of,
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 

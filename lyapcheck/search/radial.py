@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.kinds.decreasing import RadialBounds
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.boxes import Box
-from lyapcheck.check.loop.closure import PI_ABOVE
-from lyapcheck.check.loop.radial import BITS, Inequality, Parts, Radial, Table
+from lyapcheck.check.loop.field import PI_ABOVE
+from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, Table
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics
 from lyapcheck.intervals import Interval
@@ -62,7 +61,7 @@ def radial_epsilon(setting: Setting) -> Proof | None:
     if low == 0:
         return None
     closure = setting.closure(_short(low))
-    by = RadialBounds(data.weights, data.inertia, data.lowest, data.angles, data.tree, data.cuts)
+    by = data
     proof = Proof(closure, by, setting.inertia_proof)
     return proof if proof.accepted() else None
 
@@ -73,13 +72,13 @@ def _holds(setting: Setting, parts: Parts, eps0: Fraction) -> bool:
     return closure.admissible and Inequality(closure, parts).shown()
 
 
-def holds_radially(closure: Closure, data: Radial) -> bool:
+def holds_radially(closure: Closure, data: RadialBounds) -> bool:
     """Whether the inequality in r holds for a closure; its tree is not looked at."""
     with precision(BITS):
         return closure.admissible and Inequality(closure, Parts(closure, data)).shown()
 
 
-def radial_data(setting: Setting) -> Radial | None:
+def radial_data(setting: Setting) -> RadialBounds | None:
     """Weights, μ, ν and the tree behind them: the tightest that the checker accepts within the budget."""
     closure = setting.closure(Fraction(1))
     # where boxes of the leading angles are too many, all angles are bounded by the sizes of their harmonics
@@ -97,11 +96,11 @@ class _Attempts:
         weights = tuple(_root_below(low) for low, _ in closure.friction)
         self.closure = closure
         # μ and ν do not matter yet
-        self.blank = Radial(weights, Fraction(1), Fraction(1), angles, ".", CUTS)
+        self.blank = RadialBounds(weights, Fraction(1), Fraction(1), angles, ".", CUTS)
         self.parts = Parts(closure, self.blank)
         self.largest = Fraction(_largest(self.parts))
 
-    def tightest(self) -> Radial | None:
+    def tightest(self) -> RadialBounds | None:
         """What resists a small ν resists it beside any μ, so the loosest μ shows first which ν can be had."""
         loosest = LOWEST[-1]
         if self.tried(loosest, MARGINS[-1]) is None:
@@ -109,7 +108,7 @@ class _Attempts:
         share = next((share for share in LOWEST[:-1] if self.tried(share, MARGINS[-1])), loosest)
         return next(filter(None, (self.tried(share, margin) for margin in MARGINS)), None)
 
-    def tried(self, share: Fraction, margin: Fraction) -> Radial | None:
+    def tried(self, share: Fraction, margin: Fraction) -> RadialBounds | None:
         """The data with a tree, if one was found within the budget."""
         mu = _short(self.largest * margin + self.parts.far)
         lowest = min(_short(self.largest * share + self.parts.far), mu)
@@ -118,7 +117,7 @@ class _Attempts:
         return None if tree is None else replace(data, tree=tree)
 
 
-def _tree(closure: Closure, data: Radial) -> str | None:
+def _tree(closure: Closure, data: RadialBounds) -> str | None:
     """A tree of boxes of the chosen angles that shows μ, or ``None`` within the budget."""
     with precision(BITS):
         parts = Parts(closure, data)

@@ -8,9 +8,9 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import product
 
-from lyapcheck.check.numbers.fourier import Fourier, constant, cosine, sine, size
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import evaluate_all, to_terms
+from lyapcheck.simulate.fourier import Fourier, constant, cosine, sine, size
 
 Row = tuple[Fraction, ...]
 

@@ -30,7 +30,6 @@ from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
     PositiveAndDecreasing,
-    RadialBounds,
     StateWitness,
 )
 from lyapcheck.check.kinds.every_n import EveryN
@@ -52,6 +51,7 @@ from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose

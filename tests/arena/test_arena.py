@@ -10,10 +10,9 @@ from typing import Any
 
 import pytest
 
-from lyapcheck.check.codec import members, name_of
-from lyapcheck.check.kinds.for_all import Piece
-from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import RULES
+from lyapcheck.check.codec import members
+from lyapcheck.check.statement import Piece, Proof, Statement
+from lyapcheck.check.verify import rule_for
 from tests.arena.run import ARENA, faults
 
 NEVER_ALONE = {
@@ -61,7 +60,12 @@ def kind_of(document: Any, key: str, name: str) -> Any:
 
 
 def test_every_kind_by_every_rule_has_good_files_and_bad_ones():
-    pairs = {(name_of(kind), name_of(by)) for kind, by in RULES}
+    pairs = {
+        (kind, by)
+        for kind, one in members(Statement).items()
+        for by, proof in members(Proof).items()
+        if rule_for(one, proof)
+    }
     counted = {
         side: Counter(
             (kind_of(one, "statement", "kind"), kind_of(one, "proof", "rule")) for one in documents(side)

@@ -26,7 +26,7 @@ from lyapcheck.check.kinds.signs import Multiple, SignIdentity
 from lyapcheck.check.kinds.theorem import Application
 from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.statement import Proof, Relation, Total, Witness
 from lyapcheck.check.theorems.closed_loop import ArmAndGains
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
@@ -399,11 +399,11 @@ def steps(*multiples, lift=()):
 
 
 FORGED = {
-    "a point outside": (for_all(x <= 1, 0, 1), Witness((("x", F(2)),)), "outside the domain"),
+    "a point outside": (for_all(x <= 1, 0, 1), Witness((("x", F(2)),)), "at least 0 and at most 1"),
     "a point at an open end": (
         for_all(x < 1, 0, 1, open_high=True),
         Witness((("x", F(1)),)),
-        "outside the domain",
+        "at least 0 and below 1",
     ),
     "a point of another variable": (for_all(x <= 1), Witness((("y", F(2)),)), "must give x"),
     "a point with two values": (for_all(x <= 1), Witness((("x", F(2)), ("x", F(0)))), "twice"),
@@ -624,14 +624,11 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         assert verify(statement, proof).verdict in ("proved", "refuted")
 
 
-class Unheard(Statement):
+class Unheard(Total):
     """A kind of statement that no rule decides."""
 
     def require_well_formed(self):
         pass
-
-    def terms(self):
-        return ()
 
     def text(self):
         return ""

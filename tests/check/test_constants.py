@@ -11,9 +11,10 @@ from flint import arb, ctx, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.constants import gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.critical import bracketed_root, peak_of_h, peaks_of_dh
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.family.compared import gamma_less_than
 
 DIGITS = 40
 

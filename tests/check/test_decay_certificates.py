@@ -19,7 +19,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.trusted import closure
+from lyapcheck.check.trusted import modules
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import read_gain_file
@@ -211,10 +211,12 @@ def test_a_settling_time_by_itself_is_open_with_advice(made: dict[str, Certifica
 
 
 def test_what_the_verdict_rests_on_is_listed() -> None:
-    used = closure("lyapcheck.check.kinds.settling")
+    kinds = "lyapcheck.check.kinds"
+    used = modules([("", f"{kinds}.settling:Settling {kinds}.settling:FallingLevels")])
     for part in ("estimate", "margin", "least"):
         assert f"lyapcheck.check.loop.decay.{part}" in used
-    assert "lyapcheck.check.loop.decay.rest" in closure("lyapcheck.check.kinds.resting")
+    used = modules([("", f"{kinds}.resting:Resting {kinds}.resting:AtBounds")])
+    assert "lyapcheck.check.loop.decay.rest" in used
 
 
 GAINS = 'robot = "{robot}"\n[[gains]]\nname = "one"\nm = 1\nkp = [60, 5]\nkv = [0.2, 0.2]\n'

@@ -10,7 +10,8 @@ from flint import arb, fmpq, fmpq_mat
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers import matrices
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
+from lyapcheck.check.numbers.matrices import is_positive_definite, is_positive_semidefinite
 
 Rows = list[list[Fraction]]
 numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)
@@ -45,68 +46,48 @@ def _minor(rows: Rows, chosen: tuple[int, ...]) -> fmpq:
 @given(symmetric())
 def test_definite_exactly_when_leading_minors_are_positive(rows: Rows) -> None:
     minors = [_minor(rows, tuple(range(k + 1))) for k in range(len(rows))]
-    assert matrices.is_positive_definite(rows) == all(minor > 0 for minor in minors)
+    assert is_positive_definite(rows) == all(minor > 0 for minor in minors)
+
+
+def _balls(rows: Rows) -> list[list[arb]]:
+    return [[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in rows]
 
 
 @given(symmetric())
 def test_semidefinite_exactly_when_all_principal_minors_are_nonnegative(rows: Rows) -> None:
     n = len(rows)
     chosen = [c for k in range(1, n + 1) for c in combinations(range(n), k)]
-    assert matrices.is_positive_semidefinite(rows) == all(_minor(rows, c) >= 0 for c in chosen)
+    assert is_positive_semidefinite(rows) == all(_minor(rows, c) >= 0 for c in chosen)
 
 
 @given(gram())
-def test_gram_matrices_are_semidefinite_and_definite_at_full_rank(case: tuple[Rows, int]) -> None:
+def test_gram_matrices_are_semidefinite(case: tuple[Rows, int]) -> None:
     rows, rank = case
-    assert matrices.is_positive_semidefinite(rows)
-    assert matrices.is_positive_definite(rows) == (rank == len(rows))
-    assert matrices.negative_direction(rows) is None
+    assert is_positive_semidefinite(rows)
+    assert is_positive_definite(rows) == (rank == len(rows))
 
 
 @given(symmetric())
-def test_a_negative_direction_is_given_exactly_when_there_is_one(rows: Rows) -> None:
-    x = matrices.negative_direction(rows)
-    assert (x is None) == matrices.is_positive_semidefinite(rows)
-    assert x is None or matrices.form(rows, x, x) < 0
+@pytest.mark.parametrize("of", [BALLS, SPANS])
+def test_enclosures_never_prove_what_is_false(of: Arithmetic, rows: Rows) -> None:
+    found = of.positive_definite([[of.value(x) for x in row] for row in _balls(rows)])
+    assert not found or is_positive_definite(rows)
 
 
-@given(symmetric())
-def test_balls_never_prove_what_is_false(rows: Rows) -> None:
-    balls = [[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in rows]
-    assert not matrices.balls_positive_definite(balls) or matrices.is_positive_definite(rows)
-
-
-def test_a_barely_definite_matrix_is_decided_exactly() -> None:
-    tiny = Fraction(1, 10**40)
-    assert matrices.is_positive_definite([[1, 1], [1, 1 + tiny]])
-    assert not matrices.is_positive_definite([[1, 1], [1, 1]])
-    assert not matrices.is_positive_semidefinite([[1, 1], [1, 1 - tiny]])
+def test_a_barely_semidefinite_matrix_is_decided_exactly() -> None:
+    one, tiny = Fraction(1), Fraction(1, 10**40)
+    assert is_positive_semidefinite([[one, one], [one, one]])
+    assert not is_positive_semidefinite([[one, one], [one, one - tiny]])
 
 
 def test_hilbert_matrices_are_definite_both_ways() -> None:
-    assert matrices.is_positive_definite(HILBERT)
-    assert matrices.is_positive_definite(_exact(HILBERT))
-    assert matrices.balls_positive_definite(
-        [[arb(fmpq(x.numerator, x.denominator)) for x in r] for r in HILBERT]
-    )
+    assert is_positive_semidefinite(HILBERT)
+    assert BALLS.positive_definite(_balls(HILBERT))
 
 
 def test_wide_or_undefined_balls_prove_nothing() -> None:
     nan, wide = arb("nan"), arb(1, 2)
-    assert not matrices.balls_positive_definite([[nan]])
-    assert not matrices.balls_positive_definite([[wide]])
-    assert not matrices.balls_positive_definite([[arb(1), arb(0)], [nan, arb(1)]])
-    assert not matrices.balls_positive_definite([[arb(1), arb(0)], [arb(0, 1.1), arb(1)]])
-
-
-def test_the_empty_matrix_is_definite() -> None:
-    assert matrices.is_positive_definite([])
-
-
-@pytest.mark.parametrize(
-    ("rows", "message"),
-    [([[1, 2], [3, 1]], "symmetric"), ([[1, 2]], "square"), ([[1], [2]], "square")],
-)
-def test_what_is_not_a_symmetric_matrix_is_refused(rows: list[list[int]], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        matrices.pivots(rows)
+    assert not BALLS.positive_definite([[nan]])
+    assert not BALLS.positive_definite([[wide]])
+    assert not BALLS.positive_definite([[arb(1), arb(0)], [nan, arb(1)]])
+    assert not BALLS.positive_definite([[arb(1), arb(0)], [arb(0, 1.1), arb(1)]])

@@ -1,4 +1,4 @@
-"""``recheck --trusted``: the code that each kind of verdict rests on, by name, so that growth is noticed."""
+"""``recheck --trusted``: the code that each kind of verdict rests on, so that growth is noticed."""
 
 import json
 import subprocess
@@ -7,39 +7,64 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.codec import name_of
-from lyapcheck.check.trusted import CORE, closure, imported, lines, modules, source
-from lyapcheck.check.verify import RULES
+from lyapcheck.check import judging
+from lyapcheck.check.codec import members, name_of
+from lyapcheck.check.statement import Piece, Proof, Statement
+from lyapcheck.check.trusted import code_lines, definitions, modules, reached, source, totals, tree
+from tests.arena.run import ARENA
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "trusted.txt"
-HEADLINES = (
-    "Identity by normal form",
-    "EveryN by normal form",
-    "BoundEveryN by covered terms",
-    "MassAbove by links",
-    "Decreasing by M positive and V decreasing",
-    "LoopProperty by facts in one variable",
-    "Theorem by theorem",
-)
-PREMISES = [("premises", "lyapcheck.check.theorems.premises")]
+HEADLINES = {
+    "an identity": ("Identity", "normal form"),
+    "an identity for every n": ("EveryN", "normal form"),
+    "a bound for every n": ("BoundEveryN", "covered terms"),
+    "an inequality in one variable": ("ForAll", "pieces of the domain", "Sturm", "Taylor boxes"),
+    "a verdict of the gate": ("Constant", "separate balls"),
+    "M(q) positive by links": ("MassAbove", "links"),
+    "a bound of M(q) by boxes": ("MassBelow", "bisection"),
+    "ε₀ by boxes": ("Decreasing", "M positive and V decreasing", "links", "tree of boxes"),
+    "ε₀ by boxes, M(q) positive by boxes": (
+        "Decreasing",
+        "M positive and V decreasing",
+        "bisection",
+        "tree of boxes",
+    ),
+    "ε₀ in ‖e‖ alone": ("Decreasing", "M positive and V decreasing", "links", "bounds in ‖e‖"),
+    "how near an arm comes, and when": (
+        "Settling",
+        "falling levels",
+        "M positive and V decreasing",
+        "links",
+        "bounds in ‖e‖",
+    ),
+    "a property of the closed loop": (
+        "LoopProperty",
+        "facts in one variable",
+        "normal form",
+        "pieces of the domain",
+        "Taylor boxes",
+    ),
+    "a theorem, without its premises": ("Theorem", "theorem"),
+}
+MOST_CODE_OF_EPS0 = 2_500
+STEP = 50
+"""Lines to which the sizes in the golden file are rounded up."""
 
 
-def entered():
-    return {f"{name_of(kind)} by {name_of(by)}": judge.__module__ for (kind, by), judge in RULES.items()}
+def places(*names):
+    known = {**members(Statement), **members(Proof), **members(Piece)}
+    return [("", " ".join(f"{known[name].__module__}:{known[name].__name__}" for name in names))]
 
 
 def listed():
-    """The modules of each headline verdict beyond the core, by name, as in the golden file."""
-    rules, text = entered(), "core\n" + "".join(f"  {name}\n" for name in sorted(CORE))
-    for headline in HEADLINES:
-        named = (
-            [(headline, rules[headline]), *PREMISES]
-            if headline.startswith("Theorem")
-            else [("", rules[headline])]
-        )
-        found = set(modules(named)) - set(CORE)
-        text += f"{headline}\n" + "".join(f"  {name}\n" for name in sorted(found))
-    return text.replace("  lyapcheck.check.", "  ")
+    """For each headline how large what it rests on may be, and in which modules it is."""
+    text = ""
+    for headline, names in HEADLINES.items():
+        found = modules(places(*names))
+        code, lines = (-(-count // STEP) * STEP for count in totals(found))
+        text += f"{headline}: at most {code} lines of code, {lines} with documentation\n"
+        text += "".join(f"  {name.removeprefix('lyapcheck.check.')}\n" for name in found)
+    return text
 
 
 def test_the_trusted_code_of_headline_verdicts_has_not_grown():
@@ -47,38 +72,68 @@ def test_the_trusted_code_of_headline_verdicts_has_not_grown():
     assert listed() == GOLDEN.read_text(encoding="utf-8")
 
 
-def test_what_is_listed_is_what_a_process_imports_for_a_rule():
-    """Importing the module of a rule without its package loads nothing of the checker that is not listed."""
-    code = """
-import sys, types, importlib
-for name in ("lyapcheck", "lyapcheck.check", "lyapcheck.check.kinds"):
-    found = importlib.util.find_spec(name)
-    module = types.ModuleType(name)
-    module.__path__ = list(found.submodule_search_locations)
-    sys.modules[name] = module
-importlib.import_module(sys.argv[1])
-print(*(name for name in sys.modules if name.startswith("lyapcheck.check.")))
-"""
-    for name in ("decreasing", "identity", "bound_every_n"):
-        module = f"lyapcheck.check.kinds.{name}"
-        done = subprocess.run(
-            [sys.executable, "-c", "import importlib.util\n" + code, module],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        packages = {"lyapcheck.check.kinds"}
-        loaded = {one for one in done.stdout.split() if source(one).name != "__init__.py"} - packages
-        assert loaded <= set(modules([("", module)]))
+def test_an_eps0_by_boxes_rests_on_few_lines():
+    for headline in ("ε₀ by boxes", "ε₀ by boxes, M(q) positive by boxes"):
+        code, _ = totals(modules(places(*HEADLINES[headline])))
+        assert code <= MOST_CODE_OF_EPS0
 
 
-def test_every_module_that_is_named_exists_and_the_core_is_real():
-    assert all(source(name).is_file() for name in CORE)
-    for module in set(entered().values()):
-        assert module in closure(module)
-        assert all(source(name).is_file() and lines(name) >= 0 for name in closure(module))
-    assert "lyapcheck.check.loop.schur" in closure("lyapcheck.check.kinds.decreasing")
-    assert "lyapcheck.check.letters.words" in imported("lyapcheck.check.kinds.every_n")
+def smallest():
+    """For each kind by each rule the smallest certificate among the good ones of the arena."""
+    found = {}
+    for path in sorted((ARENA / "good").glob("*.json"), key=lambda path: path.stat().st_size):
+        content = path.read_bytes()
+        data = json.loads(content)
+        found.setdefault((data["statement"]["kind"], data["proof"]["rule"]), (path.name, content))
+    return found.values()
+
+
+def run_by(content):
+    """What judging a certificate runs of the checker, as (file, line), and what it finds."""
+    run = set()
+
+    def note(frame, event, _):
+        if event == "call":
+            run.add((frame.f_code.co_filename, frame.f_code.co_firstlineno))
+
+    sys.setprofile(note)
+    try:
+        return judging.judged(content), run
+    finally:
+        sys.setprofile(None)
+
+
+def test_whatever_runs_is_listed():
+    """The list is read off the sources; here certificates of every kind are judged, and what runs is seen."""
+    at = {(str(source(one.module)), line): one for one in definitions().values() for line in one.lines}
+    judging.judged(b"{}")
+    seen = set()
+    for name, content in smallest():
+        finding, run = run_by(content)
+        assert not finding.reason, name
+        trusted = reached(place for _, found in finding.rules for place in found.split())
+        ran = {at[place].place for place in run if place in at}
+        assert ran <= trusted, name
+        seen |= ran
+    assert len(seen) > 500
+
+
+def test_what_is_listed_of_a_certificate_is_all_of_its_kinds_and_rules():
+    assert "lyapcheck.check.kinds.decreasing:by_both" in reached(
+        places(*HEADLINES["ε₀ by boxes"])[0][1].split()
+    )
+    core = reached()
+    assert "lyapcheck.check.verify:verify" in core
+    assert not any(".kinds." in place and "kinds:load" not in place for place in core)
+    assert all(place in definitions() for place in core)
+
+
+def test_sizes_are_those_of_the_sources():
+    for one in definitions().values():
+        assert one.lines <= set(range(1, len(source(one.module).read_bytes().splitlines()) + 1))
+    assert 1 not in code_lines("lyapcheck.check.trusted")
+    assert tree("lyapcheck.check.trusted").body[1].lineno in code_lines("lyapcheck.check.trusted")
+    assert name_of(members(Proof)["tree of boxes"]) == "tree of boxes"
 
 
 @pytest.fixture(scope="module")
@@ -99,14 +154,15 @@ def shown(tmp_path_factory):
 def test_a_theorem_rests_on_the_rules_of_its_premises_too(shown):
     text, data = shown
     rows = {row["file"]: row["rules"] for row in data["certificates"]}
-    assert {"Theorem by theorem", "premises"} <= set(rows["arms.all.m2.json"])
+    assert "Theorem by theorem" in rows["arms.all.m2.json"]
     assert any(
         rule.startswith("BoundEveryN") or rule.startswith("ForAll") for rule in rows["arms.all.m2.json"]
     )
     trusted = data["trusted"]["proved"]
     assert set(trusted["rules"]) == {rule for rules in rows.values() for rule in rules}
-    total = sum(trusted["modules"].values())
-    assert text.count(f"{total:>5} lines in {len(trusted['modules'])} modules") >= 1
+    assert "lyapcheck.check.theorems.premises" in trusted["modules"]
+    sizes = (sum(trusted[key].values()) for key in ("code", "modules"))
+    assert "{:>7}  {:>5} of definitions in {} modules".format(*sizes, len(trusted["modules"])) in text
     assert "trusted for all that is proved" in text
 
 

@@ -8,9 +8,10 @@ import pytest
 from flint import arb
 
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.constants import gamma_less_than, hyperbolic_constants
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import propose
+from lyapcheck.family.compared import gamma_less_than
 
 MEMBERS = (*range(1, 13), 50, 100, 317, 1000)
 

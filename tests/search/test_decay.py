@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, RadialBounds
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import require_margin
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.decay.least import Well
@@ -258,7 +258,7 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
     assert data is not None
     margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
     own = reduced_radial(margin)
-    by = RadialBounds(own.weights, own.inertia, own.lowest, own.angles, own.tree, own.cuts)
+    by = own
     assert shown(margin, at.inertia_proof, by)
     assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), at.inertia_proof, by)
 

@@ -16,14 +16,20 @@ class Interval:
     open_low: bool = False
     open_high: bool = False
 
+    def __contains__(self, x: Fraction) -> bool:
+        above = self.low is None or self.low < x or (self.low == x and not self.open_low)
+        return above and (self.high is None or x < self.high or (self.high == x and not self.open_high))
+
+    def __str__(self) -> str:
+        low = "" if self.low is None else f"{'above' if self.open_low else 'at least'} {self.low}"
+        high = "" if self.high is None else f"{'below' if self.open_high else 'at most'} {self.high}"
+        return " and ".join(filter(None, (low, high))) or "real"
+
     def signs(self) -> frozenset[int]:
         """The signs of its numbers."""
         below = self.low is None or self.low < 0
         above = self.high is None or self.high > 0
-        starts = self.low is None or self.low < 0 or (self.low == 0 and not self.open_low)
-        ends = self.high is None or self.high > 0 or (self.high == 0 and not self.open_high)
-        found = [(-1, below), (0, starts and ends), (1, above)]
-        return frozenset(sign for sign, has in found if has)
+        return frozenset(sign for sign, has in ((-1, below), (0, Fraction(0) in self), (1, above)) if has)
 
 
 Domain = Mapping[str, Interval]

@@ -20,7 +20,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from flint import arb, arb_series, ctx, fmpq
+from flint import arb, arb_series, ctx, fmpq, fmpq_series
 
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 
@@ -59,6 +59,54 @@ class Algebra:
     def function(self, name: str, value: Any) -> Any:
         """An elementary function of an element."""
         return abs(value) if name == "abs" else getattr(value, name)()
+
+
+class ExactAlgebra(Algebra):
+    """Rational arithmetic: constants and functions that leave ℚ have no place in it."""
+
+    def number(self, value: Fraction) -> Any:
+        """The number itself."""
+        return fmpq(value.numerator, value.denominator)
+
+    def constant(self, name: str, m: int) -> Any:
+        """γ_1 = ρ_1 = L_1 = 1.
+
+        Raises:
+            Unsupported: for m > 1.
+        """
+        if m > 1:
+            raise Unsupported(f"{name}_{m} is not rational")
+        return self.number(Fraction(1))
+
+    def pi(self) -> Any:
+        """π has no place.
+
+        Raises:
+            Unsupported: always.
+        """
+        raise Unsupported("π is not rational")
+
+    def function(self, name: str, value: Any) -> Any:
+        """Functions have no place.
+
+        Raises:
+            Unsupported: always.
+        """
+        raise Unsupported(f"{name} leaves the rational numbers")
+
+
+class ExactSeriesAlgebra(ExactAlgebra):
+    """Truncated power series over ℚ."""
+
+    def number(self, value: Fraction) -> Any:
+        """The constant series."""
+        return fmpq_series([super().number(value)])
+
+    def function(self, name: str, value: Any) -> Any:
+        """A function whose series at a rational point may be rational."""
+        if name in ("abs", "acos"):
+            raise Unsupported(f"no rational series for {name}")
+        return getattr(value, name)()
 
 
 class SeriesAlgebra(Algebra):

@@ -17,42 +17,29 @@ from fractions import Fraction
 
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpq_series
 
-from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, ball, evaluate, taylor
+from lyapcheck.check.expressions.expression import (
+    ExactSeriesAlgebra,
+    Tree,
+    Unsupported,
+    ball,
+    evaluate,
+    taylor,
+)
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import Ratio, normal_form
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational
+from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on
 
 Terms = dict[tuple[int, int], fmpq | arb]
 """A polynomial in x and y = exp(x): exponents to coefficient, a ball where constants like γ or √3 come in."""
-
-
-class _RationalSeries(Algebra):
-    """Truncated power series in x over ℚ; everything that is not rational is out of reach."""
-
-    def number(self, value: Fraction) -> fmpq_series:
-        return fmpq_series([rational(value)])
-
-    def constant(self, name: str, m: int) -> fmpq_series:
-        if m != 1:
-            raise Unsupported(f"{name} is not rational")
-        return self.number(Fraction(1))
-
-    def pi(self) -> fmpq_series:
-        raise Unsupported("pi is not rational")
-
-    def function(self, name: str, value: fmpq_series) -> fmpq_series:
-        if name in ("abs", "acos"):
-            raise Unsupported(f"no rational series for {name}")
-        return getattr(value, name)()
 
 
 def exactly_zero_coefficients(tree: Tree, name: str, order: int) -> int:
     """How many leading Taylor coefficients at 0 are exactly zero (at most ``order``)."""
     cap, ctx.cap = ctx.cap, order + 1
     try:
-        series = evaluate(tree, {name: fmpq_series([0, 1])}, _RationalSeries())
+        series = evaluate(tree, {name: fmpq_series([0, 1])}, ExactSeriesAlgebra())
         zeros = [c == 0 for c in list(series.coeffs())[: order + 1]]
     except (Unsupported, ValueError, ZeroDivisionError):
         zeros = [bool(c.is_zero()) for c in taylor(tree, name, arb(0), order)]

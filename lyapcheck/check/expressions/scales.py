@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 from flint import arb, ctx, fmpq_series
 
@@ -29,8 +28,14 @@ from lyapcheck.check.expressions.asymptotic import (
     power_of,
     summed,
 )
-from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, evaluate, taylor
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.expressions.expression import (
+    Algebra,
+    ExactSeriesAlgebra,
+    Tree,
+    Unsupported,
+    evaluate,
+    taylor,
+)
 
 OUTER: dict[str, Tree] = {
     "root": ("sqrt", ("add", ("num", "1"), ("var", "u"))),
@@ -56,21 +61,11 @@ def _taylor_at_0(name: str) -> tuple[Fraction, ...]:
     """The Taylor coefficients 0 … ORDER − 1 at 0, which are rational."""
     cap, ctx.cap = ctx.cap, ORDER
     try:
-        series = evaluate(OUTER[name], {"u": fmpq_series([0, 1])}, _Series())
+        series = evaluate(OUTER[name], {"u": fmpq_series([0, 1])}, ExactSeriesAlgebra())
         found = [Fraction(int(c.p), int(c.q)) for c in list(series.coeffs())[:ORDER]]
     finally:
         ctx.cap = cap
     return tuple(found + [Fraction(0)] * (ORDER - len(found)))
-
-
-class _Series(Algebra):
-    """Truncated power series over ℚ."""
-
-    def number(self, value: Fraction) -> Any:
-        return fmpq_series([rational(value)])
-
-    def function(self, name: str, value: Any) -> Any:
-        return getattr(value, name)()
 
 
 @dataclass(frozen=True)

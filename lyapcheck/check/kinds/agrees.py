@@ -15,7 +15,6 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
@@ -24,12 +23,12 @@ from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import require_bits
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import OfTerms, Proof
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class Agrees(Statement):
+class Agrees(OfTerms):
     """A printed number agrees with a formula in printed numbers, to half a unit in each last place.
 
     Where it does not, the value that ``solve_for`` would need is reported; the formula is proportional to it.
@@ -122,8 +121,7 @@ def by_corners(statement: Agrees, proof: Corners) -> Accepted:
 def by_outside(statement: Agrees, proof: OutsideRounding) -> Accepted:
     """Soundness: the formula, enclosed over all roundings of the inputs, misses the half unit."""
     value, target = over_all(statement, proof.bits), printed_range(statement.printed)
-    for tree, domain in statement.terms():
-        require_defined(tree, domain)
+    statement.require_defined()
     outside = value.upper < target.lower or value.lower > target.upper
     require(outside, "result", value.decimals(8), "meets the rounding of the printed one")
     return Accepted("refuted", "enclosure")

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class AllOf(Statement):
+class AllOf(Total):
     """Every part holds; each part has a name for the report."""
 
     parts: tuple[tuple[str, Statement], ...]
@@ -23,9 +22,32 @@ class AllOf(Statement):
         for _, part in self.parts:
             part.require_well_formed()
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None of its own."""
-        return []
+    @property
+    def theorems(self) -> tuple[tuple[str, str], ...]:
+        """Those of the parts."""
+        return tuple(pair for _, part in self.parts for pair in part.theorems)
+
+    @property
+    def hypotheses_shown_by(self) -> tuple[tuple[str, str], ...]:
+        """Those of the parts."""
+        return tuple(pair for _, part in self.parts for pair in part.hypotheses_shown_by)
+
+    def lacks(self, stated: Mapping[str, Statement]) -> str | None:
+        """What the first part lacks that lacks something."""
+        return next((found for _, part in self.parts if (found := part.lacks(stated)) is not None), None)
+
+    def decided(self, proof: Proof) -> Iterator[tuple[int, Statement, Proof]]:
+        """All parts of what is proved, the one that is refuted."""
+        one = [(proof.part, proof.proof)] if isinstance(proof, OnePart) else []
+        for k, own in enumerate(proof.parts) if isinstance(proof, EveryPart) else one:
+            yield k, self.parts[k][1], own
+
+    def decided_text(self, proof: Proof) -> str:
+        """Where one of several parts refutes the whole, that part first."""
+        if not isinstance(proof, OnePart) or len(self.parts) == 1:
+            return self.text()
+        part = self.parts[proof.part][1].decided_text(proof.proof)
+        return f"({proof.part + 1}) {part}, which is part of: {self.text()}"
 
     @property
     def granted(self) -> tuple[str, ...]:

@@ -47,12 +47,12 @@ from lyapcheck.check.letters.points import Point as Drawn
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates
-from lyapcheck.check.statement import Proof, Relation, Statement, Variable
+from lyapcheck.check.statement import OfTerms, Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class BoundEveryN(Statement):
+class BoundEveryN(OfTerms):
     """``left <= right`` for every n, from bounds of norms; ``left`` is as in :class:`EveryN`.
 
     ``norms`` says of some letters together that the product of their norms is at most an expression, the norm

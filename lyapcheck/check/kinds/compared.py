@@ -11,18 +11,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 from math import prod
-from typing import TypeVar
 
 from flint import arb
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.inertia import PostureWitness, require_posture
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, combination
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Proof, Statement
+from lyapcheck.check.statement import Ends, Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
 Rates = tuple[int, ...]
@@ -30,7 +27,7 @@ Gap = tuple[str, Rates, Uncertain]
 """Where, the joints whose rates it has as factors, counted from 0, and the difference of both sides there."""
 
 
-class Compared(Statement):
+class Compared(Total):
     """A statement that differences vanish; those of one place are added up, each times its rates."""
 
     parameters: tuple[Ends, ...]
@@ -43,10 +40,6 @@ class Compared(Statement):
     @abstractmethod
     def gaps(self) -> Iterator[Gap]:
         """The differences, those of one place one after the other."""
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: polynomials have values everywhere."""
-        return []
 
 
 @dataclass(frozen=True)
@@ -63,32 +56,23 @@ class MovingPosture(PostureWitness):
     rule = "moving posture"
 
 
-K = TypeVar("K", bound=type[Compared])
+@rule(Compared, SameHarmonics)
+def by_harmonics(statement: Compared, proof: SameHarmonics) -> Accepted:
+    """Soundness: the form as harmonics is unique, and so is that as a polynomial of rates."""
+    for place, _, gap in statement.gaps():
+        require(not gap, place, "", "is not the same on both sides")
+    return Accepted("proved", "exact")
 
 
-def compared(kind: K) -> K:
-    """Enter both rules for a kind, as of its own module: they rest on the differences that it forms."""
-
-    def by_harmonics(statement: Compared, proof: SameHarmonics) -> Accepted:
-        """Soundness: the form as harmonics is unique, and so is that as a polynomial of rates."""
-        for place, _, gap in statement.gaps():
-            require(not gap, place, "", "is not the same on both sides")
-        return Accepted("proved", "exact")
-
-    def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
-        """Soundness: the difference at one place lies in a ball without 0."""
-        n = statement.joints
-        require_posture(proof, n, statement.parameters)
-        require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
-        found = any(not value.contains(0) for _, value in differences(statement, proof))
-        require(found, "posture", "", "does not show a difference")
-        return Accepted("refuted", "enclosure")
-
-    for judge in (by_harmonics, by_posture):
-        judge.__module__ = kind.__module__
-    rule(kind, SameHarmonics)(by_harmonics)
-    rule(kind, MovingPosture)(by_posture)
-    return kind
+@rule(Compared, MovingPosture)
+def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
+    """Soundness: the difference at one place lies in a ball without 0."""
+    n = statement.joints
+    require_posture(proof, n, statement.parameters)
+    require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
+    found = any(not value.contains(0) for _, value in differences(statement, proof))
+    require(found, "posture", "", "does not show a difference")
+    return Accepted("refuted", "enclosure")
 
 
 def differences(statement: Compared, at: MovingPosture) -> Iterator[tuple[str, arb]]:

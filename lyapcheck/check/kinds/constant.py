@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from flint import arb, ctx
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
 from lyapcheck.check.expressions.normal_form import normal_form
@@ -14,7 +13,7 @@ from lyapcheck.check.expressions.witness import sign_holds
 from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.replay import require_bits
-from lyapcheck.check.statement import Proof, Relation, Statement
+from lyapcheck.check.statement import OfTerms, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule
 
 MOST_BALLS = 256
@@ -22,7 +21,7 @@ _BALLS: dict[tuple[int, int], tuple[Tree, arb]] = {}
 
 
 @dataclass(frozen=True)
-class Constant(Statement):
+class Constant(OfTerms):
     """A relation between numbers."""
 
     relation: Relation
@@ -92,8 +91,7 @@ def _ball(tree: Tree) -> arb:
 
 def _with_values(statement: Constant, truth: bool, grade: str) -> Accepted:
     """The verdict, if both sides have values: a refutation needs them as much as a proof."""
-    for tree, domain in statement.terms():
-        require_defined(tree, domain)
+    statement.require_defined()
     return Accepted("proved" if truth else "refuted", grade)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from itertools import chain, product
 
-from lyapcheck.check.kinds.compared import Compared, Gap, compared, mixed
+from lyapcheck.check.kinds.compared import Compared, Gap, mixed
 from lyapcheck.check.kinds.inertia import (
     Mass,
     mass_text,
@@ -57,7 +57,6 @@ class _OfMass(Compared):
         return _slope(self.inertia.mass[i][j], k)
 
 
-@compared
 @dataclass(frozen=True)
 class MassSymmetric(_OfMass):
     """M(q) = M(q)ᵀ, for all q and parameters."""
@@ -141,7 +140,6 @@ class _OfCoriolis(_OfMass):
         return f"{about}; {written_out(entries, 'C as printed', self.printed, ())}"
 
 
-@compared
 @dataclass(frozen=True)
 class CoriolisAtRest(_OfCoriolis):
     """C(q, 0) = 0, for all q and parameters."""
@@ -156,7 +154,6 @@ class CoriolisAtRest(_OfCoriolis):
         return f"C(q, 0) = 0 {self.over}"
 
 
-@compared
 @dataclass(frozen=True)
 class RateOfMass(_OfCoriolis):
     """Ṁ(q) = C(q, w) + C(q, w)ᵀ, and both are symmetric, for all q, w and parameters."""
@@ -177,7 +174,6 @@ class RateOfMass(_OfCoriolis):
         return f"Ṁ(q) = C(q, w) + C(q, w)ᵀ with Ṁ along q̇ = w, and both are symmetric, {self.over}"
 
 
-@compared
 @dataclass(frozen=True)
 class RateLessTwiceCoriolis(_OfCoriolis):
     """Ṁ(q) − 2C(q, w) is skew-symmetric, so that wᵀ[Ṁ − 2C]w = 0, for all q, w and parameters."""
@@ -197,7 +193,6 @@ class RateLessTwiceCoriolis(_OfCoriolis):
         return f"Ṁ(q) − 2C(q, w) is skew-symmetric with Ṁ along q̇ = w, so that wᵀ[Ṁ − 2C]w = 0, {self.over}"
 
 
-@compared
 @dataclass(frozen=True)
 class CoriolisTorque(_OfCoriolis):
     """C(q, w)w is that of the Christoffel symbols of M(q), for all q, w and parameters."""

@@ -16,12 +16,12 @@ from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.decreasing import Decreasing, friction_text, member_text
 from lyapcheck.check.kinds.inertia import mass_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Relation, Statement
+from lyapcheck.check.statement import Ends, Monomials, OfTerms, Proof, Relation
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class DampingBelow(Statement):
+class DampingBelow(OfTerms):
     """For all κ > 0 and ε₀ > 0: where dV/dt < 0 at every state but the origin, κ λmax(K_v) < bound.
 
     The gains are K_p and κ K_v; the other fields are those of ``Decreasing``, with (13) for V.

@@ -9,21 +9,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
 from lyapcheck.check.loop import Closure, proves, sharing
-from lyapcheck.check.loop.radial import Radial, proves_radially
+from lyapcheck.check.loop.closure import RateProof
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
+from lyapcheck.check.statement import Ends, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class Decreasing(Statement):
+class Decreasing(Total):
     """M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
 
     V of (13) is then positive definite and radially unbounded, so that the origin is globally asymptotically
@@ -56,10 +54,6 @@ class Decreasing(Statement):
         for low, high in self.viscous:
             require(low <= high, "range", f"[{low}, {high}]", "is empty")
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: M, h and V have values everywhere."""
-        return []
-
     @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
@@ -81,24 +75,16 @@ class Decreasing(Statement):
 
 
 @dataclass(frozen=True)
-class BoxTree(Proof):
+class BoxTree(RateProof):
     """A tree of boxes of (q, e): in preorder, a digit for the side that is cut, a dot for a leaf."""
 
     rule = "tree of boxes"
     tree: str
 
-
-@dataclass(frozen=True)
-class RadialBounds(Proof):
-    """Bounds of the parts of dV/dt in ‖e‖ alone: weights, μ, ν, boxes of some angles behind them, cuts."""
-
-    rule = "bounds in ‖e‖"
-    weights: tuple[Fraction, ...]
-    inertia: Fraction
-    lowest: Fraction
-    angles: tuple[int, ...]
-    tree: str
-    cuts: tuple[Fraction, ...]
+    def require_shown(self, closure: Closure) -> None:
+        """By :func:`proves`."""
+        boxes = f"of {self.tree.count('.')} boxes"
+        require(proves(closure, self.tree, sharing()), "tree", boxes, "has a box on which P ≻ 0 is not shown")
 
 
 @dataclass(frozen=True)
@@ -125,32 +111,18 @@ class StateWitness(Proof):
 @rule(Decreasing, PositiveAndDecreasing)
 def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
     """Soundness: M ≻ 0 by a proof of its own, dV/dt < 0 by ``lyapcheck.check.loop``."""
-    positive = require_proved(
-        MassAbove(statement.mass, statement.parameters, Fraction(0)), proof.inertia, "M ≻ 0"
-    )
+    positive = require_proved(mass_positive(statement), proof.inertia, "M ≻ 0")
     closure = closure_of(statement)
     require(closure.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
-    if isinstance(proof.rate, BoxTree):
-        shown = proves(closure, proof.rate.tree, sharing())
-        require(
-            shown, "tree", f"of {proof.rate.tree.count('.')} boxes", "has a box on which P ≻ 0 is not shown"
-        )
-    elif isinstance(proof.rate, RadialBounds):
-        shown = proves_radially(closure, radial_of(proof.rate))
-        require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
-    else:
+    if not isinstance(proof.rate, RateProof):
         raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
+    proof.rate.require_shown(closure)
     return Accepted("proved", weakest([positive, "enclosure"]))
 
 
 def mass_positive(statement: Decreasing) -> MassAbove:
     """M(q) ≻ 0 for the arm of a statement."""
     return MassAbove(statement.mass, statement.parameters, Fraction(0))
-
-
-def radial_of(bounds: RadialBounds) -> Radial:
-    """The bounds as the checker of them takes them."""
-    return Radial(bounds.weights, bounds.inertia, bounds.lowest, bounds.angles, bounds.tree, bounds.cuts)
 
 
 @rule(Decreasing, PostureWitness)

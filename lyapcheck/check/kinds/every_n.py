@@ -21,7 +21,7 @@ from lyapcheck.check.letters.points import compared, drawn, solved
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates
-from lyapcheck.check.statement import Point, Proof, Statement
+from lyapcheck.check.statement import OfTerms, Point, Proof
 from lyapcheck.check.verify import Accepted, rule
 
 
@@ -35,7 +35,7 @@ class Given:
 
 
 @dataclass(frozen=True)
-class EveryN(Statement):
+class EveryN(OfTerms):
     """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
 
     ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The letters are

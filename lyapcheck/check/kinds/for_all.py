@@ -9,11 +9,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import ClassVar
 
 from flint import ctx
 
-from lyapcheck.check.expressions.domain import Domain, Interval
+from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.inequality import (
     positive_from,
@@ -22,15 +21,16 @@ from lyapcheck.check.expressions.inequality import (
     sign_everywhere,
 )
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
+from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.kinds.parts import relation_text, require_relations
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.replay import coordinates, require_bits, require_failure
-from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.replay import Pointwise, require_bits
+from lyapcheck.check.statement import Piece, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule, weakest
 
 
 @dataclass(frozen=True)
-class ForAll(Statement):
+class ForAll(Pointwise):
     """A relation for every value of one variable in the interval from low to high (None: unbounded)."""
 
     relation: Relation
@@ -55,9 +55,15 @@ class ForAll(Statement):
         """The domain."""
         return Interval(self.low, self.high, self.open_low, self.open_high)
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """Both sides over the interval."""
-        return terms_of([self.relation], {self.variable: self.interval})
+    @property
+    def ranges(self) -> dict[str, Interval]:
+        """The one variable over the interval."""
+        return {self.variable: self.interval}
+
+    @property
+    def at_points(self) -> tuple[tuple[()], Comparison]:
+        """The relation, on no hypothesis."""
+        return (), self.relation.comparison
 
     def text(self) -> str:
         """The statement in one line."""
@@ -66,12 +72,6 @@ class ForAll(Statement):
         left = "(" if self.open_low or self.low is None else "["
         right = ")" if self.open_high or self.high is None else "]"
         return f"{relation_text(self.relation)} for all {self.variable} in {left}{low}, {high}{right}"
-
-
-class Piece:
-    """How the sign of a function of one variable is shown on one part of its domain."""
-
-    rule: ClassVar[str]
 
 
 @dataclass(frozen=True)
@@ -109,20 +109,6 @@ MAX_CUTS = 20_000
 
 Stretch = tuple[Tree, Fraction, Fraction | None]
 """The gap on [low, high] with 0 <= low; ``None`` is infinity."""
-
-
-@rule(ForAll, Witness)
-def by_witness(statement: ForAll, proof: Witness) -> Accepted:
-    """Soundness: the point lies in the domain and the relation fails there in balls."""
-    point = coordinates(proof.point, [statement.variable])
-    x = point[statement.variable]
-    below = statement.low is not None and (x < statement.low or (x == statement.low and statement.open_low))
-    above = statement.high is not None and (
-        x > statement.high or (x == statement.high and statement.open_high)
-    )
-    require(not below and not above, "point", x, "lies outside the domain")
-    require_failure(statement.relation.comparison, point, proof.bits)
-    return Accepted("refuted", "enclosure")
 
 
 @rule(ForAll, Pieces)

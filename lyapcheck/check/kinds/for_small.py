@@ -24,14 +24,14 @@ from lyapcheck.check.kinds.parts import domain_of, range_text, relation_text, re
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_inside
-from lyapcheck.check.statement import Point, Proof, Relation, Statement, Variable
+from lyapcheck.check.statement import OfTerms, Point, Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 UNIT = Interval(Fraction(0), Fraction(1), open_low=True)
 
 
 @dataclass(frozen=True)
-class ForSmall(Statement):
+class ForSmall(OfTerms):
     """If the hypotheses hold, the relation holds for every small enough positive value of one variable.
 
     Every variable named in ``bounded`` runs over (0, 1], and the threshold serves all of them.
@@ -101,9 +101,7 @@ def by_small_witness(statement: ForSmall, proof: SmallWitness) -> Accepted:
     """Soundness: for all small ε every hypothesis holds at the point and the conclusion fails there."""
     names = [*(v.name for v in statement.variables), *statement.bounded]
     point = coordinates(proof.point, names)
-    require_inside(statement.variables, point)
-    for name in statement.bounded:
-        require(0 < point[name] <= 1, name, point[name], "must be above 0 and at most 1")
+    require_inside(domain_of(statement.variables) | dict.fromkeys(statement.bounded, UNIT), point)
     require(proof.below > 0, "below", proof.below, "must be positive")
     domain = {statement.small: Interval(Fraction(0), proof.below, open_low=True)}
     for tree, _ in statement.terms():

@@ -11,10 +11,8 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.compared import Compared, Gap, compared, mixed
+from lyapcheck.check.kinds.compared import Compared, Gap, mixed
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -30,12 +28,12 @@ from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Statement
+from lyapcheck.check.statement import Ends, Monomials, Total
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class GravityBelow(Statement):
+class GravityBelow(Total):
     """√Σ g_i(q)² <= high over the g_i given, for all angles and parameters; N·m."""
 
     joints: int
@@ -48,10 +46,6 @@ class GravityBelow(Statement):
         require(len(self.gravity) > 0, "gravity", "", "must have an entry")
         require_polynomials(self.gravity, self.joints, self.parameters)
         require(self.high >= 0, "high", self.high, "must not be negative")
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: polynomials have values everywhere."""
-        return []
 
     @property
     def entries(self) -> list[Uncertain]:
@@ -115,7 +109,6 @@ def by_posture(statement: GravityBelow, proof: PostureWitness) -> Accepted:
     return Accepted("refuted", "enclosure")
 
 
-@compared
 @dataclass(frozen=True)
 class GravityOfPotential(Compared):
     """g(q) is the gradient of the potential energy, for all angles and parameters."""

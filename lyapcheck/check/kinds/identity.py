@@ -7,20 +7,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.domain import REALS, Interval
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.parts import domain_of, range_text, require_distinct
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import coordinates, require_failure, require_inside
-from lyapcheck.check.statement import Proof, Statement, Variable, Witness
+from lyapcheck.check.replay import Pointwise
+from lyapcheck.check.statement import Proof, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class Identity(Statement):
+class Identity(Pointwise):
     """``left = right`` for all values of the variables; those not in ``variables`` are real numbers."""
 
     left: Tree
@@ -40,9 +41,15 @@ class Identity(Statement):
         """The variables that occur."""
         return variables(self.left) | variables(self.right)
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """Both sides."""
-        return [(side, domain_of(self.variables)) for side in (self.left, self.right)]
+    @property
+    def ranges(self) -> dict[str, Interval]:
+        """Real numbers, unless it is said otherwise."""
+        return dict.fromkeys(self.names, REALS) | domain_of(self.variables)
+
+    @property
+    def at_points(self) -> tuple[tuple[()], Comparison]:
+        """Both sides, on no hypothesis."""
+        return (), (self.left, "=", self.right)
 
     def text(self) -> str:
         """``left = right for all …``."""
@@ -66,15 +73,6 @@ def by_normal_form(statement: Identity, proof: NormalForm) -> Accepted:
     """Soundness: equal normal forms are equal functions, wherever both sides are defined."""
     require(is_zero(gap_of(statement)), "normal form", "", "that of the difference is not zero")
     return Accepted("proved", "exact")
-
-
-@rule(Identity, Witness)
-def by_witness(statement: Identity, proof: Witness) -> Accepted:
-    """Soundness: disjoint balls for both sides at one point."""
-    point = coordinates(proof.point, statement.names)
-    require_inside(statement.variables, point)
-    require_failure((statement.left, "=", statement.right), point, proof.bits)
-    return Accepted("refuted", "enclosure")
 
 
 def gap_of(statement: Identity) -> Tree:

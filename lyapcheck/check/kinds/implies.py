@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations, terms_of
+from lyapcheck.check.expressions.domain import Interval
+from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
-from lyapcheck.check.replay import coordinates, require_failure, require_inside
-from lyapcheck.check.statement import Relation, Statement, Variable, Witness
+from lyapcheck.check.replay import Pointwise
+from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class Implies(Statement):
+class Implies(Pointwise):
     """For all values of the variables: if every hypothesis holds, so does the conclusion."""
 
     variables: tuple[Variable, ...]
@@ -25,9 +25,15 @@ class Implies(Statement):
         """Refuse what the rules should not have to look at."""
         require_relations((*self.hypotheses, self.conclusion), [v.name for v in self.variables])
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """All sides, for all values of the variables: hypotheses give no term a value."""
-        return terms_of((*self.hypotheses, self.conclusion), domain_of(self.variables))
+    @property
+    def ranges(self) -> dict[str, Interval]:
+        """The ranges of the variables."""
+        return domain_of(self.variables)
+
+    @property
+    def at_points(self) -> tuple[tuple[Comparison, ...], Comparison]:
+        """As they are."""
+        return tuple(one.comparison for one in self.hypotheses), self.conclusion.comparison
 
     def text(self) -> str:
         """The statement in one line."""
@@ -40,16 +46,6 @@ def by_signs(statement: Implies, proof: SignIdentity) -> Accepted:
     signs = signs_of(statement)
     require_identity(signs, signs.conclusion, statement.conclusion.strict, proof)
     return Accepted("proved", "exact")
-
-
-@rule(Implies, Witness)
-def by_witness(statement: Implies, proof: Witness) -> Accepted:
-    """Soundness: variables in their ranges; every hypothesis holds and the conclusion fails, in balls."""
-    point = coordinates(proof.point, [v.name for v in statement.variables])
-    require_inside(statement.variables, point)
-    given = tuple(hypothesis.comparison for hypothesis in statement.hypotheses)
-    require_failure(statement.conclusion.comparison, point, proof.bits, given)
-    return Accepted("refuted", "enclosure")
 
 
 def signs_of(statement: Implies) -> Signs:

@@ -14,15 +14,13 @@ from math import prod
 
 from flint import arb
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
+from lyapcheck.check.statement import Ends, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
 MAX_ARM = 9
@@ -105,7 +103,7 @@ def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
 
 
 @dataclass(frozen=True)
-class OfArm(Statement):
+class OfArm(Total):
     """What the kinds below share: ``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
 
     mass: Mass
@@ -114,10 +112,6 @@ class OfArm(Statement):
     def require_well_formed(self) -> None:
         """A matrix of polynomials."""
         require_mass(self.mass, self.parameters)
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: polynomials have values everywhere."""
-        return []
 
     @property
     def inertia(self) -> Inertia:

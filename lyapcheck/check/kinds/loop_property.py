@@ -30,7 +30,7 @@ from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Relation, Statement
+from lyapcheck.check.statement import OfTerms, Proof, Relation, Statement
 from lyapcheck.check.theorems.rate import loop_closed
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
@@ -50,7 +50,7 @@ TRACKING_TORQUE = "τ = K_p h(q̃) + K_v h(dq̃/dt) + M q̈_d + C q̇_d + g + B 
 
 
 @dataclass(frozen=True)
-class LoopProperty(Statement):
+class LoopProperty(OfTerms):
     """A property of the loop that (6), or with ``desired`` (21), closes, or of V of (13).
 
     ``h`` is an expression in x, ``slope`` its derivative and ``potential`` U.

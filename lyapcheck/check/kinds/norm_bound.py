@@ -12,20 +12,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import CONSTANTS, Tree
+from lyapcheck.check.expressions.domain import REALS, Domain, Interval
+from lyapcheck.check.expressions.expression import Tree, substitute
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import coordinates, require_failure
-from lyapcheck.check.statement import Proof, Relation, Statement, Witness
+from lyapcheck.check.replay import Pointwise
+from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 
 @dataclass(frozen=True)
-class NormBound(Statement):
+class NormBound(Pointwise):
     """``‖(f(x_1), …, f(x_n))‖ <= bound · ‖x‖^power`` for every x in Rⁿ; f an expression in the variable x."""
 
     component: Tree
@@ -39,6 +40,16 @@ class NormBound(Statement):
         require(self.power in (0, 1), "power", self.power, "must be 0 or 1")
         require_expressions([self.component], ["x"])
         require_expressions([self.bound], [])
+
+    @property
+    def ranges(self) -> dict[str, Interval]:
+        """The entries of x."""
+        return dict.fromkeys(entries(self), REALS)
+
+    @property
+    def at_points(self) -> tuple[tuple[()], Comparison]:
+        """The bound written out in x1, …, xn."""
+        return (), vector_relation(self).comparison
 
     def terms(self) -> list[tuple[Tree, Domain]]:
         """The component for every real x, and the bound."""
@@ -83,14 +94,6 @@ SUPREMUM_OF = {"h": "gamma", "dh": "rho"}
 
 
 X: Tree = ("var", "x")
-
-
-@rule(NormBound, Witness)
-def by_witness(statement: NormBound, proof: Witness) -> Accepted:
-    """Soundness: a vector, with both norms in disjoint balls."""
-    point = coordinates(proof.point, entries(statement))
-    require_failure(vector_relation(statement).comparison, point, proof.bits)
-    return Accepted("refuted", "enclosure")
 
 
 @rule(NormBound, Supremum)
@@ -150,7 +153,7 @@ def linear_parts(statement: NormBound) -> tuple[ForAll, ...]:
 def vector_relation(statement: NormBound) -> Relation:
     """The claim written out in x1, …, xn."""
     names = entries(statement)
-    squares = [("pow", substitute(statement.component, "x", ("var", name)), 2) for name in names]
+    squares = [("pow", substitute(statement.component, {"x": ("var", name)}), 2) for name in names]
     left: Tree = ("sqrt", ("add", *squares))
     if statement.power == 0:
         return Relation(left, "<=", statement.bound)
@@ -165,12 +168,3 @@ def entries(statement: NormBound) -> list[str]:
 
 def _root(statement: NormBound) -> Tree:
     return ("sqrt", ("num", str(statement.n)))
-
-
-def substitute(tree: Tree, name: str, by: Tree) -> Tree:
-    """An expression with a variable replaced by another expression."""
-    if tree[0] == "var":
-        return by if tree[1] == name else tree
-    if tree[0] == "num" or tree[0] in CONSTANTS:
-        return tree
-    return (tree[0], *(substitute(part, name, by) if isinstance(part, tuple) else part for part in tree[1:]))

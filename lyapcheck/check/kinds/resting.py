@@ -8,14 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
 from lyapcheck.check.kinds.inertia import MAX_ARM
 from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
 LARGEST = 10**9
@@ -23,7 +21,7 @@ LARGEST = 10**9
 
 
 @dataclass(frozen=True)
-class Resting(Statement):
+class Resting(Total):
     """At every e with K_p h(e) + d = 0 and |d_i| ≤ ``torque``, |e_i| ≤ ``errors``; ``None`` bounds nothing.
 
     ``family`` and ``m`` name h; ``kp`` and ``torque`` are in N·m, ``errors`` in rad.
@@ -45,10 +43,6 @@ class Resting(Statement):
         require(min(self.kp) > 0, "kp", min(self.kp), "must be positive")
         for value in (*self.torque, *self.errors):
             require(value is None or 0 <= value <= LARGEST, "size", value, f"must be from 0 to {LARGEST}")
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: h has values everywhere."""
-        return []
 
     @property
     def granted(self) -> tuple[str, ...]:

@@ -12,17 +12,16 @@ from fractions import Fraction
 from hashlib import sha256
 from itertools import pairwise
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, RadialBounds, radial_of, statement_of
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.loop import Closure
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Envelope = tuple[tuple[Fraction, Fraction], ...]
@@ -30,7 +29,7 @@ Envelope = tuple[tuple[Fraction, Fraction], ...]
 
 
 @dataclass(frozen=True)
-class Settling(Statement):
+class Settling(Total):
     """Every solution of (11) from some starts, under a torque d − φ, stays below levels of V and errors.
 
     ``mass`` is M(q), kg·m²; ``viscous`` the diagonal of B, N·m·s/rad; ``family`` and ``m`` name h; ``kp`` and
@@ -72,10 +71,6 @@ class Settling(Statement):
         for (before, above), (after, below) in pairwise(self.envelope):
             require(before < after, "time", after, f"must be after {before}")
             require(above > below, "level", below, f"must be below {above}")
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None: M, h and V have values everywhere."""
-        return []
 
     @property
     def granted(self) -> tuple[str, ...]:
@@ -185,7 +180,7 @@ def margin_of(statement: Settling, proof: FallingLevels) -> Margin:
         statement.eps0,
     )
     shares = (proof.friction, proof.stiffness, proof.split, proof.slack)
-    return Margin(closure, *shares, radial_of(proof.inertia))
+    return Margin(closure, *shares, proof.inertia)
 
 
 def require_margin(margin: Margin, decreasing: PositiveAndDecreasing) -> str:

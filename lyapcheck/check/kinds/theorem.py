@@ -6,6 +6,7 @@ behind it states this, is judged in ``premises`` where the claims that are used 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from lyapcheck.check.expressions.domain import POSITIVE, Domain
@@ -17,13 +18,13 @@ from lyapcheck.check.kinds.loop_property import TORQUE, TRACKING_TORQUE
 from lyapcheck.check.kinds.norm_bound import MAX_JOINTS
 from lyapcheck.check.kinds.parts import relation_text, require_distinct, require_relations, terms_of
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import OfTerms, Proof, Statement
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class Theorem(Statement):
+class Theorem(OfTerms):
     """A theorem applied to a loop: each of its hypotheses is shown by a claim that this one uses.
 
     ``hypotheses`` are pairs (hypothesis, id of the claim). What the statement of each claim must contain is
@@ -52,6 +53,22 @@ class Theorem(Statement):
         own: list[tuple[Tree, Domain]] = [(tree, {}) for tree in (loop.h, loop.slope, loop.potential)]
         domain = dict.fromkeys(CONSTANTS, POSITIVE)
         return [*own, *((tree, domain) for tree in loop.form), *terms_of(loop.condition, domain)]
+
+    @property
+    def theorems(self) -> tuple[tuple[str, str], ...]:
+        """Its own."""
+        return ((self.name, THEOREMS[self.name].reference),)
+
+    @property
+    def hypotheses_shown_by(self) -> tuple[tuple[str, str], ...]:
+        """Its hypotheses."""
+        return self.hypotheses
+
+    def lacks(self, stated: Mapping[str, Statement]) -> str | None:
+        """See ``theorems.premises``, which needs this file."""
+        from lyapcheck.check.theorems.premises import unmet
+
+        return unmet(self, stated)
 
     @property
     def granted(self) -> tuple[str, ...]:

@@ -9,21 +9,23 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from math import prod
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.expressions.grammar import require_expressions
+from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text, number_text
-from lyapcheck.check.numbers.fourier import fourier_sum, is_bounded, size
+from lyapcheck.check.loop.closure import root_above
+from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_failure
-from lyapcheck.check.statement import Point, Proof, Relation, Statement
+from lyapcheck.check.statement import OfTerms, Point, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
-class TrigonometricBound(Statement):
+class TrigonometricBound(OfTerms):
     """``|f_i(q)| <= bound_i`` for all q, each f_i a polynomial in sines and cosines of q.
 
     A bound of ``None`` asks only that f_i is bounded.
@@ -52,7 +54,7 @@ class TrigonometricBound(Statement):
 
 
 @dataclass(frozen=True)
-class TrigonometricPositive(Statement):
+class TrigonometricPositive(OfTerms):
     """``f_i(q) > 0`` for all q, each f_i a polynomial in sines and cosines of q."""
 
     entries: tuple[Tree, ...]
@@ -97,6 +99,8 @@ class EntryWitness(Proof):
 
 
 ZERO: Tree = ("num", "0")
+MAX_EXPONENTIALS = 100_000
+"""To which an entry may expand."""
 
 
 @rule(TrigonometricBound, FourierBounds)
@@ -128,7 +132,7 @@ def by_entry_out_of_bounds(statement: TrigonometricBound, proof: EntryWitness) -
     tree, bound = statement.entries[proof.entry]
     if bound is None:
         raise Refused("entry", proof.entry, "has no bound to break")
-    _require_values(statement)
+    statement.require_defined()
     return _broken(within(tree, bound)[1 if proof.lower else 0], tree, proof)
 
 
@@ -138,7 +142,7 @@ def by_entry_not_positive(statement: TrigonometricPositive, proof: EntryWitness)
     require(0 <= proof.entry < len(statement.entries), "entry", proof.entry, "does not exist")
     require(proof.lower, "lower", proof.lower, "must be true: the bound is from below")
     tree = statement.entries[proof.entry]
-    _require_values(statement)
+    statement.require_defined()
     return _broken(above_zero(tree), tree, proof)
 
 
@@ -154,23 +158,65 @@ def above_zero(tree: Tree) -> Relation:
 
 
 @lru_cache(maxsize=4096)
+def extent(tree: Tree) -> tuple[Fraction, Fraction]:
+    """The mean of an expression in sin q_i and cos q_i, and by how much it departs from that at most.
+
+    By the normal form in sines and cosines, and the sum of the amplitudes of its harmonics.
+
+    Raises:
+        Unsupported: the expression is anything else, or too large to be written in harmonics.
+    """
+    ratio, algebra = normal_form(tree)
+    if not ratio.bottom.is_constant():
+        raise Unsupported("division by something else than a number")
+    n = len(algebra.names)
+    places: dict[int | None, int] = {}
+    for k, name in enumerate(algebra.names):
+        angle = str(algebra.variable(name))
+        places |= {algebra.uses.get((kind, angle)): k + shift for kind, shift in (("sin", 0), ("cos", n))}
+    terms, count = [], 0
+    for exponents, c in ratio.top.to_dict().items():
+        powers = [0] * (2 * n)
+        for index, power in enumerate(map(int, exponents)):
+            if power and index not in places:
+                raise Unsupported("not a polynomial in sines and cosines of single angles")
+            if power:
+                powers[places[index]] = power
+        count += prod(1 + power for power in powers)
+        if count > MAX_EXPONENTIALS:
+            raise Unsupported(f"more than {MAX_EXPONENTIALS} exponentials")
+        share = c / ratio.bottom.leading_coefficient()
+        terms.append((tuple(powers), Fraction(int(share.p), int(share.q))))
+    found = harmonics(terms, n)
+    mean = found.pop((0,) * n, (Fraction(0),))[0]
+    amplitudes = (root_above(a * a + b * b) if a and b else abs(a + b) for a, b in found.values())
+    return mean, sum(amplitudes, Fraction(0))
+
+
 def largest(tree: Tree) -> Fraction:
     """An upper bound of |f|."""
-    return size(fourier_sum(tree))
+    mean, swing = extent(tree)
+    return abs(mean) + swing
 
 
 def lowest(tree: Tree) -> Fraction:
     """A lower bound of f."""
-    f = fourier_sum(tree)
-    return f.mean - f.swing
+    mean, swing = extent(tree)
+    return mean - swing
+
+
+def is_bounded(tree: Tree) -> bool:
+    """Whether an expression is plainly a polynomial in sines and cosines of angles: then it is bounded."""
+    kind, *rest = tree
+    if kind in ("add", "mul", "neg"):
+        return all(map(is_bounded, rest))
+    if kind == "pow":
+        return int(rest[1]) >= 0 and is_bounded(rest[0])
+    if kind == "div":
+        return is_bounded(rest[0]) and rest[1][0] == "num" and Fraction(rest[1][1]) != 0
+    return kind == "num" or (kind in ("sin", "cos") and rest[0][0] == "var")
 
 
 def _broken(relation: Relation, tree: Tree, proof: EntryWitness) -> Accepted:
     require_failure(relation.comparison, coordinates(proof.point, variables(tree)), proof.bits)
     return Accepted("refuted", "enclosure")
-
-
-def _require_values(statement: Statement) -> None:
-    """Refuse where an entry, also another one, may be without a value: a refutation needs them all."""
-    for tree, domain in statement.terms():
-        require_defined(tree, domain)

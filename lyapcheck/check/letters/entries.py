@@ -8,7 +8,14 @@ from functools import cached_property
 
 from flint import fmpq
 
-from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, derivative, evaluate, variables
+from lyapcheck.check.expressions.expression import (
+    ExactAlgebra,
+    Tree,
+    Unsupported,
+    derivative,
+    evaluate,
+    variables,
+)
 from lyapcheck.check.numbers.polynomials import rational
 
 ZERO: Tree = ("num", "0")
@@ -110,40 +117,6 @@ class Entries:
         return _sum([("mul", derivative(tree, name), self.moving[name]) for name in names])
 
 
-class Rationals(Algebra):
-    """Exact rational arithmetic; functions and constants that leave ℚ have no place in it."""
-
-    def number(self, value: Fraction) -> fmpq:
-        """The number itself."""
-        return rational(value)
-
-    def constant(self, name: str, m: int) -> fmpq:
-        """γ_1 = ρ_1 = L_1 = 1.
-
-        Raises:
-            Unsupported: for m > 1.
-        """
-        if m > 1:
-            raise Unsupported(f"{name}_{m} is not rational")
-        return fmpq(1)
-
-    def pi(self) -> fmpq:
-        """π has no place.
-
-        Raises:
-            Unsupported: always.
-        """
-        raise Unsupported("π is not rational")
-
-    def function(self, name: str, value: fmpq) -> fmpq:
-        """Functions have no place.
-
-        Raises:
-            Unsupported: always.
-        """
-        raise Unsupported(f"{name} leaves the rational numbers")
-
-
 def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
     """The value of an ordinary expression at a rational point.
 
@@ -151,7 +124,7 @@ def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
         Unsupported: the value is not found by rational arithmetic.
         ZeroDivisionError: it has no value there.
     """
-    return evaluate(tree, {name: rational(value) for name, value in point.items()}, Rationals())
+    return evaluate(tree, {name: rational(value) for name, value in point.items()}, ExactAlgebra())
 
 
 def _sum(parts: list[Tree]) -> Tree:

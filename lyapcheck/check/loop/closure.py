@@ -3,29 +3,23 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import product
-from math import isqrt, prod
+from math import isqrt
 
 from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.field import PI_ABOVE
+from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
-from lyapcheck.check.loop.states import Arm, Term
+from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.numbers.harmonics import (
-    Uncertain,
-    angles_in,
-    by_parameters,
-    largest,
-    mirrored,
-    uncertain_christoffel,
-)
+from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, mirrored
 from lyapcheck.check.numbers.members import Member, member
-
-PI_ABOVE = 3.1415926535897936
-"""A double above π."""
+from lyapcheck.check.statement import Proof
 
 LARGEST_RADIUS = 1 << 64
 """Radians; what takes more is no statement about an arm."""
@@ -75,14 +69,19 @@ class Closure:
         return self.viscous or tuple((b, b) for b in self.arm.viscous)
 
     @cached_property
+    def inertia(self) -> Inertia:
+        """M(q), the same for all the ε₀ that are tried on an arm."""
+        return inertia_of(self.arm.mass, self.parameters)
+
+    @property
     def mass(self) -> list[list[Uncertain]]:
         """M as harmonics, by powers of the parameters."""
-        return [[_harmonics(entry, self.n) for entry in row] for row in self.arm.mass]
+        return self.inertia.mass
 
-    @cached_property
+    @property
     def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
         """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
-        return uncertain_christoffel(self.mass)
+        return self.inertia.symbols
 
     @cached_property
     def stiffness(self) -> tuple[Fraction, ...]:
@@ -135,31 +134,15 @@ class Closure:
 
         ‖M‖ is at most its largest row sum, and ‖C(q,x)y‖ ≤ (Σ c_ijk²)^½ ‖x‖ ‖y‖.
         """
-        rows = [sum(map(self._largest, row), Fraction(0)) for row in self.mass]
-        squares = sum(
-            ((1 if j == k else 2) * self._largest(c) ** 2 for (_, j, k), c in self.symbols.items()),
-            Fraction(0),
-        )
-        largest_coupling = max(self.Lambda)
+        inertia, largest_coupling = self.inertia, max(self.Lambda)
         reach = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
         rho, slope = self.member.rho * largest_coupling, self.member.L * largest_coupling
         G = reach * slope / (slope + reach)
         return ScalarForm(
             stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
             friction=min(low for low, _ in self.friction),
-            drift=max(rows) * (rho + G) + reach * root_above(squares),
+            drift=inertia.largest_row() * (rho + G) + reach * root_above(inertia.squares_of_symbols()),
             cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
-        )
-
-    def _largest(self, entry: Uncertain) -> Fraction:
-        """A bound of the absolute value for all parameters in their ranges."""
-        sizes = [max(abs(low), abs(high)) for low, high in self.parameters]
-        return sum(
-            (
-                largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
-                for powers, part in entry.items()
-            ),
-            Fraction(0),
         )
 
     @cached_property
@@ -188,8 +171,7 @@ class Closure:
         if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
             return False
         powers = {len(p) for row in self.mass for entry in row for p in entry}
-        symmetric = all(self.mass[i][j] == self.mass[j][i] for i in range(self.n) for j in range(i))
-        return symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
+        return self.inertia.symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
 
     @cached_property
     def free(self) -> tuple[Range, ...]:
@@ -204,12 +186,6 @@ class Closure:
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 
 
-@lru_cache(maxsize=256)
-def _harmonics(entry: tuple[Term, ...], n: int) -> Uncertain:
-    """An entry of M as harmonics, once for all the ε₀ that are tried on an arm; to be read only."""
-    return by_parameters(entry, n)
-
-
 def root_above(value: Fraction) -> Fraction:
     """A rational not below the square root, within 10⁻¹² of it."""
     scale = 10**24
@@ -220,3 +196,15 @@ def root_above(value: Fraction) -> Fraction:
 
 def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
     return tuple((x + y) % 2 for x, y in zip(a, b, strict=True))
+
+
+class RateProof(Proof):
+    """A proof that dV/dt < 0 at every state but the origin of an admissible closed loop with M ≻ 0."""
+
+    @abstractmethod
+    def require_shown(self, closure: Closure) -> None:
+        """Judge it.
+
+        Raises:
+            Refused: it does not show that.
+        """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import prod
@@ -11,10 +12,9 @@ from flint import arb
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
 from lyapcheck.check.loop.boxes import Box, Side, halves
-from lyapcheck.check.loop.waves import Polynomial, waves
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, largest
+from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, angles_in, derivative, largest
 from lyapcheck.check.statement import Ends
 
 PI_ABOVE = 3.1415926535897936
@@ -25,6 +25,8 @@ Value = Any
 """A ball or a span, as the arithmetic has it."""
 Shows = Callable[[list[Value], Arithmetic], bool]
 """Whether enclosures of all polynomials show it."""
+Values = dict[tuple[int, ...], tuple[Value, Value]]
+"""The cosine and the sine of each harmonic."""
 
 
 class Field:
@@ -34,11 +36,18 @@ class Field:
         entries: the polynomials.
         n: number of joints.
         parameters: the range of each parameter.
+        angles: the joints whose angles boxes have as sides; all that occur, unless it is said.
     """
 
-    def __init__(self, entries: Sequence[Uncertain], n: int, parameters: Sequence[Ends]) -> None:
+    def __init__(
+        self,
+        entries: Sequence[Uncertain],
+        n: int,
+        parameters: Sequence[Ends],
+        angles: tuple[int, ...] | None = None,
+    ) -> None:
         self.n, self.parameters = n, tuple(parameters)
-        self.angles = angles_in([entries])
+        self.angles = angles_in([entries]) if angles is None else angles
         self.entries = [Polynomial(entry) for entry in entries]
         self.used = sorted({k for entry in self.entries for k in entry.used})
 
@@ -62,13 +71,17 @@ class Field:
         return True
 
     def over(self, box: Box, of: Arithmetic) -> list[Value]:
-        """The polynomials over a box of the angles that occur and the parameters."""
+        """The polynomials over a box of the angles and the parameters."""
+        count = len(self.angles)
+        return self.at(box[:count], [of.value(ball(side)) for side in box[count:]], of)
+
+    def at(self, sides: Box, parameters: Sequence[Value], of: Arithmetic) -> list[Value]:
+        """The polynomials over a box of the angles, with enclosures of the parameters."""
         q, middle = [arb(0)] * self.n, [arb(0)] * self.n
-        for joint, side in zip(self.angles, box, strict=False):
-            q[joint], middle[joint] = _ball(side), arb(0.5 * (side[0] + side[1]))
+        for joint, side in zip(self.angles, sides, strict=True):
+            q[joint], middle[joint] = ball(side), arb(0.5 * (side[0] + side[1]))
         offset = [of.value(a - b) for a, b in zip(q, middle, strict=True)]
-        parameters = [of.value(_ball(side)) for side in box[len(self.angles) :]]
-        wide, centre = waves(self.used, q, of), waves(self.used, middle, of)
+        wide, centre = cosines_and_sines(self.used, q, of), cosines_and_sines(self.used, middle, of)
         return [entry.over(wide, centre, offset, parameters, of) for entry in self.entries]
 
 
@@ -95,9 +108,97 @@ def value_at(entry: Uncertain, q: Sequence[Fraction], parameters: Sequence[Fract
     return total
 
 
-def _ball(side: Side) -> arb:
+def ball(side: Side) -> arb:
+    """The ball between two doubles, which it contains."""
     return arb(side[0]).union(arb(side[1]))
 
 
 def _side(ends: Ends) -> Side:
     return Enclosure(*ends).float_lower, Enclosure(*ends).float_upper
+
+
+class Polynomial:
+    """A trigonometric polynomial and its slopes, enclosed over boxes by two forms that both hold.
+
+    Its coefficients are polynomials in the parameters; each power of those is enclosed on its own.
+    """
+
+    def __init__(self, entry: Uncertain) -> None:
+        self.parts = [(powers, Part(terms)) for powers, terms in entry.items()]
+        self.used = [k for terms in entry.values() for k in terms if any(k)]
+
+    def over(
+        self,
+        wide: Values,
+        centre: Values,
+        offset: list[Value],
+        parameters: Sequence[Value],
+        of: Arithmetic,
+    ) -> Value:
+        """The values over a box of angles and parameters."""
+        total = of.value(arb(0))
+        for powers, part in self.parts:
+            value = part.over(wide, centre, offset, of)
+            for parameter, power in zip(parameters, powers, strict=True):
+                for _ in range(power):
+                    value = value * parameter
+            total = total + value
+        return total
+
+
+class Part:
+    """One power of the parameters: the ranges of its harmonics, cut with the mean value form."""
+
+    def __init__(self, terms: Harmonics) -> None:
+        self.terms = _lifted(terms)
+        joints = {i for k in terms for i, factor in enumerate(k) if factor}
+        self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
+
+    def over(self, wide: Values, centre: Values, offset: list[Value], of: Arithmetic) -> Value:
+        """The values over a box of angles."""
+        natural = _combined(self.terms, wide, of)
+        if not self.slopes:
+            return natural
+        mean = _combined(self.terms, centre, of)
+        for i, slope in self.slopes:
+            mean = mean + _combined(slope, wide, of) * offset[i]
+        return of.meet(natural, mean)
+
+
+Lifted = list[tuple[tuple[int, ...], arb, arb]]
+
+
+def _lifted(terms: Harmonics) -> Lifted:
+    return [(k, to_arb(a), to_arb(b)) for k, (a, b) in terms.items()]
+
+
+def _combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
+    total = of.value(arb(0))
+    for k, a, b in terms:
+        if k in values:
+            cosine, sine = values[k]
+            total = total + of.value(a) * cosine + of.value(b) * sine
+        else:
+            total = total + of.value(a)
+    return total
+
+
+def cosines_and_sines(used: Sequence[tuple[int, ...]], q: Sequence[arb], of: Arithmetic) -> Values:
+    """cos and sin of every harmonic."""
+    found: Values = {}
+    for k in used:
+        angle = sum((factor * x for factor, x in zip(k, q, strict=True) if factor), arb(0))
+        found[k] = of.value(cosine_range(angle)), of.value(cosine_range(angle - arb.pi() / 2))
+    return found
+
+
+def cosine_range(x: arb) -> arb:
+    """cos over a ball: the hull of both ends and of the extremes ±1 at the multiples of π in between."""
+    low, high = x.lower(), x.upper()
+    found = low.cos().union(high.cos())
+    turns = range(math.floor(float(low) / math.pi) - 1, math.ceil(float(high) / math.pi) + 2)
+    for k in turns:
+        place = k * arb.pi()
+        if not (place < low or place > high):
+            found = found.union(arb((-1) ** k))
+    return found

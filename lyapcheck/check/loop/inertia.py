@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from itertools import pairwise
 
 from flint import arb
 
@@ -45,12 +44,12 @@ class Inertia:
 
     def above(self, low: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether M(q) − low·I is positive definite throughout, by boxes that are cut until they show it."""
-        return self._lower_half().throughout(lambda m, of: _exceeds(self._rows(m), -1, low, of), most)
+        return self._lower_half().throughout(lambda m, of: exceeds(rows_of(m), -1, low, of), most)
 
     def below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether high·I − M(q) and high·I + M(q) are positive definite throughout: then ‖M(q)‖ < high."""
         return self._lower_half().throughout(
-            lambda m, of: all(_exceeds(self._rows(signed), 1, high, of) for signed in (m, _negative(m, of))),
+            lambda m, of: all(exceeds(rows_of(signed), 1, high, of) for signed in (m, _negative(m, of))),
             most,
         )
 
@@ -66,7 +65,7 @@ class Inertia:
 
         def shows(values: list[Value], of: Arithmetic) -> bool:
             c = dict(zip(places, values, strict=True))
-            return any(_exceeds(rows, 1, high * high, of) for rows in self._unfolded(c, of))
+            return any(exceeds(rows, 1, high * high, of) for rows in self._unfolded(c, of))
 
         return field.throughout(shows, most)
 
@@ -102,11 +101,6 @@ class Inertia:
         entries = [self.mass[i][j] for i in range(self.n) for j in range(i + 1)]
         return Field(entries, self.n, self.parameters)
 
-    def _rows(self, entries: Sequence[Value]) -> list[list[Value]]:
-        """The entries on and below the diagonal, row by row."""
-        starts = [i * (i + 1) // 2 for i in range(self.n + 1)]
-        return [list(entries[a:b]) for a, b in pairwise(starts)]
-
     def _unfolded(self, c: dict[tuple[int, int, int], Value], of: Arithmetic) -> list[list[list[Value]]]:
         """−Σ_i S_i² and −(tr S_i S_l)_il, the entries on and below the diagonal."""
         n, zero = range(self.n), of.value(arb(0))
@@ -137,7 +131,18 @@ def _product(x: list[Value], y: list[Value], same: bool, of: Arithmetic) -> Valu
     return sum((a * b for a, b in zip(x, y, strict=True)), zero)
 
 
-def _exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:
+def rows_of(entries: Sequence[Value]) -> list[list[Value]]:
+    """The entries on and below the diagonal of a matrix, row by row."""
+    found: list[list[Value]] = []
+    left = list(entries)
+    while left:
+        count = len(found) + 1
+        found.append(left[:count])
+        left = left[count:]
+    return found
+
+
+def exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:
     """Whether A ± shift·I is positive definite, A by its entries on and below the diagonal."""
     amount = of.value(to_arb(sign * shift))
     for i, row in enumerate(rows):

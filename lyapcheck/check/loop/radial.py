@@ -28,23 +28,25 @@ from itertools import pairwise
 
 from flint import arb, fmpq, fmpq_mat
 
+from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.boxes import Box, leaves
-from lyapcheck.check.loop.closure import PI_ABOVE, Closure, root_above
+from lyapcheck.check.loop.closure import Closure, RateProof, root_above
+from lyapcheck.check.loop.field import PI_ABOVE, Field
+from lyapcheck.check.loop.inertia import exceeds, rows_of
 from lyapcheck.check.loop.pull import pull_up
-from lyapcheck.check.loop.waves import cosine_range
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics
-from lyapcheck.check.numbers.matrices import balls_positive_definite
+from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics, Uncertain
 from lyapcheck.check.numbers.members import Member
 from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.refusal import require
 
 BITS = 64
 Table = list[list[Harmonics]]
 
 
-@dataclass(frozen=True, eq=False)
-class Radial:
-    """What a proof in r brings forward.
+@dataclass(frozen=True)
+class RadialBounds(RateProof):
+    """Bounds of the parts of dV/dt in r = ‖e‖ alone, untrusted.
 
     Args:
         weights: d_i > 0 with d_i² ≤ b_i, (N·m·s/rad)^½.
@@ -56,6 +58,7 @@ class Radial:
         cuts: values of r, rad, rising from 0; beyond the last one the bounds at infinity are used.
     """
 
+    rule = "bounds in ‖e‖"
     weights: tuple[Fraction, ...]
     inertia: Fraction
     lowest: Fraction
@@ -63,8 +66,13 @@ class Radial:
     tree: str
     cuts: tuple[Fraction, ...]
 
+    def require_shown(self, closure: Closure) -> None:
+        """By :func:`proves_radially`."""
+        shown = proves_radially(closure, self)
+        require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
 
-def proves_radially(closure: Closure, radial: Radial) -> bool:
+
+def proves_radially(closure: Closure, radial: RadialBounds) -> bool:
     """Whether dV/dt < 0 is shown at every state but the origin.
 
     Args:
@@ -85,7 +93,7 @@ def proves_radially(closure: Closure, radial: Radial) -> bool:
         return parts.inertia_shown() and Inequality(closure, parts).shown()
 
 
-def fits(closure: Closure, radial: Radial) -> bool:
+def fits(closure: Closure, radial: RadialBounds) -> bool:
     """Whether the data have the sizes and signs that the argument needs."""
     weights = len(radial.weights) == closure.n and all(
         d > 0 and d * d <= low for d, (low, _) in zip(radial.weights, closure.friction, strict=True)
@@ -98,7 +106,7 @@ def fits(closure: Closure, radial: Radial) -> bool:
 class Parts:
     """The bounds of M̃ and C̃; they do not depend on ε₀."""
 
-    def __init__(self, closure: Closure, radial: Radial) -> None:
+    def __init__(self, closure: Closure, radial: RadialBounds) -> None:
         self.closure = closure
         self.radial = radial
         self.mu = to_arb(radial.inertia)
@@ -148,15 +156,18 @@ class Parts:
         start: Box = ((-PI_ABOVE, PI_ABOVE),) * len(self.radial.angles)
         return all(self.shown_over(box) for box in leaves(start, self.radial.tree))
 
+    @cached_property
+    def field(self) -> Field:
+        """The entries of ``near`` on and below the diagonal."""
+        n = self.closure.n
+        entries: list[Uncertain] = [{(): self.near[i][j]} for i in range(n) for j in range(i + 1)]
+        return Field(entries, n, (), self.radial.angles)
+
     def shown_over(self, box: Box) -> bool:
         """Whether −ν < M̃ < μ over a box of the chosen angles, whatever the others are."""
-        q = [arb(0)] * self.closure.n
-        for joint, (low, high) in zip(self.radial.angles, box, strict=True):
-            q[joint] = arb(low).union(arb(high))
-        waves: dict[Harmonic, tuple[arb, arb]] = {}
-        M = [[_over(self.near[i][j], q, waves) for j in range(i + 1)] for i in range(self.closure.n)]
-        above, below = (to_arb(x - self.far) for x in (self.radial.inertia, self.radial.lowest))
-        return balls_positive_definite(_plus(above, -1, M)) and balls_positive_definite(_plus(below, 1, M))
+        M = self.field.over(box, BALLS)
+        above, below = self.radial.inertia - self.far, self.radial.lowest - self.far
+        return exceeds(rows_of([-x for x in M]), 1, above, BALLS) and exceeds(rows_of(M), 1, below, BALLS)
 
 
 class Inequality:
@@ -245,22 +256,3 @@ def _scaled(terms: Harmonics, by: Fraction) -> Harmonics:
 def _only(terms: Harmonics, joints: Sequence[int], inside: bool) -> Harmonics:
     """The harmonics that turn with the given joints only, or all the others."""
     return {k: ab for k, ab in terms.items() if all(x == 0 or i in joints for i, x in enumerate(k)) == inside}
-
-
-def _plus(diagonal: arb, sign: int, M: list[list[arb]]) -> list[list[arb]]:
-    """A multiple of I plus ±M, entries on and below the diagonal."""
-    return [
-        [diagonal + sign * x if i == j else sign * x for j, x in enumerate(row)] for i, row in enumerate(M)
-    ]
-
-
-def _over(terms: Harmonics, q: Sequence[arb], waves: dict[Harmonic, tuple[arb, arb]]) -> arb:
-    """A trigonometric polynomial over a box of angles."""
-    total = arb(0)
-    for k, (a, b) in terms.items():
-        if k not in waves:
-            angle = sum((factor * x for factor, x in zip(k, q, strict=True) if factor), arb(0))
-            waves[k] = cosine_range(angle), cosine_range(angle - arb.pi() / 2)
-        cosine, sine = waves[k]
-        total += to_arb(a) * cosine + to_arb(b) * sine
-    return total

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from itertools import chain
 from typing import Any
 
 from flint import arb
@@ -12,7 +11,7 @@ from flint import arb
 from lyapcheck.check.loop.arithmetic import Arithmetic
 from lyapcheck.check.loop.boxes import Box, Side
 from lyapcheck.check.loop.closure import Closure
-from lyapcheck.check.loop.waves import Polynomial, waves
+from lyapcheck.check.loop.field import Field, ball
 from lyapcheck.check.numbers.balls import to_arb
 
 Value = Any
@@ -41,10 +40,9 @@ class Evaluator:
         self.compliance = [of.value(1 / (4 * to_arb(k))) for k in closure.stiffness]
         self.half = of.value(arb(1) / 2)
         self.coupling = [of.value(to_arb(scale)) for scale in closure.coupling]
-        self.mass = [[Polynomial(entry) for entry in row] for row in closure.mass]
-        self.symbols = {place: Polynomial(terms) for place, terms in closure.symbols.items()}
+        entries = [closure.mass[i][j] for i in range(closure.n) for j in range(i + 1)]
+        self.field = Field([*entries, *closure.symbols.values()], closure.n, (), closure.angles)
         self.radius_squared = arb(closure.radius) ** 2
-        self.used = sorted({k for f in (*chain(*self.mass), *self.symbols.values()) for k in f.used})
         self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.h(ball(side))))
         self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.dh(ball(side))))
         self.square = lru_cache(maxsize=_KEPT)(_square)
@@ -120,19 +118,10 @@ class Evaluator:
         return known
 
     def _new_arm(self, sides: Box, parameters: list[Value]) -> tuple[Rows, Symbols]:
-        n = self.closure.n
-        q, middle = [arb(0)] * n, [arb(0)] * n
-        for joint, side in zip(self.closure.angles, sides, strict=True):
-            q[joint], middle[joint] = ball(side), arb(0.5 * (side[0] + side[1]))
-        offset = [self.of.value(a - b) for a, b in zip(q, middle, strict=True)]
-        over = waves(self.used, q, self.of), waves(self.used, middle, self.of), offset, parameters, self.of
-        M = [[f.over(*over) for f in row] for row in self.mass]
-        return M, {place: f.over(*over) for place, f in self.symbols.items()}
-
-
-def ball(side: Side) -> arb:
-    """The ball between two doubles, which it contains."""
-    return arb(side[0]).union(arb(side[1]))
+        found, n = self.field.at(sides, parameters, self.of), self.closure.n
+        below = {(i, j): found.pop(0) for i in range(n) for j in range(i + 1)}
+        M = [[below[max(i, j), min(i, j)] for j in range(n)] for i in range(n)]
+        return M, dict(zip(self.closure.symbols, found, strict=True))
 
 
 def _square(side: Side) -> arb:

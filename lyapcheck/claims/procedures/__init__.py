@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib import import_module
 from pkgutil import iter_modules
 
-from lyapcheck.check.expressions.defined import Undefined, require_defined
+from lyapcheck.check.expressions.defined import Undefined
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
@@ -60,8 +60,7 @@ def _without_value(statement: kinds.Statement) -> str:
     if isinstance(statement, kinds.AllOf):
         return next(filter(None, (_without_value(part) for _, part in statement.parts)), "")
     try:
-        for tree, domain in statement.terms():
-            require_defined(tree, domain)
+        statement.require_defined()
     except Refused as undefined:
         return str(undefined)
     return ""

@@ -23,7 +23,6 @@ from lyapcheck.check.kinds.for_all import (
     ZERO_BOX,
     Boxes,
     ForAll,
-    Piece,
     Pieces,
     Stretch,
     Sturm,
@@ -31,6 +30,7 @@ from lyapcheck.check.kinds.for_all import (
     zero_is_left_out,
     zero_must_be_positive,
 )
+from lyapcheck.check.statement import Piece
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
 from lyapcheck.claims.registry import procedure

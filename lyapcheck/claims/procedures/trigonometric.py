@@ -18,11 +18,11 @@ from lyapcheck.check.kinds.trigonometric import (
     TrigonometricBound,
     TrigonometricPositive,
     above_zero,
+    is_bounded,
     largest,
     lowest,
     within,
 )
-from lyapcheck.check.numbers.fourier import is_bounded
 from lyapcheck.check.statement import Relation
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.implication import counterexample, sampled

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from flint import arb, ctx, fmpq
 
-from lyapcheck.check.numbers.matrices import balls_positive_definite
+from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.constants.storage.exact import Exact, exact
 from lyapcheck.constants.storage.hinges import hinges
 from lyapcheck.constants.storage.kinetic import kinetic
@@ -30,7 +30,7 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
     Returns:
         By the name of the constant a function that gives the bound, or ``None`` where none was certified.
 
-    Soundness: the forms are rational, the slacks are exact, and `lyapcheck.check.numbers.matrices` shows in
+    Soundness: the forms are rational, the slacks are exact, and `lyapcheck.check.loop.arithmetic` shows in
         balls that they are positive definite; what the solver of semidefinite programs says is not relied on.
     """
     bodies, fall = hinges(chain)
@@ -87,6 +87,6 @@ def _definite(slack: Exact) -> bool:
     previous = ctx.prec
     ctx.prec = _BITS
     try:
-        return balls_positive_definite([[arb(x) for x in row] for row in np.asarray(slack)])
+        return BALLS.positive_definite([[arb(x) for x in row] for row in np.asarray(slack)])
     finally:
         ctx.prec = previous

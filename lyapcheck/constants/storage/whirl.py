@@ -20,7 +20,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from lyapcheck._types import Array
-from lyapcheck.check.numbers.matrices import balls_positive_definite
+from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.constants.storage import head, lift
 from lyapcheck.constants.storage.exact import Exact, rounded, zeros
 from lyapcheck.constants.storage.hinges import Hinge
@@ -173,6 +173,6 @@ def _definite(matrix: Exact) -> bool:
     previous = ctx.prec
     ctx.prec = _BITS
     try:
-        return balls_positive_definite([[arb(x) for x in row] for row in matrix])
+        return BALLS.positive_definite([[arb(x) for x in row] for row in matrix])
     finally:
         ctx.prec = previous

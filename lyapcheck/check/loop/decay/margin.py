@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from lyapcheck.check.loop import Closure
-from lyapcheck.check.loop.radial import BITS, Parts, Radial
+from lyapcheck.check.loop.radial import BITS, Parts, RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision
 
@@ -30,7 +30,7 @@ class Margin:
     stiffness: Fraction
     split: Fraction
     slack: Fraction
-    inertia: Radial
+    inertia: RadialBounds
 
     @property
     def reduced(self) -> Closure:

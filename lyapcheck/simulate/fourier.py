@@ -11,15 +11,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isqrt
-from typing import Any
 
 from flint import fmpq
 
-from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, evaluate, variables
-
 Frequency = tuple[tuple[str, int], ...]
-MAX_STEPS = 1_000_000
-"""Products of two terms each that the product of two sums may take."""
 ZERO, HALF = fmpq(0), fmpq(1, 2)
 
 
@@ -38,18 +33,10 @@ class Fourier:
         return Fourier({k: (-re, -im) for k, (re, im) in self.terms.items()})
 
     def __mul__(self, other: Fourier) -> Fourier:
-        if len(self.terms) * len(other.terms) > MAX_STEPS:
-            raise Unsupported(f"a product of sums of {len(self.terms)} and {len(other.terms)} frequencies")
         terms: dict[Frequency, tuple[fmpq, fmpq]] = {}
         for k, (a, b) in self.terms.items():
             _add(terms, {_sum(k, j): (a * c - b * d, a * d + b * c) for j, (c, d) in other.terms.items()})
         return Fourier(terms)
-
-    def __truediv__(self, other: Fourier) -> Fourier:
-        if set(other.terms) != {()} or other.terms[()][0] == 0:
-            raise Unsupported("division by something else than a number")
-        scale = 1 / other.terms[()][0]
-        return Fourier({k: (re * scale, im * scale) for k, (re, im) in self.terms.items()})
 
     @property
     def mean(self) -> Fraction:
@@ -60,31 +47,6 @@ class Fourier:
     def swing(self) -> Fraction:
         """An upper bound of Σ_{k≠0} |c_k|, exact where every c_k is real or imaginary."""
         return sum((_modulus(*map(_fraction, ab)) for k, ab in self.terms.items() if k), Fraction(0))
-
-
-@dataclass(frozen=True)
-class _Angle:
-    """An angle by its name; it has no arithmetic, so that sums of angles are refused."""
-
-    name: str
-
-
-class _FourierAlgebra(Algebra):
-    """Angles are names; only sin and cos of an angle are functions."""
-
-    def number(self, value: Fraction) -> Fourier:
-        return constant(value)
-
-    def constant(self, name: str, m: int) -> Fourier:
-        raise Unsupported(f"{name} is not rational")
-
-    def pi(self) -> Fourier:
-        raise Unsupported("pi is not rational")
-
-    def function(self, name: str, value: Any) -> Fourier:
-        if name not in ("sin", "cos") or not isinstance(value, _Angle):
-            raise Unsupported("not a polynomial in sines and cosines of single angles")
-        return sine(value.name) if name == "sin" else cosine(value.name)
 
 
 def constant(value: Fraction) -> Fourier:
@@ -105,33 +67,6 @@ def cosine(angle: str) -> Fourier:
 def size(value: Fourier) -> Fraction:
     """An upper bound of |f|."""
     return abs(value.mean) + value.swing
-
-
-def fourier_sum(tree: Tree) -> Fourier:
-    """The Fourier sum of an expression in sin q_i and cos q_i.
-
-    Raises:
-        Unsupported: the expression is anything else.
-    """
-    try:
-        result = evaluate(tree, {name: _Angle(name) for name in variables(tree)}, _FourierAlgebra())
-    except (TypeError, AttributeError) as error:
-        raise Unsupported("a variable outside sin and cos has no bound") from error
-    if not isinstance(result, Fourier):
-        raise Unsupported("a variable outside sin and cos has no bound")
-    return result
-
-
-def is_bounded(tree: Tree) -> bool:
-    """Whether an expression is plainly a polynomial in sines and cosines of angles: then it is bounded."""
-    kind, *rest = tree
-    if kind in ("add", "mul", "neg"):
-        return all(map(is_bounded, rest))
-    if kind == "pow":
-        return int(rest[1]) >= 0 and is_bounded(rest[0])
-    if kind == "div":
-        return is_bounded(rest[0]) and rest[1][0] == "num" and Fraction(rest[1][1]) != 0
-    return kind == "num" or (kind in ("sin", "cos") and rest[0][0] == "var")
 
 
 @lru_cache(maxsize=65536)
