@@ -73,18 +73,21 @@ MOST_COORDINATES = 3
 
 
 def witness_words(row: Data) -> str:
-    """Both sides of a refuted relation in a few digits, and where: for an overview."""
+    """Both sides of a refuted relation, in as few digits as tell them apart, and where: for an overview."""
     witness = row["witness"]
     if "point" not in witness:
         return "; ".join(f"{name}: {value}" for name, value in witness.items())
     point = [f"{name} = {value}" for name, value in witness["point"].items()]
     where = f" at {', '.join(point)}" if 0 < len(point) <= MOST_COORDINATES else ""
-    left, right = (span_words(witness[side]) for side in ("left", "right"))
+    sides = witness["left"], witness["right"]
+    words = ([span_words(side, digits) for side in sides] for digits in range(6, 17, 2))
+    whole = ["–".join(dict.fromkeys(side)) for side in sides]
+    left, right = next((pair for pair in words if pair[0] != pair[1]), whole)
     extra = [f"; {name}: {span_words(witness[name])}" for name in witness if name.endswith("gives it")]
     return f"{left} is not {witness['operator'].replace('<=', '≤')} {right}{where}{''.join(extra)}"
 
 
-def span_words(ends: Sequence[str]) -> str:
-    """An enclosure in six digits; a range where its ends differ by more."""
-    low, high = (f"{float(end):.6g}" for end in ends)
+def span_words(ends: Sequence[str], digits: int = 6) -> str:
+    """An enclosure in a few digits; a range where its ends differ by more."""
+    low, high = (f"{float(end):.{digits}g}" for end in ends)
     return low if low == high else f"{low} to {high}"

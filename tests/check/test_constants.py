@@ -178,13 +178,13 @@ def test_gamma_less_than_decides_however_close_the_bound_is(m, exponent, sign):
 
 def test_equality_is_recognised_by_a_common_positive_root():
     """γ_m² is irrational for the m tried, so equality is planted: R vanishes at the peak of a stand-in."""
-    from lyapcheck.check.numbers import constants
+    from lyapcheck.family import compared
 
-    assert constants._has_positive_root(constants.fmpq_poly([-2, 0, 1]))
-    assert not constants._has_positive_root(constants.fmpq_poly([1, 1]))
-    assert not constants._has_positive_root(constants.fmpq_poly([3]))
+    assert compared._has_positive_root(compared.fmpq_poly([-2, 0, 1]))
+    assert not compared._has_positive_root(compared.fmpq_poly([1, 1]))
+    assert not compared._has_positive_root(compared.fmpq_poly([3]))
     assert not any(
-        constants._gamma_squared_is(m, hyperbolic_constants(m, 50).gamma.mid ** 2) for m in (2, 3, 9)
+        compared._gamma_squared_is(m, hyperbolic_constants(m, 50).gamma.mid ** 2) for m in (2, 3, 9)
     )
 
 

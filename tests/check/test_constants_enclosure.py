@@ -161,3 +161,8 @@ def test_numbers_that_would_fill_the_memory_are_refused(power):
     """2^(10^15) is a ball of a few bytes, and a rational of a hundred terabytes."""
     with pytest.raises(ValueError, match="too large or too small to write down"):
         Enclosure.from_arb(arb(2) ** power)
+
+
+def test_the_ends_of_zero_are_zero_without_a_sign():
+    ends = Enclosure.exact(0).float_lower, Enclosure.exact(0).float_upper
+    assert [math.copysign(1, end) for end in ends] == [1, 1]

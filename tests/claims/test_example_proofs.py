@@ -1,5 +1,6 @@
 """The example proofs: one of another family that is proved, and one that must not be accepted."""
 
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
+from lyapcheck.report.text import witness_words
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.command import invoke
 
@@ -40,6 +42,15 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
     assert result.exit_code is Exit.REFUTED
     for certificate in result.certificates.values():
         assert judge(certificate).verdict == found[certificate.claim.id]
+
+
+def test_both_sides_of_a_refuted_inequality_look_different():
+    (row,) = run_proof(MUST_FAIL, ms=(1,), only=("wrong",)).claims
+    left, right = (row.decision.witness[side] for side in ("left", "right"))
+    assert Fraction(left[0]) > Fraction(right[1])
+    shown = witness_words({"witness": row.decision.witness})
+    first, second = shown.split(" at ")[0].split(" is not ≤ ")
+    assert first != second
 
 
 def test_the_command_says_so_too():

@@ -62,7 +62,7 @@ class Enclosure:
     @property
     def float_upper(self) -> float:
         """The smallest double that is not below ``upper``."""
-        return -Enclosure(-self.upper, -self.lower).float_lower
+        return 0.0 - Enclosure(-self.upper, -self.lower).float_lower
 
     def less(self, other: Enclosure | Fraction | int) -> bool | None:
         """Whether this number is below the other one; ``None`` where the intervals do not decide it."""

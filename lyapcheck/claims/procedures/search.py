@@ -16,6 +16,9 @@ BITS = 192
 LARGEST = 4096
 """The binary exponent of the largest number in a witness, and of the inverse of the smallest."""
 
+MOST_DIGITS = 400
+"""That are shown of a side, however near it is to the other."""
+
 Point = dict[str, Fraction]
 Failure = tuple[Comparison, Point, Sides]
 
@@ -53,10 +56,18 @@ def point_of(point: Point) -> Coordinates:
 def witness_data(failure: Failure, **more: Any) -> dict[str, Any]:
     """A witness as plain data: the exact point, and both sides between decimals."""
     claim, point, sides = failure
-    return {
-        "point": {name: str(value) for name, value in sorted(point.items())},
-        "left": list(sides.left.decimals(12)),
-        "operator": claim[1],
-        "right": list(sides.right.decimals(12)),
-        **more,
-    }
+    left, right = told_apart(sides.left, sides.right)
+    shown = {name: str(value) for name, value in sorted(point.items())}
+    return {"point": shown, "left": left, "operator": claim[1], "right": right, **more}
+
+
+def told_apart(left: Enclosure, right: Enclosure) -> tuple[list[str], list[str]]:
+    """Both between decimals: with 12 digits, or as many as it takes for two numbers to look different."""
+    digits = 12
+    while True:
+        shown = left.decimals(digits), right.decimals(digits)
+        lower, upper = sorted(tuple(map(Fraction, ends)) for ends in shown)
+        overlap = max(left.lower, right.lower) <= min(left.upper, right.upper)
+        if overlap or digits >= MOST_DIGITS or lower[1] < upper[0]:
+            return list(shown[0]), list(shown[1])
+        digits += 4
