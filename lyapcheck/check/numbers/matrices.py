@@ -22,7 +22,7 @@ def is_positive_semidefinite(rows: Rows) -> bool:
 
 
 def is_positive_definite(rows: Rows) -> bool:
-    """Whether xᵀAx > 0 for all x ≠ 0, for a symmetric A: no eigenvalue is negative, nor is their product 0."""
+    """Whether xᵀAx > 0 for all x ≠ 0, for a symmetric A: no eigenvalue is negative, and none is 0."""
     return all(c > 0 for c in _sums_of_products(rows))
 
 
