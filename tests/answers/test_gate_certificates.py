@@ -334,8 +334,9 @@ def recheck(folder: Path) -> tuple[int, str]:
 def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tuple[str, ...]) -> None:
     judged_by_command(str(TABLE2), f"--certificates={tmp_path / 'made'}", *words)
     made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}
-    assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json"} <= made.keys()
-    assert len(made) == 3 * (7 if len(words) == 3 else 5)
+    of_gravity = {"reyes-kelly2.k_g1.json", "reyes-kelly2.k_g2.json"}
+    assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json", *of_gravity} <= made.keys()
+    assert len(made.keys() - of_gravity) == 3 * (7 if len(words) == 3 else 5)
     for document in made.values():
         assert document["claim"]["proof"] == "gate"
     code, said = recheck(tmp_path / "made")
@@ -347,7 +348,32 @@ def test_other_functions_have_certificates_too(tmp_path: Path, family: str) -> N
     path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'")
     path.write_text(path.read_text().replace("m = 2", f"family = '{family}'"))
     judged_by_command(str(path), "--certificates", str(tmp_path / "made"))
-    assert len(list((tmp_path / "made").iterdir())) == 5
+    found = [path.name for path in (tmp_path / "made").iterdir() if ".k_g" not in path.name]
+    assert len(found) == 5
+    assert recheck(tmp_path / "made")[0] == 0
+
+
+def test_an_accepted_check_rests_on_the_bounds_of_gravity_that_enter_it(tmp_path: Path) -> None:
+    judged_by_command(str(TABLE2), "--certificates", str(tmp_path / "made"))
+    document = json.loads((tmp_path / "made" / "tau_m1.10p.shoulder.json").read_text())
+    assert (document["verdict"], list(document["uses"])) == ("proved", ["reyes-kelly2.k_g1"])
+    (tmp_path / "made" / "reyes-kelly2.k_g1.json").unlink()
+    code, said = recheck(tmp_path / "made")
+    assert code == 3
+    assert "rests on reyes-kelly2.k_g1, whose certificate" in " ".join(said.split())
+
+
+def test_bounds_of_the_gain_file_and_those_that_nothing_shows_are_said(tmp_path: Path) -> None:
+    own = "[bounds]\nviscous_min = 0.3\ntorque = [150, 15]\ngravity = [40, 2]\n"
+    judged_by_command(
+        str(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", end=own)),
+        f"--certificates={tmp_path / 'own'}",
+    )
+    assert not [path for path in (tmp_path / "own").iterdir() if ".k_g" in path.name]
+    gains = Path(__file__).parents[2] / "examples" / "panda_gains.toml"
+    done = judged_by_command(str(gains), "--certificates", str(tmp_path / "made"))
+    assert "no certificate shows |g_2| ≤ 69.59" in done.stderr
+    assert "no certificate shows |g_1|" not in done.stderr
     assert recheck(tmp_path / "made")[0] == 0
 
 

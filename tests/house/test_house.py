@@ -57,36 +57,3 @@ def test_the_checker_imports_nothing_from_the_rest_of_the_house() -> None:
         if module.startswith("lyapcheck.check."):
             outside = [n for n in imported(module) if n.startswith("lyapcheck.") and ".check" not in n]
             assert not outside, f"{module} imports {outside}"
-
-
-VERDICTS = ("proved", "refuted", "accepted", "rejected")
-PROPOSALS = {
-    "lyapcheck.claims.finding": "what a search proposes, which the rules are asked about before it is shown",
-    "lyapcheck.answers.bounds.certificates": "a certificate, which recheck judges",
-    "lyapcheck.answers.epsilon.certificates": "a certificate, which recheck judges",
-}
-
-
-def given_verdicts(module: str) -> Iterator[str]:
-    """The calls and returns of a module that hand on a verdict that is written there and was not found."""
-    for node in ast.walk(ast.parse(modules()[module].read_text(encoding="utf-8"))):
-        handed: list[ast.expr | None] = []
-        if isinstance(node, ast.Call):
-            handed = [*node.args, *(keyword.value for keyword in node.keywords)]
-        elif isinstance(node, ast.Return):
-            handed = [node.value]
-        for value in handed:
-            name = "" if value is None else ast.unparse(value)
-            is_member = name.startswith("Verdict.") and name.removeprefix("Verdict.").lower() in VERDICTS
-            is_word = (
-                isinstance(node, ast.Call) and isinstance(value, ast.Constant) and value.value in VERDICTS
-            )
-            if is_member or is_word:
-                yield f"{module}: {ast.unparse(node)}"
-
-
-def test_nobody_but_the_checker_makes_a_verdict() -> None:
-    outside = [name for name in modules() if not name.startswith("lyapcheck.check")]
-    found = {name: list(given_verdicts(name)) for name in outside}
-    assert {name for name, calls in found.items() if calls} == set(PROPOSALS), found
-    assert any(given_verdicts("lyapcheck.check.kinds.identity")), "the checker itself does"

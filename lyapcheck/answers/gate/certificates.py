@@ -1,51 +1,116 @@
-"""What the gate decided, as certificates that ``lyapcheck recheck`` judges again: one for each check."""
+"""What the gate decided, as certificates that ``lyapcheck recheck`` judges again: one for each check.
+
+A check that is proved uses those of the bounds k_gi that enter it, |g_i(q)| ≤ k_gi for all q, where these are
+of an arm and not of the gain file.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from lyapcheck.answers.gate.words import RULES, joint_name
 from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
+from lyapcheck.control.judgement import judged
 from lyapcheck.errors import argument_error
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots import load
+from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from fractions import Fraction
 
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.control.conditions import Check
 
 PROOF = "gate"
+FEW = 3
+"""Joints up to which boxes may show a bound of gravity."""
 
 
-def certificates(results: Sequence[GateResult]) -> dict[str, Certificate]:
-    """Certificates by file name; a check that is undecided has none.
+@dataclass
+class Certified:
+    """Certificates by file name, and what of the arm none of them shows, in sentences."""
+
+    certificates: dict[str, Certificate] = field(default_factory=dict)
+    granted: list[str] = field(default_factory=list)
+
+
+def certificates(results: Sequence[GateResult]) -> Certified:
+    """The certificates of all checks; one that is undecided has none.
 
     Raises:
         InputError: gain sets of two files have the same name, and so would their certificates.
     """
-    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
-    found: dict[str, Certificate] = {}
+    made = Certified()
     for result in results:
+        limits = result.limits
+        of_the_arm = limits.robot and result.file.bounds.gravity is None
+        gravity = _gravity(limits.robot, limits.gravity) if of_the_arm else (None,) * limits.n
+        if of_the_arm:
+            missing = (f"|g_{i + 1}| ≤ {decimal_text(limits.gravity[i])} N·m" for i in _missing(gravity))
+            made.granted += (f"{limits.robot}: no certificate shows {one} for all q" for one in missing)
         for check in result.checks:
-            made = _certificate(result, check, used)
-            if made is None:
+            entering = gravity if check.id == "10" else gravity[check.joint or 0 :][:1]
+            used = [one for one in entering if one is not None and check.id in ("10", "10p")]
+            found = _certificate(result, check, used)
+            if found is None:
                 continue
-            name = f"{quote(made.claim.id, safe='')}.json"
-            if name in found:
+            for one in used if found.uses else []:
+                made.certificates[_file(one)] = one
+            if _file(found) in made.certificates:
                 raise argument_error(
                     "--certificates", result.name, "names gain sets of two files", "judge one file at a time"
                 )
-            found[name] = made
-    return found
+            made.certificates[_file(found)] = found
+    made.granted = list(dict.fromkeys(made.granted))
+    return made
 
 
-def _certificate(result: GateResult, check: Check, versions: dict[str, str]) -> Certificate | None:
+def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) -> Certificate | None:
     found = check.judgement
     if found is None or found.proof is None:
         return None
     parts = [result.name, check.id, *([] if check.joint is None else [joint_name(result, check)])]
     says = f"{result.name}, {joint_name(result, check)}: {RULES[check.id]}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
-    return Certificate(about, found.statement, found.shown, found.grade, found.proof, {}, versions)
+    uses = {one.claim.id: one.digest for one in used} if found.shown == "proved" else {}
+    return Certificate(about, found.statement, found.shown, found.grade, found.proof, uses, _versions())
+
+
+@lru_cache(maxsize=16)
+def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | None, ...]:
+    """A certificate of |g_i| ≤ k_gi for each joint; ``None`` where the checker is not shown it."""
+    model = load(robot)
+    ranges = tuple(number.bounds for number in model.parameters.values())
+    found: list[Certificate | None] = []
+    for i, (torque, bound) in enumerate(zip(model.gravity, bounds, strict=True)):
+        statement = GravityBelow(model.n, (tuple(to_terms(torque)),), ranges, bound)
+        proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW else []))
+        its = judged(statement, proofs)
+        if its.proof is None or its.shown != "proved":
+            found.append(None)
+            continue
+        says = f"{model.name}: |g_{i + 1}(q)| ≤ k_g{i + 1} = {decimal_text(bound)} N·m"
+        about = About(f"{model.name}.k_g{i + 1}", says, None, model.n, PROOF)
+        found.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, _versions()))
+    return tuple(found)
+
+
+def _missing(gravity: Sequence[Certificate | None]) -> Iterator[int]:
+    return (i for i, one in enumerate(gravity) if one is None)
+
+
+def _file(certificate: Certificate) -> str:
+    return f"{quote(certificate.claim.id, safe='')}.json"
+
+
+def _versions() -> dict[str, str]:
+    return {name: version(name) for name in ("lyapcheck", "python-flint")}

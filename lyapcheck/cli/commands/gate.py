@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -93,5 +95,8 @@ def _write_certificates(folder: Path, answer: GateAnswer) -> None:
     from lyapcheck.answers.gate.certificates import certificates
     from lyapcheck.cli.output import write_whole
 
-    for name, certificate in certificates(answer).items():
+    made = certificates(answer)
+    for name, certificate in made.certificates.items():
         write_whole(folder / name, certificate.text())
+    for sentence in made.granted:
+        print(f"note: {sentence}", file=sys.stderr)
