@@ -179,7 +179,7 @@ def extent(tree: Tree) -> tuple[Fraction, Fraction]:
         powers = [0] * (2 * n)
         for index, power in enumerate(map(int, exponents)):
             if power and index not in places:
-                raise Unsupported("not a polynomial in sines and cosines of single angles")
+                raise Unsupported("what is outside sin and cos of single angles has no bound")
             if power:
                 powers[places[index]] = power
         count += prod(1 + power for power in powers)
