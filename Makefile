@@ -3,7 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report study test test-slow test-robots fuzz lint types bench lock clean help
+.PHONY: report study test test-slow test-robots kernel fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
@@ -11,6 +11,7 @@ help:
 	@echo "make test       the fast tests"
 	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
+	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
 	@echo "make lint       style (ruff) and formatting"
 	@echo "make types      static types (mypy --strict)"
@@ -33,6 +34,12 @@ test-slow: .venv/.ready
 test-robots: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
 	$(BIN)/pytest tests/robots/against_pinocchio.py
+
+# Only this target needs Coq; it installs nothing by itself.
+kernel:
+	@command -v coqc > /dev/null || \
+	  { echo "make kernel needs Coq: apt-get install --no-install-recommends coq libcoq-interval"; exit 2; }
+	@$(MAKE) --no-print-directory -C formal golden
 
 fuzz: .venv/.ready
 	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json

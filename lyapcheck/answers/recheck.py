@@ -10,6 +10,7 @@ from typing import Any
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.render import as_json
+from lyapcheck.kernel.judge import Kernel
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
@@ -32,16 +33,25 @@ class Recheck(Answer):
     Args:
         outcome: of the checker.
         trusted: whether to list the rules and modules that the verdicts rest on.
+        kernel: what Coq's kernel says of each certificate, if it was asked.
     """
 
     schema = "lyapcheck/recheck/2"
 
     outcome: Outcome
     trusted: bool = False
+    kernel: tuple[Kernel, ...] = ()
 
     def document(self) -> Document:
         """Alarms, then every certificate, those that are not accepted first, then what all of it rests on."""
-        parts = (self._alarms(), self._checked(), self._theorems(), self._granted(), self._code())
+        parts = (
+            self._alarms(),
+            self._checked(),
+            self._kernel(),
+            self._theorems(),
+            self._granted(),
+            self._code(),
+        )
         unlimited = [name for name in ("seconds", "memory") if name not in self.outcome.limited]
         notes = (WHOSE, *(f"The system keeps no limit on {name} here." for name in unlimited))
         return Document(self._title(), tuple(section for part in parts for section in part), notes)
@@ -94,6 +104,19 @@ class Recheck(Answer):
 
     def _with(self, status: str) -> list[Checked]:
         return [one for one in self.outcome.checked if one.status == status]
+
+    def _kernel(self) -> Iterator[Section]:
+        """What Coq's kernel accepted, and why not the others."""
+        if self.kernel:
+            rows = tuple(
+                (SIGNS["accepted"] if one.accepted else "·", one.file, one.axioms or one.reason)
+                for one in self.kernel
+            )
+            accepted = sum(one.accepted for one in self.kernel)
+            heads = ("", "file", "golden list of its axioms, or why not")
+            yield Section(
+                f"Coq's kernel ({accepted} of {len(rows)})", (Table(heads, rows, align="lll", keys=2),)
+            )
 
     def _theorems(self) -> Iterator[Section]:
         rows = [

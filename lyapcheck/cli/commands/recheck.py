@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.check import command
@@ -22,6 +23,10 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--trusted", action="store_true", help=HELP["trusted"])
     parser.add_whole("--seconds", HELP["seconds"], default=Limits.seconds, least=1, most=MOST)
     parser.add_whole("--memory", HELP["memory"], default=Limits.memory, least=1, most=MOST)
+    about = "Also print what each shows as a theorem of Coq's, and have Coq's kernel judge it; needs coqc."
+    parser.add_argument("--kernel", action="store_true", help=about)
+    about = "The same, and keep the files for Coq in this folder."
+    parser.add_argument("--kernel-files", metavar="DIR", type=Path, help=about)
     add_format(parser)
 
 
@@ -31,6 +36,8 @@ def run(
     trusted: bool,
     seconds: int,
     memory: int,
+    kernel: bool,
+    kernel_files: Path | None,
     format: str,  # noqa: A002
 ) -> int:
     """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
@@ -44,7 +51,17 @@ def run(
     Examples:
       lyapcheck recheck proof/
       lyapcheck recheck proof/16.6.json --trusted
+      lyapcheck recheck proof/ --kernel
     """
+    if kernel or kernel_files is not None:
+        from lyapcheck.answers.kernel import writer
+        from lyapcheck.cli.output import open_folder
+        from lyapcheck.cli.progress import progress
+
+        folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
+        with progress("kernel") as advance:
+            both = writer(format, seconds, folder, lambda note: advance(0, note))
+            return command.run(certificates, format, full, trusted, seconds, memory, {format: both})
 
     def written(outcome: Outcome, with_trusted: bool) -> str:
         from lyapcheck.answers.recheck import Recheck

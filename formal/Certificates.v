@@ -1,0 +1,52 @@
+(** What the proofs of printed certificates use. Nothing of a statement is defined here. *)
+From Coq Require Export Reals QArith Qreals List Lra Lia Psatz.
+From Coquelicot Require Export Coquelicot.
+From Interval Require Export Tactic.
+Require Export Definitions.
+Require Export Family Bounds Stability.
+Export ListNotations.
+Open Scope R_scope.
+
+(** *** Norms of vectors of values *)
+Lemma norm_of_bounded n f (c B : R) : (forall x, Rabs (f x) <= c) -> sqrt (INR n) * c <= B -> forall x : vec, norm n (fun i => f (x i)) <= B.
+Proof.
+  intros H HB x. eapply Rle_trans; [|exact HB]. apply Loop.bounded_norm; [|intros i; apply H].
+  eapply Rle_trans; [apply Rabs_pos|apply (H 0)].
+Qed.
+Lemma norm_of_linear n f (c B : R) : (forall x, Rabs (f x) <= c * Rabs x) -> 0 <= c -> c <= B -> forall x : vec, norm n (fun i => f (x i)) <= B * norm n x.
+Proof.
+  intros H Hc HB x. apply Rle_trans with (c * norm n x); [|apply Rmult_le_compat_r; [apply Loop.norm_pos|exact HB]].
+  rewrite <- Loop.norm_scal by exact Hc. rewrite <- (Loop.norm_abs n (fun i => c * x i)). apply Loop.norm_le. intros i.
+  rewrite Rabs_Rabsolu, Rabs_mult, (Rabs_pos_eq c) by exact Hc. apply H.
+Qed.
+
+(** *** Tactics *)
+Ltac open_numbers := unfold h, dh, U, bottom, sinh, cosh, norm, dot, entries, Q2R; cbn [sum nth Qnum Qden];
+  cbv [Nat.mul Nat.sub Nat.add]; spell 0%nat.
+(** A relation between numbers. *)
+Ltac numbers := intros; first [lra | open_numbers; interval with (i_prec 120)].
+(** A relation that a point refutes. *)
+Ltac fails H := revert H; first [apply Rlt_not_le | apply Rle_not_lt | apply Rgt_not_eq | apply Rlt_not_eq]; numbers.
+(** An identity in sinh and cosh of one variable. *)
+Ltac identity := intros; first
+  [ apply h_odd; lia | apply h_zero; lia | lra | ring
+  | match goal with |- context [sinh ?x] => unfold h, dh, U, bottom; cbv [Nat.mul Nat.sub Nat.add]; spell 0%nat;
+      let E := fresh in let s := fresh "s" in let c := fresh "c" in
+      pose proof (cosh2 x) as E; set (s := sinh x) in *; set (c := cosh x) in *; clearbody s c;
+      repeat match goal with |- context [1 + s ^ ?k] => let j := eval compute in (Nat.div2 k) in
+        lazymatch goal with K : 0 <= s ^ k |- _ => fail | _ => assert (0 <= s ^ k) by exact (even_pow_pos s j) end end;
+      field [E]; repeat split; lra
+    end ].
+(** Signs of h_m and of what else is plainly positive. *)
+Ltac signs x := first
+  [ lra
+  | apply h_pos; lra
+  | match goal with |- 0 <= x * h ?m x => destruct (Req_dec x 0) as [->|N]; [lra|left; apply h_sign; [lia|auto]] end
+  | match goal with |- context [sinh x ^ ?k] => let j := eval compute in (Nat.div2 k) in
+      let E := fresh in assert (E : 0 <= sinh x ^ k) by exact (even_pow_pos (sinh x) j); lra end
+  | interval with (i_bisect x, i_autodiff x, i_prec 60) ].
+(** |h_m(x)| <= c |x|: what [secant_at_most] asks near 0, and in between. *)
+Ltac prove_near_zero := let x := fresh "x" in let H := fresh "H" in intros x H; cbv [Nat.mul Nat.sub Nat.add];
+  unfold sinh, cosh; spell 0%nat; interval with (i_bisect x, i_autodiff x, i_prec 60).
+Ltac prove_between := let x := fresh "x" in let H := fresh "H" in intros x H; apply Rminus_le; open_numbers;
+  interval with (i_bisect x, i_autodiff x, i_prec 60, i_depth 40).

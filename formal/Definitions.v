@@ -1,0 +1,135 @@
+(** Everything that a statement here means.  A reader who trusts Coq's kernel has to check this page alone:
+    no proof needs to be read, since Coq has checked them all.  (n) are formulas and properties of the paper,
+    q~ is e, dq/dt is w, and eps0, kp, kv are epsilon_0 and the diagonals of K_p and K_v. *)
+From Coq Require Import Reals QArith Qreals List.
+From Coquelicot Require Import Coquelicot.
+Import ListNotations.
+Open Scope R_scope.
+
+(** ** The family of functions, (6) to (8) *)
+
+(** 1 + sinh^(2m) x *)
+Definition bottom (m : nat) (x : R) : R := 1 + sinh x ^ (2 * m).
+(** h_m(x) = sinh^(2m-1) x cosh x / (1 + sinh^(2m) x) *)
+Definition h (m : nat) (x : R) : R := sinh x ^ (2 * m - 1) * cosh x / bottom m x.
+(** h_m'(x) = ((2m-1) sinh^(2m-2) x + 2m sinh^(2m) x - sinh^(4m-2) x) / (1 + sinh^(2m) x)^2 *)
+Definition dh (m : nat) (x : R) : R :=
+  (INR (2 * m - 1) * sinh x ^ (2 * m - 2) + INR (2 * m) * sinh x ^ (2 * m) - sinh x ^ (4 * m - 2)) / bottom m x ^ 2.
+(** U_m(x) = ln(1 + sinh^(2m) x) / (2m) *)
+Definition U (m : nat) (x : R) : R := ln (bottom m x) / INR (2 * m).
+
+(** The least upper bound of f where P holds. *)
+Definition sup (P : R -> Prop) (f : R -> R) : R := real (Lub_Rbar (fun y => exists x, P x /\ y = f x)).
+(** gamma_m = sup h_m,  rho_m = sup |h_m'|,  L_m = sup of h_m(x)/x over x > 0 *)
+Definition gamma (m : nat) : R := sup (fun _ => True) (h m).
+Definition rho (m : nat) : R := sup (fun _ => True) (fun x => Rabs (dh m x)).
+Definition L (m : nat) : R := sup (fun x => 0 < x) (fun x => h m x / x).
+
+(** ** Vectors and matrices: entries 0 to n - 1 count, the others are not looked at *)
+Definition vec := nat -> R.
+Definition mat := nat -> nat -> R.
+(** f 0 + ... + f (k - 1) *)
+Fixpoint sum (k : nat) (f : nat -> R) : R := match k with O => 0 | S k' => sum k' f + f k' end.
+Definition dot (n : nat) (x y : vec) : R := sum n (fun i => x i * y i).
+Definition norm (n : nat) (x : vec) : R := sqrt (dot n x x).
+Definition apply_ (n : nat) (A : mat) (x : vec) : vec := fun i => dot n (A i) x.
+(** The vector with these entries. *)
+Definition entries (l : list Q) : vec := fun i => Q2R (nth i l 0%Q).
+(** Not all of the first n entries of x and y are 0. *)
+Definition away (n : nat) (x y : vec) : Prop := exists i, (i < n)%nat /\ (x i <> 0 \/ y i <> 0).
+
+(** ** A robot with Properties 2.1 to 2.7: M(q), C(q, w), the diagonal b of B, and their bounds *)
+Record robot (n : nat) := Robot {
+  M : vec -> mat; C : vec -> vec -> mat; b : vec;
+  alpha : R; beta : R; kc : R; b_min : R; b_max : R;
+  alpha_pos : 0 < alpha; beta_pos : 0 <= beta; kc_pos : 0 <= kc; b_min_pos : 0 < b_min;
+  M_sym : forall q i j, (i < n)%nat -> (j < n)%nat -> M q i j = M q j i;                          (* 2.1 *)
+  M_low : forall q x, alpha * dot n x x <= dot n x (apply_ n (M q) x);                            (* 2.1 *)
+  M_up : forall q x, norm n (apply_ n (M q) x) <= beta * norm n x;                                (* 2.2 *)
+  M_rate : forall (q : R -> vec) t v, (forall i, (i < n)%nat -> is_derive (fun s => q s i) t (v i)) ->
+    forall i j, (i < n)%nat -> (j < n)%nat ->                                                     (* 2.4, 2.5 *)
+    is_derive (fun s => M (q s) i j) t (C (q t) v i j + C (q t) v j i);
+  C_up : forall q x y, norm n (apply_ n (C q x) y) <= kc * norm n x * norm n y;                   (* 2.3, 2.6 *)
+  b_order : b_min <= b_max; b_range : forall i, (i < n)%nat -> b_min <= b i <= b_max }.           (* 2.7 *)
+Arguments M {n}. Arguments C {n}. Arguments b {n}. Arguments alpha {n}. Arguments beta {n}. Arguments kc {n}.
+Arguments b_min {n}. Arguments b_max {n}.
+
+(** ** The closed loop (11), V of (13), and what is said of them *)
+Section Loop.
+Variable n : nat.                                  (* joints *)
+Variables (Mq : vec -> mat) (Cq : vec -> vec -> mat) (bv : vec).
+Variables (hf Uf : R -> R) (kp kv qd : vec).       (* the function with its integral, the gains, the goal q_d *)
+
+(** (11) holds at time t: e' = -w and M(q) w' = K_p h(e) - K_v h(w) - B w - C(q, w) w with q = q_d - e. *)
+Definition solves_at (e w : R -> vec) (t : R) : Prop :=
+  let q := fun j => qd j - e t j in
+  forall i, (i < n)%nat ->
+    is_derive (fun s => e s i) t (- w t i) /\ ex_derive (fun s => w s i) t /\
+    apply_ n (Mq q) (fun j => Derive (fun s => w s j) t) i
+      = kp i * hf (e t i) - kv i * hf (w t i) - bv i * w t i - apply_ n (Cq q (w t)) (w t) i.
+(** A motion, from time 0 on. *)
+Definition solution (e w : R -> vec) : Prop := forall t, 0 <= t -> solves_at e w t.
+
+(** eps = eps0 / (1 + |e|), y = w - eps h(e), V = y'M(q)y / 2 + sum of k_pi U(e_i): (12), (13) *)
+Definition eps (eps0 : R) (e : vec) : R := eps0 / (1 + norm n e).
+Definition y_of (eps0 : R) (e w : vec) : vec := fun i => w i - eps eps0 e * hf (e i).
+Definition V (eps0 : R) (e w : vec) : R :=
+  / 2 * dot n (y_of eps0 e w) (apply_ n (Mq (fun j => qd j - e j)) (y_of eps0 e w)) + sum n (fun i => kp i * Uf (e i)).
+
+(** dV/dt < 0 along (11) at every state but the origin.  Time plays no part in (11): t is when a curve is there. *)
+Definition decreasing (eps0 : R) : Prop := forall e w t, solves_at e w t -> away n (e t) (w t) ->
+  exists d, is_derive (fun s => V eps0 (e s) (w s)) t d /\ d < 0.
+
+(** The origin is stable, and every motion tends to it, from wherever it starts. *)
+Definition stable : Prop := forall eta, 0 < eta -> exists z, 0 < z /\
+  forall e w, solution e w -> norm n (e 0) < z -> norm n (w 0) < z ->
+  forall t, 0 <= t -> norm n (e t) < eta /\ norm n (w t) < eta.
+Definition attractive : Prop := forall e w, solution e w ->
+  forall eta, 0 < eta -> exists T, forall t, T <= t -> norm n (e t) < eta /\ norm n (w t) < eta.
+Definition globally_asymptotically_stable : Prop := stable /\ attractive.
+End Loop.
+
+(** ** What is said of every robot with Properties 2.1 to 2.7, all positive gains and every goal *)
+Definition positive (n : nat) (k : vec) : Prop := forall i, (i < n)%nat -> 0 < k i.
+Definition V_positive_definite (m : nat) : Prop := forall n (rb : robot n) kp qd eps0, positive n kp -> 0 < eps0 ->
+  forall e w, (away n e w -> 0 < V n (M rb) (h m) (U m) kp qd eps0 e w) /\
+              (~ away n e w -> V n (M rb) (h m) (U m) kp qd eps0 e w = 0).
+Definition V_radially_unbounded (m : nat) : Prop := forall n (rb : robot n) kp qd eps0, positive n kp -> 0 < eps0 ->
+  forall K, exists r, forall e w, V n (M rb) (h m) (U m) kp qd eps0 e w <= K -> norm n e <= r /\ norm n w <= r.
+(** The loop can rest nowhere else. *)
+Definition only_equilibrium (m : nat) : Prop := forall n (rb : robot n) kp kv qd, positive n kp -> positive n kv ->
+  forall e w, solves_at n (M rb) (C rb) (b rb) (h m) kp kv qd (fun _ => e) (fun _ => w) 0 <-> ~ away n e w.
+(** The proposition of the paper, without (19). *)
+Definition every_robot_is_stable (n m : nat) : Prop := forall (rb : robot n) kp kv qd, positive n kp -> positive n kv ->
+  globally_asymptotically_stable n (M rb) (C rb) (b rb) (h m) kp kv qd.
+
+(** ** An arm of n joints as data: M_ij(q) is the sum of c sin^p1 q_1 ... sin^pn q_n cos^p(n+1) q_1 ... cos^p2n q_n *)
+Definition monomial := (list nat * Q)%type.        (* ([p1; ...; p2n], c) *)
+Record arm := Arm { joints : nat; mass : list (list (list monomial)); viscous : list Q }.
+
+Fixpoint product (k : nat) (f : nat -> R) : R := match k with O => 1 | S k' => product k' f * f k' end.
+Definition monomial_at (n : nat) (q : vec) (t : monomial) : R :=
+  Q2R (snd t) * product n (fun i => sin (q i) ^ nth i (fst t) 0%nat) * product n (fun i => cos (q i) ^ nth (n + i) (fst t) 0%nat).
+Definition M_of (A : arm) (q : vec) : mat := fun i j =>
+  fold_right (fun t s => monomial_at (joints A) q t + s) 0 (nth j (nth i (mass A) []) []).
+(** df/dq_l at q *)
+Definition partial (f : vec -> R) (l : nat) (q : vec) : R :=
+  Derive (fun x => f (fun i => if Nat.eqb i l then x else q i)) (q l).
+(** C(q, x) by Christoffel's symbols: C_ij = sum over k of (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i)/2 x_k *)
+Definition C_of (A : arm) (q x : vec) : mat := fun i j => sum (joints A) (fun k =>
+  (partial (fun p => M_of A p i j) k q + partial (fun p => M_of A p i k) j q - partial (fun p => M_of A p j k) i q) / 2 * x k).
+Definition b_of (A : arm) : vec := entries (viscous A).
+
+(** M(q) is symmetric and positive definite, for every q. *)
+Definition positive_definite (A : arm) : Prop := forall q,
+  (forall i j, (i < joints A)%nat -> (j < joints A)%nat -> M_of A q i j = M_of A q j i) /\
+  (forall x, (exists i, (i < joints A)%nat /\ x i <> 0) -> 0 < dot (joints A) x (apply_ (joints A) (M_of A q) x)).
+(** The arm under (6) with h_m: what a certified epsilon_0 says, for every goal q_d. *)
+Definition certified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := positive_definite A /\ forall qd,
+  decreasing (joints A) (M_of A) (C_of A) (b_of A) (h m) (U m) (entries kp) (entries kv) qd (Q2R eps0) /\
+  globally_asymptotically_stable (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) qd.
+(** dV/dt > 0 along some curve through some state other than the origin: what a falsified epsilon_0 says. *)
+Definition falsified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := exists qd e w t d,
+  solves_at (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) qd e w t /\
+  away (joints A) (e t) (w t) /\
+  is_derive (fun s => V (joints A) (M_of A) (h m) (U m) (entries kp) qd (Q2R eps0) (e s) (w s)) t d /\ 0 < d.

@@ -1,0 +1,80 @@
+"""Are these certificates right, and what does Coq's kernel say of each: the outcome of both checkers."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+
+from lyapcheck.answers.recheck import Recheck
+from lyapcheck.check.command import Writer
+from lyapcheck.check.recheck import Outcome
+from lyapcheck.check.render import as_json, text
+from lyapcheck.kernel.coq import require_coq
+from lyapcheck.kernel.judge import Kernel, graded, judged
+from lyapcheck.temporary import temporary_folder
+
+WIDTH = 11
+MEANING = (
+    "kernel: Coq's kernel accepted a theorem whose statement is printed from the certificate's own data, and "
+    "whose axioms are on the golden list named: real has those of classical real numbers, float also the "
+    "specifications of 63-bit integers and binary64 numbers"
+)
+
+
+def writer(name: str, seconds: int, folder: Path | None, told: Callable[[str], None]) -> Writer:
+    """What writes the outcome of the small checker in a format, once Coq's kernel has judged it as well.
+
+    Args:
+        name: of the format.
+        seconds: the most that one theorem may take.
+        folder: where the files for Coq stay; ``None``: nowhere.
+        told: is told what is going on.
+
+    Raises:
+        InputError: there is no Coq.
+    """
+    require_coq()
+
+    def written(outcome: Outcome, trusted: bool) -> str:
+        with ExitStack() as stack:
+            place = Path(stack.enter_context(temporary_folder())) if folder is None else folder
+            found = judged(outcome, place.absolute(), seconds, told)
+        both = graded(outcome, found)
+        if name == "text":
+            return text(both, trusted) + kernel_text(found)
+        if name == "json":
+            return kernel_json(as_json(both, trusted), found)
+        return Recheck(both, trusted, tuple(found)).written(name)
+
+    return written
+
+
+def kernel_text(found: list[Kernel]) -> str:
+    """A line a certificate, what the grade means, and how many have it."""
+    lines = [
+        "",
+        *(f"{'kernel' if one.accepted else 'no kernel':<{WIDTH}}{one.file}: {said(one)}" for one in found),
+    ]
+    counted = Counter(one.accepted for one in found)
+    return "\n".join([*lines, MEANING, f"{counted[True]} kernel, {counted[False]} without"]) + "\n"
+
+
+def kernel_json(written: str, found: list[Kernel]) -> str:
+    """The JSON of the small checker with ``kernel`` in the row of each certificate."""
+    data = json.loads(written)
+    for row, one in zip(data["certificates"], found, strict=True):
+        row["kernel"] = {
+            "accepted": one.accepted,
+            "reason": one.reason,
+            "theorem": one.theorem or None,
+            "axioms": one.axioms or None,
+        }
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def said(one: Kernel) -> str:
+    """The golden list, or why there is no kernel verdict."""
+    return f"axioms {one.axioms}" if one.accepted else one.reason

@@ -1,0 +1,139 @@
+"""Running Coq: its library of definitions and theorems, and files that use it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import lyapcheck
+from lyapcheck.errors import argument_error
+
+PACKAGES = "coq libcoq-interval"
+QUIET = "-ambiguous-paths,-notation-overridden"
+LIBRARY = "Lyapcheck"
+NAME = re.compile(r"[A-Za-z_][\w'.]*")
+
+
+class CoqRefused(Exception):
+    """What Coq says against a file."""
+
+
+class Coq:
+    """Coq with the library ``formal/`` compiled in a folder of its own.
+
+    Args:
+        folder: where sources and compiled files go; the library there is made anew if its sources differ.
+        seconds: the most that one file may take.
+
+    Raises:
+        InputError: there is no ``coqc``, or no CoqInterval beside it.
+    """
+
+    def __init__(self, folder: Path, seconds: int) -> None:
+        self.program, self.folder, self.seconds = require_coq(), folder, seconds
+        self.library, self.printed = folder / "library", folder / "printed"
+        self.printed.mkdir(parents=True, exist_ok=True)
+        self._compile_library()
+
+    def accept(self, name: str, text: str) -> str:
+        """Write a file and have it compiled; what Coq prints.
+
+        Raises:
+            CoqRefused: Coq does not accept it, or takes too long.
+        """
+        path = self.printed / f"{name}.v"
+        path.write_text(text, encoding="utf-8")
+        return self._compile(path, ("-Q", str(self.printed), "Printed"))
+
+    def _compile(self, path: Path, more: tuple[str, ...] = ()) -> str:
+        command = [self.program, "-q", "-w", QUIET, "-R", str(self.library), LIBRARY, *more, str(path)]
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, timeout=self.seconds, check=False, cwd=self.folder
+            )
+        except subprocess.TimeoutExpired:
+            raise CoqRefused(f"coqc takes more than {self.seconds} s") from None
+        if done.returncode != 0:
+            raise CoqRefused(_first_error(done.stderr))
+        return done.stdout
+
+    def _compile_library(self) -> None:
+        self.library.mkdir(parents=True, exist_ok=True)
+        fresh = True
+        for name in sources():
+            text = (formal() / name).read_bytes()
+            path = self.library / name
+            same = path.exists() and path.read_bytes() == text and path.with_suffix(".vo").exists()
+            fresh = fresh and same  # what comes later rests on what comes before
+            if fresh:
+                continue
+            path.write_bytes(text)
+            try:
+                self._compile(path)
+            except CoqRefused as refusal:
+                rule = f"cannot compile {name} of its library: {refusal}"
+                raise argument_error(
+                    "--kernel", "", rule, f"apt-get install --no-install-recommends {PACKAGES}"
+                ) from None
+
+
+def require_coq() -> str:
+    """The path of ``coqc``.
+
+    Raises:
+        InputError: there is none.
+    """
+    program = shutil.which("coqc")
+    if program is None:
+        rule = "needs Coq and CoqInterval, and there is no coqc on the path"
+        raise argument_error("--kernel", "", rule, f"apt-get install --no-install-recommends {PACKAGES}")
+    return program
+
+
+def formal() -> Path:
+    """The folder of Coq's library: inside an installed package, at the top level of a checkout."""
+    package = Path(lyapcheck.__file__).parent
+    inside = package / "formal"
+    return inside if inside.is_dir() else package.parent / "formal"
+
+
+def sources() -> list[str]:
+    """The files of the library, in an order in which they can be compiled."""
+    lines = (formal() / "_CoqProject").read_text(encoding="utf-8").split()
+    return [line for line in lines if line.endswith(".v")]
+
+
+def axioms_of(printed: str) -> set[str]:
+    """The names below ``Axioms:`` in what ``Print Assumptions`` prints; their types are indented.
+
+    Raises:
+        CoqRefused: there is a line that is not understood.
+    """
+    if printed.strip() == "Closed under the global context":
+        return set()
+    head, *lines = printed.splitlines()
+    found = set()
+    for line in lines:
+        if line.startswith(" ") or not line:
+            continue
+        name = NAME.match(line)
+        if name is None or line[name.end() :].strip()[:1] not in ("", ":"):
+            raise CoqRefused(f"of its axioms: {line}")
+        found.add(name.group())
+    if head != "Axioms:":
+        raise CoqRefused(f"of its axioms: {head}")
+    return found
+
+
+def golden(name: str) -> frozenset[str]:
+    """The axioms of a golden list, ``real`` or ``float``; the second has those of the first as well."""
+    own = frozenset((formal() / f"axioms.{name}").read_text(encoding="utf-8").split())
+    return own if name == "real" else own | golden("real")
+
+
+def _first_error(text: str) -> str:
+    """Coq's first error in one line."""
+    _, _, said = text.partition("Error:")
+    return " ".join((said or text).split())[:300] or "it ends without a word"

@@ -1,0 +1,228 @@
+"""How Coq is to prove what a certificate shows: hints only, which it follows or refuses.
+
+Everything here may be wrong without harm: a script that does not prove its statement is refused by ``coqc``.
+"""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import singledispatch
+from typing import Any
+
+from lyapcheck.check.expressions.expression import CONSTANTS, Tree
+from lyapcheck.check.kinds.all_of import AllOf, OnePart
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.statement import Proof, Statement, Witness
+from lyapcheck.kernel.terms import NotPrinted, bound, exact_list, identifier, rational
+
+THEOREMS = {
+    EQUILIBRIUM: "origin_is_only_equilibrium",
+    POSITIVE: "V_is_positive_definite",
+    UNBOUNDED: "V_is_radially_unbounded",
+}
+X: Tree = ("var", "x")
+
+
+def script(statement: Statement, proof: Proof, verdict: str) -> str:
+    """The tactics for what :func:`lyapcheck.kernel.statements.shown` prints.
+
+    Raises:
+        NotPrinted: there is no way to prove it yet.
+    """
+    if verdict == "proved":
+        return facts(statement) + proved(statement)
+    if isinstance(statement, AllOf) and isinstance(proof, OnePart):
+        return script(statement.parts[proof.part][1], proof.proof, verdict)
+    if isinstance(statement, Constant):
+        return f"{facts(statement)}intros H. fails H."
+    if isinstance(proof, Witness):
+        return facts(statement) + _refuted(statement, dict(proof.point))
+    raise NotPrinted(f"a refutation by {type(proof).__name__}")
+
+
+def facts(statement: Statement) -> str:
+    """Bounds of the suprema γ_m, ρ_m and L_m that occur."""
+    found: set[tuple[str, int]] = set()
+    _collect(statement, found)
+    return "".join(_constant(name, m) for name, m in sorted(found))
+
+
+def _collect(value: Any, found: set[tuple[str, int]]) -> None:
+    if isinstance(value, tuple):
+        if len(value) == 2 and value[0] in CONSTANTS and isinstance(value[1], int):
+            found.add(value)
+        for part in value:
+            _collect(part, found)
+    elif hasattr(value, "__dict__"):
+        for part in vars(value).values():
+            _collect(part, found)
+
+
+AT = {
+    "gamma": ("h_le_gamma", "gamma_le", "prove_h_at_most"),
+    "rho": ("dh_le_rho", "rho_le", "prove_dh_at_most"),
+}
+
+
+def _constant(name: str, m: int) -> str:
+    """That γ_m or ρ_m lies between two numbers of five digits."""
+    if name not in AT:
+        raise NotPrinted(f"the constant {name}_{m}")
+    lower, upper, tactic = AT[name]
+    low, high = _between(name, m)
+    at = f"({lower} {m} ltac:(lia) {rational(_attained(name, m))})"
+    least = f"assert (low_{name}_{m} : {rational(low)} <= {name} {m}) by "
+    most = f"assert (up_{name}_{m} : {name} {m} <= {rational(high)}) by (apply {upper}; {tactic}). "
+    return f"{least}(eapply Rle_trans; [|exact {at}]; numbers). {most}"
+
+
+def _between(name: str, m: int) -> tuple[Fraction, Fraction]:
+    """Numbers of five digits on both sides of γ_m or ρ_m, not so near that intervals cannot tell."""
+    known, digits = member("hyperbolic", m), 10 ** (9 if m == 1 else 5)
+    value = known.gamma if name == "gamma" else known.rho
+    high = value if m == 1 else Fraction(math.ceil(value * digits + Fraction(1, 2)), digits)
+    return Fraction(math.floor(value * digits - 1), digits), high
+
+
+@singledispatch
+def proved(statement: Statement) -> str:
+    """The proof of a statement.
+
+    Raises:
+        NotPrinted: there is none yet.
+    """
+    raise NotPrinted(f"a proof of the kind {type(statement).__name__}")
+
+
+@proved.register
+def _(statement: AllOf) -> str:
+    parts = [f"{{ {proved(part)} }}" for _, part in statement.parts]
+    return (
+        "".join(f"split; [|]. {part} " for part in parts[:-1]).replace("split; [|]. ", "split. ") + parts[-1]
+    )
+
+
+@proved.register
+def _(statement: Constant) -> str:
+    return "numbers."
+
+
+@proved.register
+def _(statement: Identity) -> str:
+    return "identity."
+
+
+@proved.register
+def _(statement: LoopProperty) -> str:
+    return f"apply {THEOREMS[statement.property]}; lia."
+
+
+@proved.register
+def _(statement: Theorem) -> str:
+    if statement.loop.arm is None:
+        return "apply proposition_of_the_paper; lia."
+    raise NotPrinted("a theorem on one arm")
+
+
+@proved.register
+def _(statement: ForAll) -> str:
+    x, one = identifier(statement.variable), statement.relation
+    for side, other, above in ((one.left, one.right, True), (one.right, one.left, False)):
+        if side[0] in BOUNDED and side[2] == ("var", statement.variable) and (c := number(other)) is not None:
+            m, tactic = side[1], BOUNDED[side[0]]
+            most = rational(c if above else -c)
+            if c == 0 and not above:
+                continue
+            name = side[0]
+            return (
+                f"intros {x}. assert (B : Rabs ({name} {m} {x}) <= {most}) by (revert {x}; {tactic}). "
+                "apply Rabs_le_between in B. lra."
+            )
+    return f"intros {x}; intros; signs {x}."
+
+
+BOUNDED = {"h": "prove_h_at_most", "dh": "prove_dh_at_most"}
+
+
+def number(tree: Tree) -> Fraction | None:
+    """The value of a numeral or of one with a minus."""
+    if tree[0] == "num":
+        return Fraction(tree[1])
+    if tree[0] == "neg" and tree[1][0] == "num":
+        return -Fraction(tree[1][1])
+    return None
+
+
+@proved.register
+def _(statement: NormBound) -> str:
+    kind = statement.component[0]
+    if kind not in BOUNDED or statement.component[2] != X:
+        raise NotPrinted("a bound of the norm of another function")
+    m = statement.component[1]
+    known = member("hyperbolic", m)
+    if statement.power == 0:
+        own = {"h": (f"gamma {m}", "abs_h_le_gamma"), "dh": (f"rho {m}", "dh_le_rho")}[kind]
+        return (
+            f"intros x. apply (norm_of_bounded {statement.n} ({kind} {m}) ({own[0]})); "
+            f"[apply {own[1]}; lia|replace (INR {statement.n}) with {statement.n} by (simpl; ring); "
+            "first [lra | numbers]]."
+        )
+    if kind != "h":
+        raise NotPrinted("a bound of ‖h'(x)‖ by ‖x‖")
+    c = number(statement.bound)
+    c = known.L if c is None and m == 1 else Fraction(math.ceil(known.L * 1000 + 1), 1000) if c is None else c
+    return (
+        f"intros x. apply (norm_of_linear {statement.n} (h {m}) {rational(c)}); "
+        f"[{secant(m, c)}|lra|first [lra | numbers]]."
+    )
+
+
+def secant(m: int, c: Fraction) -> str:
+    """|h_m(x)| <= c |x| for all x."""
+    if m == 1:
+        return "intros y; pose proof (secant_1 y); pose proof (Rabs_pos y); nra"
+    far = rational(Fraction(round(64 * Fraction(3, 2) / c) + 1, 64))
+    middle = f"apply (secant_at_most {m} ltac:(lia) {rational(c)} (1 / 2) {far} (3 / 2))"
+    return f"{middle}; [lra|lra|prove_h_at_most|lra|prove_near_zero|prove_between]"
+
+
+def _refuted(statement: Statement, point: dict[str, Fraction]) -> str:
+    """The statement at the point of a witness."""
+    if isinstance(statement, NormBound):
+        values = exact_list(point[f"x{i + 1}"] for i in range(statement.n))
+        return f"intros H. specialize (H (entries {values})). fails H."
+    if isinstance(statement, ForAll):
+        names, given = [statement.variable], sum(end is not None for end in (statement.low, statement.high))
+    elif isinstance(statement, Implies):
+        names = [v.name for v in statement.variables]
+        given = sum(len(bound(v)) for v in statement.variables) + len(statement.hypotheses)
+    elif isinstance(statement, Identity):
+        names, given = sorted(statement.names), sum(len(bound(v)) for v in statement.variables)
+    else:
+        raise NotPrinted(f"a refutation of the kind {type(statement).__name__}")
+    values = " ".join(rational(Fraction(point[name])) if name in point else "0" for name in names)
+    steps = "".join(" specialize (H ltac:(numbers))." for _ in range(given))
+    return f"intros H. specialize (H {values}).{steps} fails H."
+
+
+def _attained(name: str, m: int) -> Fraction:
+    """About where γ_m or ρ_m is attained; only a hint."""
+
+    def value(x: float) -> float:
+        s, c = math.sinh(x), math.cosh(x)
+        low = 1 + s ** (2 * m)
+        if name == "gamma":
+            return s ** (2 * m - 1) * c / low
+        return abs((2 * m - 1) * s ** (2 * m - 2) + 2 * m * s ** (2 * m) - s ** (4 * m - 2)) / low**2
+
+    grid = 1 << 11
+    near = max(range(12 * grid), key=lambda k: value(k / grid)) * grid
+    return Fraction(max(range(max(near - grid, 0), near + grid), key=lambda k: value(k / grid**2)), grid**2)

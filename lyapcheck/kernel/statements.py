@@ -1,0 +1,166 @@
+"""The statement of a certificate as a proposition of Coq, printed from its data, one function a kind.
+
+A printed proposition says what ``Statement.text`` says, or more; where it says more, that is written
+beside the function. Kinds that are not listed are not printed, and their certificates have no kernel verdict.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+from lyapcheck.check.kinds.all_of import AllOf, OnePart
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.kernel.terms import (
+    NotPrinted,
+    arm,
+    bound,
+    exact,
+    exact_list,
+    expression,
+    identifier,
+    quantified,
+    rational,
+    relation,
+)
+
+PROPERTIES = {
+    EQUILIBRIUM: "only_equilibrium",
+    POSITIVE: "V_positive_definite",
+    UNBOUNDED: "V_radially_unbounded",
+}
+"""The properties of the loop and of V that the page of definitions has."""
+ABOVE_ALL = "Lyapunov's direct method"
+
+
+def shown(statement: Statement, proof: Proof, verdict: str) -> str:
+    """What a certificate shows: its statement, or what refutes it.
+
+    Of a conjunction that one part refutes it is the negation of that part, and of an ε₀ that a state refutes
+    that there is such a state: both say more than that the statement is false.
+
+    Raises:
+        NotPrinted: naming what has no form in Coq.
+    """
+    if verdict == "proved":
+        return proposition(statement)
+    if isinstance(statement, AllOf) and isinstance(proof, OnePart):
+        return shown(statement.parts[proof.part][1], proof.proof, verdict)
+    if isinstance(statement, Decreasing) and isinstance(proof, StateWitness):
+        return _of_arm("falsified", statement)
+    return f"~ ({proposition(statement)})"
+
+
+@singledispatch
+def proposition(statement: Statement) -> str:
+    """The statement itself.
+
+    Raises:
+        NotPrinted: naming what has no form in Coq.
+    """
+    raise NotPrinted(f"statements of the kind {type(statement).__name__}")
+
+
+@proposition.register
+def _(statement: AllOf) -> str:
+    return " /\\ ".join(f"({proposition(part)})" for _, part in statement.parts)
+
+
+@proposition.register
+def _(statement: Constant) -> str:
+    return relation(statement.relation)
+
+
+@proposition.register
+def _(statement: ForAll) -> str:
+    name = identifier(statement.variable)
+    low, high = statement.low, statement.high
+    given = [] if low is None else [f"{rational(low)} {'<' if statement.open_low else '<='} {name}"]
+    given += [] if high is None else [f"{name} {'<' if statement.open_high else '<='} {rational(high)}"]
+    return quantified([statement.variable], given, relation(statement.relation))
+
+
+@proposition.register
+def _(statement: Identity) -> str:
+    given = [line for variable in statement.variables for line in bound(variable)]
+    sides = f"{expression(statement.left)} = {expression(statement.right)}"
+    return quantified(sorted(statement.names), given, sides)
+
+
+@proposition.register
+def _(statement: Implies) -> str:
+    given = [line for variable in statement.variables for line in bound(variable)]
+    given += map(relation, statement.hypotheses)
+    return quantified([v.name for v in statement.variables], given, relation(statement.conclusion))
+
+
+@proposition.register
+def _(statement: NormBound) -> str:
+    x, n = identifier("x"), statement.n
+    size = expression(statement.bound) + (f" * norm {n} x" if statement.power else "")
+    entries = f"fun i => (fun {x} => {expression(statement.component)}) (x i)"
+    return f"forall x : vec, norm {n} ({entries}) <= {size}"
+
+
+@proposition.register
+def _(statement: LoopProperty) -> str:
+    name = PROPERTIES.get(statement.property)
+    if name is None or statement.desired:
+        raise NotPrinted(f"the property “{statement.property}”")
+    return f"{name} {_member(statement)}"
+
+
+@proposition.register
+def _(statement: Theorem) -> str:
+    """Stability, for every ε₀ and constants: a condition on them is dropped, which says more."""
+    loop = statement.loop
+    if statement.name != ABOVE_ALL:
+        raise NotPrinted(f"the theorem “{statement.name}”")
+    m = _member(loop)
+    if loop.arm is None:
+        return f"every_robot_is_stable {loop.n} {m}"
+    data = arm(loop.arm.mass, loop.arm.viscous)
+    gains = f"{exact_list(loop.arm.kp)} {exact_list(loop.arm.kv)}"
+    return f"certified {data} {m} {gains} {exact(dict(loop.numbers)['eps0'])}"
+
+
+@proposition.register
+def _(statement: Decreasing) -> str:
+    return _of_arm("certified", statement)
+
+
+@proposition.register
+def _(statement: DampingBelow) -> str:
+    """The gains κK_v are vectors of real numbers; Coq's ``forall`` is over κ and ε₀."""
+    raise NotPrinted("a bound that stability would need")
+
+
+def _of_arm(name: str, statement: Decreasing) -> str:
+    if statement.coupling:
+        raise NotPrinted("V with weights Λ")
+    if statement.family != "hyperbolic" or statement.m is None:
+        raise NotPrinted(f"the function {statement.family}")
+    if any(low != high for low, high in statement.viscous) or statement.parameters:
+        raise NotPrinted("an arm with uncertain numbers")
+    data = arm(statement.mass, [low for low, _ in statement.viscous])
+    gains = f"{exact_list(statement.kp)} {exact_list(statement.kv)}"
+    return f"{name} {data} {statement.m} {gains} {exact(statement.eps0)}"
+
+
+def _member(of: LoopProperty | Theorem | object) -> int:
+    """The m of which h, h' and U are h_m, h_m' and U_m themselves."""
+    h, slope, potential = (getattr(of, name) for name in ("h", "slope", "potential"))
+    if h[0] == "h":
+        m = int(h[1])
+        x = ("var", "x")
+        if (h, slope, potential) == (("h", m, x), ("dh", m, x), ("potential", m, x)):
+            return m
+    raise NotPrinted("a function that is not of the family h_m")

@@ -1,0 +1,128 @@
+"""Expressions, numbers and arms as Coq writes them, in the words of ``formal/Definitions.v``.
+
+A name of a variable becomes an identifier of its own, whatever it is, so that no certificate can bring words
+of Coq's along; operations that Coq's reals do not have are not printed at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.statement import Monomials, Relation, Variable
+
+
+class NotPrinted(Exception):
+    """What has no form in Coq; the text says what it is."""
+
+
+FUNCTIONS = {
+    "neg": "-",
+    "abs": "Rabs",
+    "sqrt": "sqrt",
+    "exp": "exp",
+    "log": "ln",
+    "sin": "sin",
+    "cos": "cos",
+    "tan": "tan",
+    "asin": "asin",
+    "acos": "acos",
+    "atan": "atan",
+    "sinh": "sinh",
+    "cosh": "cosh",
+    "tanh": "tanh",
+}
+FAMILY = {"h": "h", "dh": "dh", "potential": "U"}
+INFIX = {"add": " + ", "mul": " * ", "div": " / "}
+SIGNS = {"<=": "<=", "<": "<"}
+
+
+def identifier(name: str) -> str:
+    """A variable; letters beyond ASCII are written by their numbers."""
+    return "v_" + "".join(c if c.isascii() and c.isalnum() else f"_{ord(c):x}_" for c in name)
+
+
+def rational(value: Fraction) -> str:
+    """A real number."""
+    over = "" if value.denominator == 1 else f" / {value.denominator}"
+    return f"({value.numerator}{over})" if value < 0 or over else str(value.numerator)
+
+
+LEAVES: dict[str, Callable[[list[Any]], str]] = {
+    "num": lambda parts: rational(Fraction(parts[0])),
+    "var": lambda parts: identifier(parts[0]),
+    "pi": lambda parts: "PI",
+    "gamma": lambda parts: f"(gamma {int(parts[0])})",
+    "rho": lambda parts: f"(rho {int(parts[0])})",
+    "L": lambda parts: f"(L {int(parts[0])})",
+}
+
+
+def expression(tree: Tree) -> str:
+    """A term of type R.
+
+    Raises:
+        NotPrinted: an operation has no form in Coq.
+    """
+    kind, *parts = tree
+    if kind in LEAVES:
+        return LEAVES[kind](parts)
+    if kind == "pow":
+        return f"({expression(parts[0])} ^ {int(parts[1])})"
+    if kind in INFIX:
+        return f"({INFIX[kind].join(map(expression, parts))})"
+    if kind in FUNCTIONS:
+        return f"({FUNCTIONS[kind]} {expression(parts[0])})"
+    if kind in FAMILY:
+        return f"({FAMILY[kind]} {int(parts[0])} {expression(parts[1])})"
+    raise NotPrinted(f"the operation {kind}")
+
+
+def relation(one: Relation) -> str:
+    """A proposition."""
+    return f"{expression(one.left)} {SIGNS[one.operator]} {expression(one.right)}"
+
+
+def bound(variable: Variable) -> list[str]:
+    """That a variable is in its range: nothing or one proposition."""
+    if variable.low is None:
+        return []
+    return [f"{rational(variable.low)} {'<' if variable.strict else '<='} {identifier(variable.name)}"]
+
+
+def quantified(names: Iterable[str], given: Iterable[str], conclusion: str) -> str:
+    """``forall …, … -> conclusion``."""
+    variables = " ".join(map(identifier, names))
+    body = " -> ".join([*(f"({one})" for one in given), f"({conclusion})"])
+    return f"forall {variables} : R, {body}" if variables else body
+
+
+def exact(value: Fraction) -> str:
+    """A number of type Q."""
+    numerator = f"({value.numerator})" if value < 0 else str(value.numerator)
+    return f"({numerator} # {value.denominator})"
+
+
+def exact_list(values: Iterable[Fraction]) -> str:
+    """A list of numbers of type Q."""
+    return f"[{'; '.join(map(exact, values))}]%Q"
+
+
+def arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str:
+    """An arm without parameters: the monomials of each entry of M(q), as they stand in a certificate, and B.
+
+    Raises:
+        NotPrinted: its entries have parameters.
+    """
+    n = len(mass)
+    if any(len(powers) != 2 * n for row in mass for entry in row for powers, _ in entry):
+        raise NotPrinted("an arm with uncertain parameters")
+    rows = [f"[{'; '.join(_entry(entry) for entry in row)}]" for row in mass]
+    return f"(Arm {n} [{'; '.join(rows)}] {exact_list(viscous)})"
+
+
+def _entry(terms: Monomials) -> str:
+    shown = (f"([{'; '.join(map(str, powers))}], {exact(value)})" for powers, value in terms)
+    return f"[{'; '.join(shown)}]"

@@ -1,0 +1,126 @@
+"""Coq's kernel itself: what it accepts, what it refuses, and what is said where there is no Coq."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.check.files import gather
+from lyapcheck.check.recheck import recheck
+from lyapcheck.kernel import coq
+from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
+from lyapcheck.kernel.judge import Kernel, judged
+from tests.kernel.test_statements import GOOD
+
+needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
+
+
+def test_without_coqc_it_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from lyapcheck.cli.main import main
+
+    place = str(GOOD / "pub.7g.m1.json")
+    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    monkeypatch.setattr("sys.argv", ["lyapcheck", "recheck", "--kernel", place])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out, err = capsys.readouterr()
+    assert ended.value.code == 2
+    assert out == ""
+    assert "there is no coqc" in err
+    assert "apt-get install --no-install-recommends coq libcoq-interval" in err
+
+
+def test_nothing_of_the_library_is_left_out_or_assumed() -> None:
+    forbidden = re.compile(r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|bypass_check|Unset)\b")
+    assert {path.name for path in formal().glob("*.v")} == {*sources(), "Headlines.v"}
+    assert not [name for name in sources() if forbidden.search((formal() / name).read_text(encoding="utf-8"))]
+
+
+def test_the_golden_lists_are_coqs_and_no_longer() -> None:
+    assert golden("real") == {
+        "ClassicalDedekindReals.sig_forall_dec",
+        "ClassicalDedekindReals.sig_not_dec",
+        "Classical_Prop.classic",
+        "FunctionalExtensionality.functional_extensionality_dep",
+    }
+    modules = {name.rpartition(".")[0] for name in golden("float") - golden("real")}
+    assert modules == {"PrimInt63", "Uint63", "PrimFloat", "FloatAxioms"}
+
+
+def test_axioms_are_read_line_by_line() -> None:
+    assert axioms_of("Closed under the global context\n") == set()
+    assert axioms_of("Axioms:\nA.b : nat\nC.long\n  : forall n,\n    n = n\n") == {"A.b", "C.long"}
+    with pytest.raises(CoqRefused, match="is assumed"):
+        axioms_of("Axioms:\nfoo is assumed to be guarded.\n")
+    with pytest.raises(CoqRefused, match="Section Variables"):
+        axioms_of("Section Variables:\nx : nat\n")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("kernel")
+
+
+def asked(folder: Path, *places: str) -> dict[str, Kernel]:
+    outcome = recheck(gather([GOOD / place for place in places]))
+    return {one.file: one for one in judged(outcome, folder, 600, lambda note: None)}
+
+
+@needs_coq
+@pytest.mark.slow
+def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder: Path) -> None:
+    found = asked(folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.12.json")
+    assert {file: one.axioms for file, one in found.items()} == {
+        "pub.7g.m1.json": "float",
+        "ext.V-is-positive-definite.json": "real",
+        "pub.17a.json": "float",
+        "pub.12.json": "",
+    }
+    assert found["pub.12.json"].reason == "there is no theorem of Coq's for statements of the kind EveryN"
+
+
+@needs_coq
+@pytest.mark.slow
+def test_the_kernel_refuses_what_is_false(folder: Path) -> None:
+    """Theorems with one number changed, behind the back of the small checker."""
+    ours = Coq(folder, 600)
+    head = "Require Import Lyapcheck.Certificates.\nOpen Scope R_scope.\n"
+    true = "Theorem claim : forall x, Rabs (h 2 x) <= 10536 / 10000. Proof. prove_h_at_most. Qed."
+    ours.accept("true_one", head + true)
+    for false in (true.replace("10536", "10535"), true.replace("h 2", "h 3")):
+        with pytest.raises(CoqRefused):
+            ours.accept("false_one", head + false)
+
+
+@needs_coq
+@pytest.mark.slow
+def test_an_axiom_of_its_own_is_no_proof(folder: Path) -> None:
+    ours = Coq(folder, 600)
+    ours.accept("cheat", "Theorem claim : 0 = 1. Admitted.\n")
+    printed = ours.accept("ask", "Require Printed.cheat.\nPrint Assumptions Printed.cheat.claim.\n")
+    assert not axioms_of(printed) <= golden("float")
+
+
+@needs_coq
+@pytest.mark.slow
+def test_the_command_shows_it(tmp_path: Path) -> None:
+    command = ["lyapcheck", "recheck", "--kernel", "--kernel-files", str(tmp_path), "--format", "json"]
+    done = subprocess.run(
+        [sys.executable, "-m", *command, str(GOOD / "ext.V-is-positive-definite.json")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    (row,) = json.loads(done.stdout)["certificates"]
+    assert row["grade"] == "kernel"
+    assert row["kernel"]["theorem"] == "V_positive_definite 1"
+    assert list((tmp_path / "printed").glob("c_*.v"))

@@ -1,0 +1,96 @@
+"""What Coq is asked is printed from a certificate: all of its data, nothing else, byte for byte."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.check.certificate import Certificate
+from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.statement import Relation
+from lyapcheck.kernel.judge import theorem_file
+from lyapcheck.kernel.statements import shown
+from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
+
+HERE = Path(__file__).parent
+GOOD = HERE.parent / "arena" / "good"
+GOLDEN = HERE / "statements.txt"
+"""To be read by a person: each claim in the checker's words, and below it what Coq is asked."""
+
+
+def certificates() -> list[tuple[str, Certificate]]:
+    """The committed certificates by their places."""
+    return [
+        (path.relative_to(GOOD).as_posix(), certificate_of(path.read_bytes())[0])
+        for path in sorted(GOOD.rglob("*.json"))
+    ]
+
+
+def page() -> str:
+    """All pairs, each statement once."""
+    lines: dict[str, None] = {}
+    for _, one in certificates():
+        try:
+            theorem_file(one)
+        except NotPrinted:
+            continue
+        asked = shown(one.statement, one.proof, one.verdict)
+        member = f" (m = {one.claim.m})" if one.claim.m else ""
+        lines[f"{one.claim.id}{member} {one.verdict}: {one.statement.text()}\n    {asked}\n"] = None
+    return "\n".join(lines)
+
+
+def test_what_coq_is_asked_is_what_is_written_down() -> None:
+    assert page() == GOLDEN.read_text(encoding="utf-8")
+
+
+def test_every_number_of_a_statement_is_in_the_theorem() -> None:
+    relation = Relation(("h", 7, ("var", "x")), "<=", ("num", "4115/226"))
+    asked = shown(
+        ForAll(relation, Fraction(-3, 4), None, open_low=True), certificates()[0][1].proof, "proved"
+    )
+    assert asked == "forall v_x : R, ((-3 / 4) < v_x) -> ((h 7 v_x) <= (4115 / 226))"
+
+
+def numbers_changed(value: object) -> object:
+    """The same statement with another number in it, the first that there is."""
+    if isinstance(value, Relation):
+        return replace(value, right=("add", value.right, ("num", "1/7")))
+    return value
+
+
+@pytest.mark.parametrize("place", ["pub.7g.m1.json", "pub.T2.pd.base.json", "pub.17a.json", "pub.18.json"])
+def test_another_number_is_another_theorem(place: str) -> None:
+    one = dict(certificates())[place]
+    name = "conclusion" if hasattr(one.statement, "conclusion") else "relation"
+    other = replace(one.statement, **{name: numbers_changed(getattr(one.statement, name))})
+    assert shown(other, one.proof, one.verdict) != shown(one.statement, one.proof, one.verdict)
+
+
+@pytest.mark.parametrize("name", ["x. Admitted", "x)(", "forall", "α", "x′", "h", "(*", "e_1", "e1"])
+def test_no_name_of_a_variable_is_a_word_of_coqs(name: str) -> None:
+    printed = identifier(name)
+    assert printed.startswith("v_")
+    assert printed.replace("_", "").isalnum()
+    assert printed.isascii()
+
+
+def test_different_names_are_different_identifiers() -> None:
+    names = ["e_1", "e1", "e", "e_", "e′", "ε", "_3b5_", "e_5f_1", "e__1"]
+    assert len({identifier(name) for name in names}) == len(names)
+
+
+def test_an_operation_that_coqs_reals_do_not_have_is_not_printed() -> None:
+    with pytest.raises(NotPrinted, match="sech"):
+        expression(("sech", ("var", "x")))
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [("-1/2", "(-1 / 2)"), ("3", "3"), ("-3", "(-3)"), ("7/3", "(7 / 3)")]
+)
+def test_numbers_bind_tightly(value: str, text: str) -> None:
+    assert rational(Fraction(value)) == text
