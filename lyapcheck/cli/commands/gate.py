@@ -59,6 +59,8 @@ def run(
     """
     import gc
 
+    gc.set_threshold(1_000_000)  # modules and ten thousand sets hold no garbage, and would be looked through
+
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
     from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import read_gain_file
@@ -69,7 +71,6 @@ def run(
         from lyapcheck.cli.output import open_folder
 
         folder = open_folder("--certificates", certificates)
-    gc.set_threshold(1_000_000)  # ten thousand sets hold no cycles, and would be looked through many times
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
