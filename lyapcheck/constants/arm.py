@@ -20,7 +20,7 @@ from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
 from lyapcheck.constants.outside import FEW, outside
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 
 GAP = 1e-3
 GAP_OF_MANY = 2e-2
@@ -28,7 +28,7 @@ MAX_BOXES = 60_000
 
 
 def arm_constants(
-    model: RobotModel,
+    model: Plant,
     max_boxes: int = MAX_BOXES,
     gap: float | None = None,
     on_progress: Progress | None = None,

@@ -11,13 +11,14 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.constants.torus import Torus
 from lyapcheck.constants.waves import Waves, derivative, waves
-from lyapcheck.robots import RobotModel, trig
+from lyapcheck.robots import trig
+from lyapcheck.robots.plant import Plant
 
 
 class ArmWaves:
     """The polynomials of an arm, its parameters at nominal values, ready for boxes."""
 
-    def __init__(self, model: RobotModel) -> None:
+    def __init__(self, model: Plant) -> None:
         self.n = n = model.n
         fixed = model.fixed()
         self.places = [(i, j) for i in range(n) for j in range(i + 1)]

@@ -8,7 +8,7 @@ from functools import lru_cache
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.arm import arm_constants
 from lyapcheck.lyapunov.scalar import RobotBounds
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 
 MAX_BOXES = 40_000
 """Over the square of the number of joints: the budget that takes a second or so."""
@@ -27,7 +27,7 @@ class RobotConstants:
     k_c_at: tuple[float, ...]
 
 
-def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds:
+def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
     """The outside bounds that the scalar forms need; see ``robot_constants``."""
     found = robot_constants(model, max_boxes)
     viscous = [number.value for number in model.viscous]
@@ -37,7 +37,7 @@ def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds
 
 
 @lru_cache(maxsize=64)
-def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotConstants:
+def robot_constants(model: Plant, max_boxes: int | None = None) -> RobotConstants:
     """λmin(M), λmax(M) = β_M and k_c, enclosed, of an arm whose parameters stand at their nominal values.
 
     Args:

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import inf, nextafter, sqrt
 
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 
 FEW = 3
 """Up to so many joints boxes alone are close and fast; for more, storage forms are asked as well."""
 _THOROUGH = 150_000
 
 
-def outside(model: RobotModel, name: str, max_boxes: int) -> Fraction | None:
+def outside(model: Plant, name: str, max_boxes: int) -> Fraction | None:
     """A lower bound of λmin(M) or an upper bound of another constant; ``None`` where none is known.
 
     The better of what masses and distances say and of what storage forms along the chain prove; those of k_c
@@ -31,7 +31,7 @@ def ceiling(bound: Fraction | None, sign: int) -> float:
     return inf if bound is None else nextafter(float(sign * bound), inf)
 
 
-def _of_distances(model: RobotModel, name: str) -> Fraction | None:
+def _of_distances(model: Plant, name: str) -> Fraction | None:
     chain = model.chain_bounds
     if chain is None:
         return None
@@ -40,7 +40,7 @@ def _of_distances(model: RobotModel, name: str) -> Fraction | None:
     return _length(chain.gravity) if name == "k_g" else known[name]
 
 
-def _of_forms(model: RobotModel, name: str) -> Fraction | None:
+def _of_forms(model: Plant, name: str) -> Fraction | None:
     if model.chain is None or model.n <= FEW:
         return None
     from lyapcheck.constants.storage import storage_bounds

@@ -11,38 +11,33 @@ from lyapcheck.check.numbers.harmonics import (
     Harmonics,
     Uncertain,
     angles_in,
-    by_parameters,
     derivative,
     uncertain_christoffel,
 )
 from lyapcheck.intervals.functions import cosine, sine
 from lyapcheck.intervals.interval import Interval
-from lyapcheck.robots import RobotModel
-from lyapcheck.robots.trig import to_terms
 
 Place = tuple[int, ...]
 Columns = dict[Harmonic, tuple[Interval, Interval]]
 
 
 class ArmIntervals:
-    """The exact polynomials of an arm, as harmonics evaluated over boxes.
+    """M(q) and the Christoffel symbols as harmonics, evaluated over boxes of angles in rad.
 
     Each power of the parameters is enclosed twice: by the ranges of its harmonics, and by its value in the
     middle of the box plus its slopes times the half widths (mean value form); both hold, so their
     intersection does.
 
     Args:
-        model: the arm.
+        mass: the entries of M, rows of harmonics by powers of the parameters, kg·m².
     """
 
-    def __init__(self, model: RobotModel) -> None:
-        self.model = model
-        self.n = model.n
-        rows = [[by_parameters(to_terms(entry), self.n) for entry in row] for row in model.mass]
+    def __init__(self, mass: Sequence[Sequence[Uncertain]]) -> None:
+        self.n = len(mass)
         joints = range(self.n)
-        self.mass = {(i, j): rows[i][j] for i in joints for j in joints if j <= i and rows[i][j]}
-        self.christoffel = uncertain_christoffel(rows)
-        self.angles = angles_in(rows)
+        self.mass = {(i, j): mass[i][j] for i in joints for j in joints if j <= i and mass[i][j]}
+        self.christoffel = uncertain_christoffel(mass)
+        self.angles = angles_in(mass)
         """The joints whose angle M depends on; all others may be held at 0."""
 
     def at(self, q: list[Interval], parameters: Sequence[Interval] = ()) -> ArmBox:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from lyapcheck.lyapunov import quadratic
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 
 Vector = Sequence[Any]
 
@@ -53,7 +53,7 @@ class Certificate:
         eps0: ε₀.
     """
 
-    model: RobotModel
+    model: Plant
     forms: Forms
     kp: Vector
     kv: Vector

@@ -15,7 +15,8 @@ import casadi as ca
 
 from lyapcheck.family import Family
 from lyapcheck.lyapunov import quadratic
-from lyapcheck.robots import RobotModel, graph
+from lyapcheck.robots import graph
+from lyapcheck.robots.plant import Plant
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class LyapunovGraph:
 class _State:
     """The symbols of a state and of the controller, and what all functions share."""
 
-    model: RobotModel
+    model: Plant
     family: Family
     q: Any
     e: Any
@@ -83,7 +84,7 @@ class _State:
         return ca.Function(name, self.inputs, [value], ["q", "e", "w", "kp", "kv", "eps0"], [name])
 
 
-def lyapunov_graph(model: RobotModel, family: Family) -> LyapunovGraph:
+def lyapunov_graph(model: Plant, family: Family) -> LyapunovGraph:
     """Build the functions for an arm, at nominal values of its uncertain parameters, and a family."""
     q, e, w, kp, kv = (ca.SX.sym(name, model.n) for name in ("q", "e", "w", "kp", "kv"))
     state = _State(model.fixed(), family, q, e, w, kp, kv, ca.SX.sym("eps0"))
@@ -122,7 +123,7 @@ def _acceleration(s: _State) -> Any:
     """ẇ = M⁻¹ (K_p h(e) − K_v h(w) − B w − C(q,w) w)."""
     C = graph.coriolis(s.model, s.q, s.w)
     torque = s.kp * s.family.casadi(s.e).h - s.kv * s.family.casadi(s.w).h - s.viscous * s.w - C @ s.w
-    return ca.solve(graph.mass(s.model, s.q), torque)
+    return graph.solve(graph.mass(s.model, s.q), torque)
 
 
 def _rate_15(s: _State) -> Any:

@@ -15,7 +15,7 @@ from lyapcheck.compiled.state_map import StateMap, state_map
 from lyapcheck.compiled.straight_line import Code, Term
 from lyapcheck.family import Family
 from lyapcheck.lyapunov.along import Certificate
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 
 Columns = list[Array]
 Name = Literal["value", "rate"]
@@ -46,7 +46,7 @@ class LyapunovNumeric:
     """
 
     def __init__(
-        self, model: RobotModel, family: Family, kp: Sequence[float], kv: Sequence[float], eps0: float = 0.0
+        self, model: Plant, family: Family, kp: Sequence[float], kv: Sequence[float], eps0: float = 0.0
     ) -> None:
         self.model = model.fixed()
         self.family = family
@@ -107,7 +107,7 @@ def _blocks(value: Callable[[Columns, Columns, Columns], Array], states: list[Ar
 
 
 @lru_cache(maxsize=32)
-def _compiled(model: RobotModel, family: Family, name: Name) -> StateMap | None:
+def _compiled(model: Plant, family: Family, name: Name) -> StateMap | None:
     """The loop over states; gains, B and ε₀ are its parameters."""
     n = model.n
 

@@ -2,42 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
-from flint import fmpq_mpoly, fmpq_mpoly_ctx
-
-from lyapcheck.errors import argument_error
-from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
-from lyapcheck.robots.dynamics import Chain, Dynamics, Lift, Place
 from lyapcheck.robots.number import Number
+from lyapcheck.robots.plant import Plant
 from lyapcheck.robots.printed_torques import PrintedTorques
 
-T = TypeVar("T")
 
-
-@dataclass(frozen=True, eq=False)
-class RobotModel:
-    """An arm with n revolute joints: M(q)q̈ + C(q,q̇)q̇ + g(q) + Bq̇ = τ with exact coefficients.
-
-    C_ij = Σ_k christoffel[i][j][k] q̇_k with the Christoffel symbols of M, and g = ∂potential/∂q, so that
-    Ṁ = C + Cᵀ holds as an identity of polynomials.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RobotModel(Plant):
+    """An arm that a file describes: what moves, and what is known of every number.
 
     Args:
-        name: short name (``"buap3"``).
         title: one line for reports.
-        joints: names of the joints, base first.
-        dynamics: M, C, g and the potential energy.
-        viscous: diagonal of B, N·m·s/rad.
         coulomb: Coulomb friction torques, N·m; ``None`` where nothing is known.
         torque_limit: largest torque of each motor, N·m; ``None`` where nothing is known.
         encoder: counts per turn; ``None`` where nothing is known.
         gravity_bound: k_gi where the source prints them, N·m.
         numbers: every number of the arm with its provenance.
-        parameters: the numbers with a range that enter M or the potential, in the order of ``dynamics``.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
         printed: C and g as the source prints them, where it does; nothing is derived from them.
 
@@ -47,125 +30,17 @@ class RobotModel:
     References: (1) and properties 2.1–2.8 of reyes2019family.
     """
 
-    name: str
     title: str
-    joints: tuple[str, ...]
-    dynamics: Dynamics
-    viscous: tuple[Number, ...]
     coulomb: tuple[Number | None, ...]
     torque_limit: tuple[Number | None, ...]
     encoder: tuple[int | None, ...]
     gravity_bound: tuple[Number | None, ...]
     numbers: dict[str, Number]
-    parameters: dict[str, Number] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
-
-    @property
-    def n(self) -> int:
-        """Number of joints."""
-        return len(self.joints)
 
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about this arm, one sentence each."""
         assumed = [number.sentence(name) for name, number in self.numbers.items() if number.assumed]
         return (*self.remarks, *assumed)
-
-    @property
-    def mass(self) -> tuple[tuple[fmpq_mpoly, ...], ...]:
-        """M(q), rows of polynomials in normal form, kg·m²; raises `TooLong` where those are not worth it."""
-        return self.dynamics.polynomials.mass
-
-    @property
-    def potential(self) -> fmpq_mpoly:
-        """The potential energy as a polynomial, J."""
-        return self.dynamics.polynomials.potential
-
-    @property
-    def christoffel(self) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]:
-        """c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), so that C(q,x)_ij = Σ_k c_ijk x_k."""
-        return self.dynamics.polynomials.christoffel
-
-    @property
-    def gravity(self) -> tuple[fmpq_mpoly, ...]:
-        """g(q) = ∂potential/∂q as polynomials, N·m."""
-        return self.dynamics.polynomials.gravity
-
-    @property
-    def ring(self) -> fmpq_mpoly_ctx:
-        """Generators s1…sn, c1…cn and one for each entry of ``parameters``."""
-        return self.potential.context()
-
-    @property
-    def chain(self) -> Chain | None:
-        """The links where they are known and exact."""
-        return self.dynamics if isinstance(self.dynamics, Chain) and not self.parameters else None
-
-    @cached_property
-    def chain_bounds(self) -> ChainBounds | None:
-        """What masses and distances of exact links say for all angles."""
-        return None if self.chain is None else chain_bounds(self.chain)
-
-    def at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> Place:
-        """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
-        known = parameters or {}
-        values = {
-            name: known[name] if name in known else lift(number.value)
-            for name, number in self.parameters.items()
-        }
-        return self.dynamics.at(sin, cos, values, lift)
-
-    def mass_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> list[list[T]]:
-        """M(q), (n, n), kg·m², in any arithmetic."""
-        return self.at(sin, cos, lift, parameters).mass()
-
-    def coriolis_at(
-        self,
-        sin: Sequence[T],
-        cos: Sequence[T],
-        x: Sequence[T],
-        lift: Lift[T],
-        parameters: Mapping[str, T] | None = None,
-    ) -> list[list[T]]:
-        """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, in any arithmetic; x is (n,), rad/s."""
-        return self.at(sin, cos, lift, parameters).coriolis(x)
-
-    def gravity_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> list[T]:
-        """g(q), (n,), N·m, in any arithmetic."""
-        return self.at(sin, cos, lift, parameters).gravity()
-
-    def potential_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> T:
-        """The potential energy, J, in any arithmetic."""
-        found: T = self.at(sin, cos, lift, parameters).potential()
-        return found
-
-    def fixed(self, **parameters: Fraction | int) -> RobotModel:
-        """The same arm with every uncertain parameter of M and the potential at one exact value.
-
-        Args:
-            parameters: values by name; a parameter that is not named keeps its nominal value.
-
-        Raises:
-            InputError: a name that is not a parameter of this arm.
-        """
-        for name in parameters:
-            if name not in self.parameters:
-                known = ", ".join(self.parameters) or "none"
-                raise argument_error(
-                    "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
-                )
-        if not self.parameters:
-            return self
-        values = {
-            name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
-        }
-        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})

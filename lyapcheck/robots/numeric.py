@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.plant import Plant
 
 _BLOCK = 4096
 """States evaluated together: what they need then stays in the cache."""
@@ -26,7 +26,7 @@ class NumericModel:
     Soundness: rounded to nearest without bounds; good for search and simulation, never for a verdict.
     """
 
-    def __init__(self, model: RobotModel, parameters: Mapping[str, Fraction] | None = None) -> None:
+    def __init__(self, model: Plant, parameters: Mapping[str, Fraction] | None = None) -> None:
         self._model = model.fixed(**dict(parameters or {}))
         self.n = model.n
         self.viscous: Array = np.array([float(number.value) for number in model.viscous])

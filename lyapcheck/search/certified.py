@@ -91,7 +91,7 @@ def _attempts(
             return found, looked_at, f"K_p is too small beside K_v for ε₀ = {float(closure.eps0):.6g}"
         advance = _part(tell, index, f"{float(share):.1%} of falsified")
         advance(0.0, "")
-        outcome = certify(Problem(closure, setting.ranged), max_boxes - looked_at, advance, deadline)
+        outcome = certify(Problem(closure), max_boxes - looked_at, advance, deadline)
         looked_at += outcome.boxes
         if not outcome.proved:
             return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import Progress
-from lyapcheck.robots import RobotModel
+from lyapcheck.robots.plant import Plant
 from lyapcheck.search.falsify import Witness, falsify
 from lyapcheck.search.sample import States, quadratic
 from lyapcheck.search.setting import Setting
@@ -47,7 +47,7 @@ def _part(tell: Progress, turn: int) -> Progress:
     return lambda fraction, note: tell((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
 
 
-def worst_corner(model: RobotModel, at: Setting, witness: Witness) -> RobotModel:
+def worst_corner(model: Plant, at: Setting, witness: Witness) -> Plant:
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
     states = _states(witness)
     corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
@@ -61,7 +61,7 @@ def worst_corner(model: RobotModel, at: Setting, witness: Witness) -> RobotModel
     return chosen
 
 
-def at_corner(model: RobotModel, near: RobotModel, moved: Corner) -> RobotModel:
+def at_corner(model: Plant, near: Plant, moved: Corner) -> Plant:
     """``near`` with some numbers moved; nominal values of ``near`` are those of its numbers."""
     parameters = {
         name: replace(number, value=moved.get(name, near.parameters[name].value))
@@ -74,7 +74,7 @@ def at_corner(model: RobotModel, near: RobotModel, moved: Corner) -> RobotModel:
     return replace(near, parameters=parameters, viscous=viscous)
 
 
-def _moves(model: RobotModel, corner: Corner) -> Iterator[Corner]:
+def _moves(model: Plant, corner: Corner) -> Iterator[Corner]:
     """Each end of each range, on its own."""
     for name, number in model.parameters.items():
         for end in number.bounds:

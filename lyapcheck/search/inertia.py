@@ -8,18 +8,18 @@ from lyapcheck.check.kinds.inertia import Bisection, Links, Mass
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.plant import Plant
 
 _LINKS: dict[Mass, Links] = {}
 """The links of arms that were looked at, by the M(q) that they make."""
 
 
-def mass_of(robot: RobotModel) -> Mass:
+def mass_of(robot: Plant) -> Mass:
     """M(q) as statements have it."""
     return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in robot.mass)
 
 
-def remember(robot: RobotModel) -> None:
+def remember(robot: Plant) -> None:
     """Keep the links of an arm for statements that have only its M(q)."""
     fixed = robot.fixed()
     if fixed.chain is not None:

@@ -91,7 +91,7 @@ def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialB
     if not closure.admissible:
         return None
     if setting.n <= MOST_JOINTS:
-        outcome = certify(Problem(closure, setting.ranged), max_boxes)
+        outcome = certify(Problem(closure), max_boxes)
         return BoxTree(outcome.tree) if outcome.proved else None
     data = reduced_radial(margin)
     return data
@@ -124,7 +124,7 @@ def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
     boxes = np.stack((points, points), axis=1)
 
     def allows(closure: Closure) -> bool:
-        return closure.admissible and bool(Problem(closure, setting.ranged).proved(boxes).all())
+        return closure.admissible and bool(Problem(closure).proved(boxes).all())
 
     return allows
 

@@ -17,7 +17,6 @@ from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmIntervals, coriolis
 from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.family import dh_range, h_range
-from lyapcheck.robots import RobotModel
 
 Entry = Interval | float
 Rows = list[list[Interval]]
@@ -39,16 +38,14 @@ class Problem:
 
     Args:
         closure: what is to be proved; its ``start`` says which side is which.
-        model: the same arm.
     """
 
     closure: Closure
-    model: RobotModel
     arm: ArmIntervals = field(init=False)
     family: Family = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "arm", ArmIntervals(self.model))
+        object.__setattr__(self, "arm", ArmIntervals(self.closure.mass))
         object.__setattr__(self, "family", named(self.closure.family, self.closure.m))
 
     def proved(self, boxes: Array) -> NDArray[np.bool_]:

@@ -17,8 +17,8 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
-from lyapcheck.robots import RobotModel
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.plant import Plant
 from lyapcheck.robots.trig import fraction
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
@@ -40,7 +40,7 @@ class Setting:
     """
 
     gains: GainSet
-    model: RobotModel
+    model: Plant
     ranges: bool = False
 
     def __post_init__(self) -> None:
@@ -83,7 +83,7 @@ class Setting:
         return NumericModel(self.model)
 
     @cached_property
-    def fixed(self) -> RobotModel:
+    def fixed(self) -> Plant:
         """The arm without parameters."""
         return self.model.fixed()
 
@@ -110,7 +110,7 @@ class Setting:
         return Controller(functions, tuple(self.gains.kp), tuple(self.gains.kv), self.per_degree)
 
     @cached_property
-    def ranged(self) -> RobotModel:
+    def ranged(self) -> Plant:
         """The arm that certificates are about: with its parameters if they are to range."""
         return self.model if self.ranges else self.fixed
 

@@ -103,7 +103,7 @@ def weighted_epsilon(
         closure = setting.closure(*_rounded([Fraction(float(x)) * share for x in found]))
         if not closure.admissible:
             continue
-        outcome = certify(Problem(closure, setting.ranged), max(0, max_boxes // len(SHARES)))
+        outcome = certify(Problem(closure), max(0, max_boxes // len(SHARES)))
         looked_at += outcome.boxes
         proof = Proof(closure, BoxTree(outcome.tree), setting.inertia_proof) if outcome.proved else None
         if proof is not None and proof.accepted(jobs):

@@ -13,6 +13,8 @@ from typing import Any
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
+from lyapcheck.robots.dynamics import Place
+from lyapcheck.robots.elimination import solve_definite
 
 Vector = Sequence[Any]
 Lift = Callable[[Any], Any]
@@ -43,15 +45,15 @@ class Loop:
         q, w = y[:n], y[n : 2 * n]
         e = [d - x for d, x in zip(self._part(0), q, strict=True)]
         damping = [b * x + k * of.h(x) for b, k, x in zip(self._part(3), self._part(2), w, strict=True)]
-        at = _Place(self, q)
+        at = self._at(q)
         swing = [quadratic.dot(row, w) for row in at.coriolis(w)]
         spring = [k * of.h(x) for k, x in zip(self._part(1), e, strict=True)]
         force = [s - d - c for s, d, c in zip(spring, damping, swing, strict=True)]
-        return [*w, *solve_definite(at.mass, force), quadratic.dot(w, damping), quadratic.dot(e, e)]
+        return [*w, *solve_definite(at.mass(), force), quadratic.dot(w, damping), quadratic.dot(e, e)]
 
     def torque(self, q: Vector, e: Vector, w: Vector) -> list[Any]:
         """τ = K_p h(e) − K_v h(w) + g(q)."""
-        of, gravity = self.forms, _Place(self, q).gravity
+        of, gravity = self.forms, self._at(q).gravity()
         rows = zip(self._part(1), e, self._part(2), w, gravity, strict=True)
         return [kp * of.h(x) - kv * of.h(v) + g for kp, x, kv, v, g in rows]
 
@@ -60,13 +62,18 @@ class Loop:
         of = self.forms
         eps = self.parameters[-1] / (1.0 + of.sqrt(quadratic.dot(e, e)))
         y = [v - eps * of.h(x) for v, x in zip(w, e, strict=True)]
-        kinetic = quadratic.dot(y, [quadratic.dot(row, y) for row in _Place(self, q).mass])
+        kinetic = quadratic.dot(y, [quadratic.dot(row, y) for row in self._at(q).mass()])
         return 0.5 * kinetic + quadratic.dot(self._part(1), [of.potential(x) for x in e])
 
     @cached_property
     def uncertain(self) -> dict[str, Any]:
         """The uncertain parameters by name."""
         return dict(zip(self.model.parameters, self.parameters[4 * self.n : -1], strict=True))
+
+    def _at(self, q: Vector) -> Place:
+        """The arm at angles q."""
+        of = self.forms
+        return self.model.at([of.sin(x) for x in q], [of.cos(x) for x in q], float, self.uncertain)
 
     def _part(self, i: int) -> Vector:
         return self.parameters[i * self.n : (i + 1) * self.n]
@@ -75,62 +82,3 @@ class Loop:
 def parameter_count(model: RobotModel) -> int:
     """How many numbers a run has besides its state: q_d, K_p, K_v, B (n each), uncertain ones, ε₀."""
     return 4 * model.n + len(model.parameters) + 1
-
-
-class _Place:
-    """M, C and g at one place."""
-
-    def __init__(self, loop: Loop, q: Vector) -> None:
-        self._model, self._uncertain = loop.model, loop.uncertain
-        self._turns = [loop.forms.sin(x) for x in q], [loop.forms.cos(x) for x in q]
-
-    @property
-    def mass(self) -> list[list[Any]]:
-        """M(q)."""
-        return self._model.mass_at(*self._turns, float, self._uncertain)
-
-    def coriolis(self, x: Vector) -> list[list[Any]]:
-        """C(q, x)."""
-        return self._model.coriolis_at(*self._turns, x, float, self._uncertain)
-
-    @property
-    def gravity(self) -> list[Any]:
-        """g(q)."""
-        return self._model.gravity_at(*self._turns, float, self._uncertain)
-
-
-def solve_definite(matrix: list[list[Any]], right: Vector) -> list[Any]:
-    """x with matrix · x = right, by LDLᵀ without square roots, in any arithmetic.
-
-    Soundness: with M not definite the pivots vanish or change sign; property 2.1 is decided elsewhere.
-    """
-    lower, pivots = _ldl(matrix)
-    x = list(right)
-    n = len(x)
-    for i in range(n):
-        for k in range(i):
-            x[i] = x[i] - lower[i][k] * x[k]
-    x = [a / d for a, d in zip(x, pivots, strict=True)]
-    for i in reversed(range(n)):
-        for k in range(i + 1, n):
-            x[i] = x[i] - lower[k][i] * x[k]
-    return x
-
-
-def _ldl(matrix: list[list[Any]]) -> tuple[list[list[Any]], list[Any]]:
-    """Rows of L left of its diagonal, and the pivots."""
-    lower: list[list[Any]] = []
-    pivots: list[Any] = []
-    for i, row in enumerate(matrix):
-        scaled: list[Any] = []  # L_ik d_k
-        for k in range(i):
-            rest = row[k]
-            for j in range(k):
-                rest = rest - scaled[j] * lower[k][j]
-            scaled.append(rest)
-        lower.append([a / d for a, d in zip(scaled, pivots, strict=False)])
-        pivot = row[i]
-        for a, b in zip(scaled, lower[i], strict=True):
-            pivot = pivot - a * b
-        pivots.append(pivot)
-    return lower, pivots

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
-from lyapcheck.simulate.dynamics import solve_definite
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.monitor import torque_limits
 
@@ -90,7 +89,7 @@ def _acceleration(model: RobotModel, bench: Bench, q: Any, w: Any, torque: Any) 
 
     dry = ca.DM(dry_friction(model)) * ca.tanh(w / bench.creep)
     drift = graph.coriolis(model, q, w) @ w + graph.gravity(model, q) + graph.viscous(model) @ w
-    return solve_definite(graph.mass(model, q), torque - drift - dry)
+    return graph.solve(graph.mass(model, q), torque - drift - dry)
 
 
 def dry_friction(model: RobotModel) -> list[float]:

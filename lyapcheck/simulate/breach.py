@@ -13,6 +13,7 @@ from lyapcheck._types import Array
 from lyapcheck.simulate.confirm import Sample, exceeds, rises
 
 if TYPE_CHECKING:
+    from lyapcheck.robots import Number
     from lyapcheck.search.setting import Setting
 
 
@@ -128,17 +129,18 @@ def fall_monitor(run: Watched) -> Breach | None:
     return run.breach(f"V falls for ε₀ = {run.eps0:g}", i, run.V[i], run.V[i - 1], "J", False)
 
 
-def limit_monitor(run: Watched) -> Breach | None:
-    """Each |τ_i| is at most what the motor can give."""
-    model = run.setting.model
-    found = [breach for i in range(model.n) for breach in _beyond_limit(run, i)]
-    return min(found, key=lambda breach: breach.index, default=None)
+def limit_monitor(limits: Sequence[Number | None]) -> Monitor:
+    """Each |τ_i| is at most what the motor can give, (n,), N·m, where that is known."""
+
+    def monitor(run: Watched) -> Breach | None:
+        known = [(i, limit) for i, limit in enumerate(limits) if limit is not None]
+        found = [breach for i, limit in known for breach in _beyond_limit(run, i, limit)]
+        return min(found, key=lambda breach: breach.index, default=None)
+
+    return monitor
 
 
-def _beyond_limit(run: Watched, joint: int) -> Iterator[Breach]:
-    number = run.setting.model.torque_limit[joint]
-    if number is None:
-        return
+def _beyond_limit(run: Watched, joint: int, number: Number) -> Iterator[Breach]:
     most = float(number.value)
     size = np.abs(run.tau[:, joint])
     name = run.setting.model.joints[joint]

@@ -126,7 +126,9 @@ def _broken(setup: Setup, run: Run) -> Breach | None:
     watched = Watched(setup.setting, setup.eps0, *signals, noise=noise_of(run.V))
     bound = bound_monitor("the bound (9)", run.promises.torque_bound)
     joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
-    return first_breach(watched, (rate_monitor, fall_monitor, limit_monitor, joints, bound))
+    return first_breach(
+        watched, (rate_monitor, fall_monitor, limit_monitor(setup.model.torque_limit), joints, bound)
+    )
 
 
 def _twice(

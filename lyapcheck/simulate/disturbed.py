@@ -11,7 +11,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.simulate.compiled import Compiled
-from lyapcheck.simulate.dynamics import closed_loop, solve_definite
+from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.integrate import integrate
 from lyapcheck.simulate.setup import set_up
 
@@ -76,8 +76,8 @@ def disturbed(
 
     w = loop.state[n : 2 * n]
     added = ca.DM(list(torque) or [0.0] * n) - ca.DM(list(dry) or [0.0] * n) * ca.tanh(w / CREEP)
-    push = solve_definite(graph.mass(model, loop.state[:n]), added)
-    whole = loop.rate + ca.vertcat(ca.SX.zeros(n), push, 0, 0)
+    acceleration = graph.solve(graph.mass(model, loop.state[:n]), added)
+    whole = loop.rate + ca.vertcat(ca.SX.zeros(n), acceleration, 0, 0)
     inputs = [loop.state, loop.goal]
     rate = Compiled(ca.Function("rate", inputs, [ca.densify(whole)]))
     slope = Compiled(ca.Function("slope", inputs, [ca.densify(ca.jacobian(whole, loop.state))]))

@@ -66,36 +66,7 @@ def closed_loop(gains: Gains, model: RobotModel) -> ClosedLoop:
     damper = ca.DM(gains.kv) * gains.family.casadi(w).h
     friction = graph.viscous(model) @ w
     mass = graph.mass(model, q)
-    acceleration = solve_definite(mass, spring - damper - friction - graph.coriolis(model, q, w) @ w)
+    acceleration = graph.solve(mass, spring - damper - friction - graph.coriolis(model, q, w) @ w)
     rate = ca.vertcat(w, acceleration, ca.dot(w, friction + damper), ca.dot(e, e))
     energy = ca.dot(w, mass @ w) / 2 + ca.dot(ca.DM(gains.kp), at_e.potential)
     return ClosedLoop(n, state, goal, rate, spring - damper + graph.gravity(model, q), energy)
-
-
-def solve_definite(matrix: Any, right: Any) -> Any:
-    """x with matrix · x = right for a symmetric positive definite SX matrix, by LDLᵀ without square roots.
-
-    Soundness: with M not definite the pivots vanish or change sign; property 2.1 is decided elsewhere.
-    """
-    lower, pivots = _ldl(matrix)
-    return ca.mtimes(_inverse_unit_lower(lower).T, ca.mtimes(_inverse_unit_lower(lower), right) / pivots)
-
-
-def _ldl(matrix: Any) -> tuple[Any, Any]:
-    n = matrix.shape[0]
-    lower, pivots = ca.SX.eye(n), ca.SX.zeros(n)
-    for j in range(n):
-        pivots[j] = matrix[j, j] - sum(lower[j, k] ** 2 * pivots[k] for k in range(j))
-        for i in range(j + 1, n):
-            known = sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j))
-            lower[i, j] = (matrix[i, j] - known) / pivots[j]
-    return lower, pivots
-
-
-def _inverse_unit_lower(lower: Any) -> Any:
-    n = lower.shape[0]
-    inverse = ca.SX.eye(n)
-    for j in range(n):
-        for i in range(j + 1, n):
-            inverse[i, j] = -sum(lower[i, k] * inverse[k, j] for k in range(j, i))
-    return inverse

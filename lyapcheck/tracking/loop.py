@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 
 from lyapcheck.simulate.compiled import Compiled
-from lyapcheck.simulate.dynamics import solve_definite
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -71,7 +70,7 @@ def tracking_loop(gains: Gains, model: RobotModel) -> TrackingLoop:
     mass, coriolis = graph.mass(model, q), graph.coriolis(model, q, velocity)
     friction, gravity = graph.viscous(model), graph.gravity(model, q)
     feedback = ca.DM(gains.kp) * gains.family.casadi(e).h - ca.DM(gains.kv) * gains.family.casadi(w).h
-    acceleration = solve_definite(mass, feedback - friction @ w - coriolis @ w)
+    acceleration = graph.solve(mass, feedback - friction @ w - coriolis @ w)
     torque = feedback + mass @ push + coriolis @ speed + gravity + friction @ speed
     power = ca.dot(velocity, torque - friction @ velocity)
     rate = ca.vertcat(-w, acceleration, ca.dot(e, e), power)

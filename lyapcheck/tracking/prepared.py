@@ -45,7 +45,8 @@ class Prepared:
 
     def __init__(self, gain_set: GainSet, model: RobotModel, reference: Reference, asked: Request) -> None:
         self.gains = gains_for(gain_set, model.n)
-        self.setting, self.reference, self.asked = Setting(gain_set, model), reference, asked
+        self.model, self.setting = model, Setting(gain_set, model)
+        self.reference, self.asked = reference, asked
         self.loop: TrackingLoop = tracking_loop(self.gains, model)
         self.suprema = reference.suprema()
         self.form: TrackingForm | None = tracking_form(self.setting, self.suprema.speed)
@@ -99,7 +100,7 @@ class Prepared:
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
         """Everything that can be computed from the samples of a path."""
-        n, model = self.setting.n, self.setting.model
+        n, model = self.setting.n, self.model
         goal = self.reference.at(path.t)
         inputs = (path.y.T, goal.reshape(len(path.t), -1).T)
         tau, energy = (np.array(x) for x in self.loop.signals().map(path.t.size)(*inputs))
@@ -125,7 +126,7 @@ class Prepared:
             torque_limit=torque_limits(model),
             complete=path.failure is None,
             notes=model.assumptions,
-            breach=broken(self.setting, self.promise, motion, V, dV, bound),
+            breach=broken(self.setting, model.torque_limit, self.promise, motion, V, dV, bound),
         )
 
 

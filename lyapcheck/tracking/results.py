@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.breach import (
@@ -49,9 +51,15 @@ def bound_of(form: TrackingForm | None, gains: Gains, eps0: float, motion: Motio
 
 
 def broken(
-    setting: Setting, promise: Promise, motion: Motion, V: Array, dV: Array, bound: Array | None
+    setting: Setting,
+    limits: Sequence[Number | None],
+    promise: Promise,
+    motion: Motion,
+    V: Array,
+    dV: Array,
+    bound: Array | None,
 ) -> Breach | None:
-    """The first promise that the samples break."""
+    """The first promise that the samples break, or the limit of a motor, N·m."""
     watched = Watched(
         setting=setting,
         eps0=promise.eps0,
@@ -68,7 +76,9 @@ def broken(
     )
     torque = None if promise.torque is None else tuple(map(float, promise.torque.total))
     joints = joint_monitor("its bound for (21)", torque)
-    return first_breach(watched, (rate_monitor, fall_monitor, form_monitor(bound), joints, limit_monitor))
+    return first_breach(
+        watched, (rate_monitor, fall_monitor, form_monitor(bound), joints, limit_monitor(limits))
+    )
 
 
 def indices_of(motion: Motion, squares: float, band: float) -> Indices:

@@ -14,6 +14,7 @@ from typing import Any
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
+from lyapcheck.robots.dynamics import Place
 
 Vector = Sequence[Any]
 
@@ -49,7 +50,7 @@ class BenchStep:
     def controller(self, q: Vector, last: Vector) -> tuple[list[Any], list[Any]]:
         """(torque held, readings): τ = K_p h(e) − K_v h(Δq/T) + g of what is read, cut at the limits."""
         readings = [self._read(q[i], self.model.encoder[i]) for i in range(self.n)]
-        gravity = _Place(self, readings).gravity
+        gravity = self._at(readings).gravity()
         torques = []
         for i, reading in enumerate(readings):
             spring = self._part(1)[i] * self.forms.h(self._part(0)[i] - reading)
@@ -69,12 +70,13 @@ class BenchStep:
 
     def _rates(self, q: Vector, before: Vector, during: Vector, torque: Vector, h: float) -> list[Any]:
         """w with M w + h f_c sign(w) ∋ M w_before + h (τ − C w − g − B w), forces at (q, w_during)."""
-        at = _Place(self, q)
+        at = self._at(q)
+        mass = at.mass()
         swing = [quadratic.dot(row, during) for row in at.coriolis(during)]
-        rows = zip(torque, swing, at.gravity, self._part(3), during, strict=True)
+        rows = zip(torque, swing, at.gravity(), self._part(3), during, strict=True)
         force = [t - c - g - b * x for t, c, g, b, x in rows]
-        momentum = [quadratic.dot(row, before) + h * f for row, f in zip(at.mass, force, strict=True)]
-        return self._with_friction(at.mass, momentum, during, h)
+        momentum = [quadratic.dot(row, before) + h * f for row, f in zip(mass, force, strict=True)]
+        return self._with_friction(mass, momentum, during, h)
 
     def _with_friction(self, mass: list[list[Any]], momentum: Vector, guess: Vector, h: float) -> list[Any]:
         """The w that minimises ½wᵀMw − momentumᵀw + h Σ f_ci |w_i|, one joint after the other."""
@@ -112,6 +114,11 @@ class BenchStep:
         """The uncertain parameters by name."""
         return dict(zip(self.model.parameters, self.parameters[5 * self.n :], strict=True))
 
+    def _at(self, q: Vector) -> Place:
+        """The arm at angles q."""
+        of = self.forms
+        return self.model.at([of.sin(x) for x in q], [of.cos(x) for x in q], float, self.uncertain)
+
     def _part(self, i: int) -> Vector:
         return self.parameters[i * self.n : (i + 1) * self.n]
 
@@ -119,25 +126,3 @@ class BenchStep:
 def parameter_count(model: RobotModel) -> int:
     """How many numbers a run has besides its state: q_d, K_p, K_v, B, f_c (n each), uncertain ones."""
     return 5 * model.n + len(model.parameters)
-
-
-class _Place:
-    """M, C and g at one place."""
-
-    def __init__(self, step: BenchStep, q: Vector) -> None:
-        self._model, self._uncertain = step.model, step.uncertain
-        self._turns = [step.forms.sin(x) for x in q], [step.forms.cos(x) for x in q]
-
-    @cached_property
-    def mass(self) -> list[list[Any]]:
-        """M(q)."""
-        return self._model.mass_at(*self._turns, float, self._uncertain)
-
-    def coriolis(self, x: Vector) -> list[list[Any]]:
-        """C(q, x)."""
-        return self._model.coriolis_at(*self._turns, x, float, self._uncertain)
-
-    @property
-    def gravity(self) -> list[Any]:
-        """g(q)."""
-        return self._model.gravity_at(*self._turns, float, self._uncertain)

@@ -84,7 +84,7 @@ def gains(arm: str, m: int) -> GainSet:
 
 def _cost(setting: Setting, falsified: Fraction, share: Fraction, max_boxes: int) -> Cost:
     closure = setting.closure((falsified * share).limit_denominator(10**9))
-    outcome, searched = _timed(lambda: certify(Problem(closure, setting.ranged), max_boxes))
+    outcome, searched = _timed(lambda: certify(Problem(closure), max_boxes))
     if not outcome.proved:
         return Cost(float(share), outcome.boxes, searched, None)
     accepted, checked = _timed(lambda: proves(closure, outcome.tree, 2))

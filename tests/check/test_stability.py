@@ -267,7 +267,7 @@ def at_random(model: RobotModel, values: list[float]) -> RobotModel:
 def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
     gains, model = GAINS["buap3"][1], load("buap3")
     case = Setting(gains, model, ranges=True).closure(F("0.055"))
-    outcome = certify(Problem(case, model), 20_000)
+    outcome = certify(Problem(case), 20_000)
     assert outcome.proved
     assert proves(case, outcome.tree)
     assert not proves(replace(case, viscous=((F(1, 100), F(3)),) * 3), outcome.tree)

@@ -81,8 +81,18 @@ def model_of(
     chain = Chain(tuple(RigidLink(**link) for link in plain), exact_parts(gravity))
     names = tuple(f"joint{i}" for i in range(n))
     nothing = (None,) * n
-    friction = (Number(Fraction(1)),) * n
-    return RobotModel("random", "", names, chain, friction, nothing, nothing, nothing, nothing, {})
+    return RobotModel(
+        name="random",
+        title="",
+        joints=names,
+        dynamics=chain,
+        viscous=(Number(Fraction(1)),) * n,
+        coulomb=nothing,
+        torque_limit=nothing,
+        encoder=nothing,
+        gravity_bound=nothing,
+        numbers={},
+    )
 
 
 def exact(value: Fraction) -> fmpq:

@@ -54,7 +54,7 @@ def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
     narrow, wide = (
         Setting(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
     )
-    outcome = certify(Problem(narrow.closure(F(6, 10)), narrow.ranged), 60_000)
+    outcome = certify(Problem(narrow.closure(F(6, 10))), 60_000)
     assert outcome.proved
     assert proves(narrow.closure(F(6, 10)), outcome.tree)
     assert not proves(wide.closure(F(6, 10)), outcome.tree)

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.family import Family, hyperbolic, named, names
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.arm import ArmIntervals, coriolis
 from lyapcheck.intervals.family import dh_range, h_range
 from lyapcheck.robots import load
+from lyapcheck.robots.trig import to_terms
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
@@ -134,6 +136,11 @@ def arm_box(generator: np.random.Generator, n: int) -> list[tuple[float, float]]
     return [(float(a - b), float(a + b)) for a, b in zip(middle, width, strict=True)]
 
 
+def intervals_of(name: str) -> ArmIntervals:
+    model = load(name).fixed()
+    return ArmIntervals([[by_parameters(to_terms(entry), model.n) for entry in row] for row in model.mass])
+
+
 def exact_entries(name: str, q: list[float], x: list[F]) -> tuple[list[list[arb]], list[list[arb]]]:
     """M(q) and C(q, x) by the model's own evaluation of its polynomials, in balls."""
     model = load(name).fixed()
@@ -147,7 +154,7 @@ def exact_entries(name: str, q: list[float], x: list[F]) -> tuple[list[list[arb]
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_mass_and_coriolis_matrices_hold_balls(name: str) -> None:
-    arm, generator = ArmIntervals(load(name).fixed()), np.random.default_rng(11)
+    arm, generator = intervals_of(name), np.random.default_rng(11)
     for _ in range(60):
         box = arm_box(generator, arm.n)
         x = [F(float(value)) for value in generator.normal(size=arm.n)]
@@ -171,7 +178,7 @@ def test_mass_and_coriolis_matrices_hold_balls(name: str) -> None:
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_entries_over_thin_boxes_are_tight(name: str) -> None:
-    arm = ArmIntervals(load(name).fixed())
+    arm = intervals_of(name)
     thin = [Interval(np.asarray(0.7), np.asarray(0.7 + 1e-6))] * arm.n
     for row in arm.at(thin).mass():
         for entry in row:
@@ -181,7 +188,7 @@ def test_entries_over_thin_boxes_are_tight(name: str) -> None:
 @pytest.mark.parametrize("ends", [(-math.inf, math.inf), (math.nan, 1.0), (5e-324, 5e-324), (-1e300, 1e300)])
 def test_odd_angles_leave_the_whole_range(ends: tuple[float, float]) -> None:
     """M over everything contains M anywhere, and a middle that is undefined cuts nothing off."""
-    arm = ArmIntervals(load("reyes-kelly2").fixed())
+    arm = intervals_of("reyes-kelly2")
     wide = arm.at([Interval(*map(np.asarray, ends))] * arm.n).mass()
     for row, exact_row in zip(wide, exact_entries("reyes-kelly2", [0.0, 0.0], [F(0), F(0)])[0], strict=True):
         for entry, value in zip(row, exact_row, strict=True):

@@ -136,7 +136,7 @@ def test_an_indefinite_inertia_is_not_called_positive() -> None:
     """Data errors happen: the enclosure then lies below zero, it does not end there."""
     model = load("reyes-kelly2")
     (a, b), (_, d) = model.mass
-    wrong = replace(model, mass=((a, 20 * b), (20 * b, d)))
+    wrong = replace(model, dynamics=replace(model.dynamics.polynomials, mass=((a, 20 * b), (20 * b, d))))
     found = robot_constants(wrong)
     assert found.lambda_min.upper < 0
     assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= found.lambda_min.lower

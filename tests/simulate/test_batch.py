@@ -17,10 +17,10 @@ from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.simulate import batch as batch_module
 from lyapcheck.simulate.batch import simulate_many
 from lyapcheck.simulate.batch_compiled import compiled_runs
-from lyapcheck.simulate.batch_rates import solve_definite
 from lyapcheck.simulate.batch_runs import Runs
 from lyapcheck.simulate.batch_signals import compiled_signals
 from lyapcheck.simulate.closed_loop import simulate

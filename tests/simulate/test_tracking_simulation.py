@@ -215,9 +215,9 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     V, dV = energies(setting, held, 0.01, motion)
     low = bound_of(tracking_form(setting, Fraction(0)), held, 0.01, motion)
     high = bound_of(tracking_form(setting, Fraction(1000)), held, 0.01, motion)
-    falling = -np.arange(500.0)
-    assert "Θ'" in broken(setting, still, motion, falling, np.minimum(dV, -1e-12), low).promise
-    assert broken(setting, still, motion, falling, np.minimum(dV, -1e-12), high) is None
+    falling, limits = -np.arange(500.0), setting.model.torque_limit
+    assert "Θ'" in broken(setting, limits, still, motion, falling, np.minimum(dV, -1e-12), low).promise
+    assert broken(setting, limits, still, motion, falling, np.minimum(dV, -1e-12), high) is None
     assert V.shape == dV.shape
 
 

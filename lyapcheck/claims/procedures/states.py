@@ -29,11 +29,15 @@ from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.registry import procedure
+from lyapcheck.robots import Number, trig
+from lyapcheck.robots.dynamics import Polynomials
+from lyapcheck.robots.plant import Plant
 from lyapcheck.search.inertia import mass_proof
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop.states import State
+    from lyapcheck.check.statement import Ends
     from lyapcheck.search.setting import Setting
 
 METHOD = "every state"
@@ -148,7 +152,7 @@ def _by_boxes(statement: Decreasing) -> Finding:
     if n > MOST_JOINTS:
         return still_open(f"norms do not suffice, and boxes are tried up to {MOST_JOINTS} joints", METHOD)
     closure = closure_of(statement)
-    outcome = certify(Problem(closure, _model(statement)), MAX_BOXES)
+    outcome = certify(Problem(closure), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
     tree = _with_mass(statement, BoxTree(outcome.tree))
@@ -168,7 +172,7 @@ def setting_of(statement: Decreasing) -> Setting:
         kv=statement.kv,
         angle_unit="rad",
     )
-    return Setting(gains, _model(statement).fixed())
+    return Setting(gains, _plant(statement).fixed())
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
@@ -178,32 +182,21 @@ def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fractio
     return viscous, parameters
 
 
-def _model(statement: Decreasing) -> Any:
-    """A robot model with the arm's M and B and nothing else."""
-    from lyapcheck.robots import Number, RobotModel, trig
-    from lyapcheck.robots.dynamics import Polynomials
-
-    n = len(statement.kp)
-    names = tuple(f"p{k + 1}" for k in range(len(statement.parameters)))
+def _plant(statement: Decreasing) -> Plant:
+    """What the statement says of the arm."""
+    n, (viscous, parameters) = len(statement.kp), _middles(statement)
+    names = tuple(f"p{k + 1}" for k in range(len(parameters)))
     ring = trig.trig_ring(n, names)
-    viscous, parameters = _middles(statement)
-    ranged = zip(names, parameters, statement.parameters, strict=True)
-    rows = zip(viscous, statement.viscous, strict=True)
-    unknown = (None,) * n
-    return RobotModel(
-        name="arm",
-        title="arm",
+    mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
+    return Plant(
+        name="the arm",
         joints=tuple(f"joint {i + 1}" for i in range(n)),
-        dynamics=Polynomials(
-            tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass),
-            trig.constant(ring, 0),
-            names,
-        ),
-        viscous=tuple(Number(b, low=low, high=high) for b, (low, high) in rows),
-        coulomb=unknown,
-        torque_limit=unknown,
-        encoder=unknown,
-        gravity_bound=unknown,
-        numbers={},
-        parameters={name: Number(p, low=ends[0], high=ends[1]) for name, p, ends in ranged},
+        dynamics=Polynomials(mass, trig.constant(ring, 0), names),
+        viscous=_numbers(viscous, statement.viscous),
+        parameters=dict(zip(names, _numbers(parameters, statement.parameters), strict=True)),
     )
+
+
+def _numbers(middles: tuple[Fraction, ...], ranges: tuple[Ends, ...]) -> tuple[Number, ...]:
+    rows = zip(middles, ranges, strict=True)
+    return tuple(Number(middle, low=low, high=high) for middle, (low, high) in rows)

@@ -1,0 +1,143 @@
+"""What moves: the dynamics of an arm and its friction, with the ranges of what is uncertain about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import TypeVar
+
+from flint import fmpq_mpoly, fmpq_mpoly_ctx
+
+from lyapcheck.errors import argument_error
+from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
+from lyapcheck.robots.dynamics import Chain, Dynamics, Lift, Place
+from lyapcheck.robots.number import Number
+
+P = TypeVar("P", bound="Plant")
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Plant:
+    """n revolute joints that obey M(q)q̈ + C(q,q̇)q̇ + g(q) + Bq̇ = τ, with exact numbers.
+
+    C_ij = Σ_k c_ijk q̇_k with the Christoffel symbols of M, and g = ∂potential/∂q, so that Ṁ = C + Cᵀ.
+
+    Args:
+        name: in messages (``"buap3"``).
+        joints: names of the joints, base first.
+        dynamics: M, C, g and the potential energy.
+        viscous: diagonal of B, (n,), N·m·s/rad.
+        parameters: the numbers with a range that enter M or the potential, in the order of ``dynamics``.
+    """
+
+    name: str
+    joints: tuple[str, ...]
+    dynamics: Dynamics
+    viscous: tuple[Number, ...]
+    parameters: dict[str, Number] = field(default_factory=dict)
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return self.dynamics.n
+
+    @property
+    def mass(self) -> tuple[tuple[fmpq_mpoly, ...], ...]:
+        """M(q), rows of polynomials in normal form, kg·m²; raises `TooLong` where those are not worth it."""
+        return self.dynamics.polynomials.mass
+
+    @property
+    def potential(self) -> fmpq_mpoly:
+        """The potential energy as a polynomial, J."""
+        return self.dynamics.polynomials.potential
+
+    @property
+    def christoffel(self) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]:
+        """c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), so that C(q,x)_ij = Σ_k c_ijk x_k."""
+        return self.dynamics.polynomials.christoffel
+
+    @property
+    def gravity(self) -> tuple[fmpq_mpoly, ...]:
+        """g(q) = ∂potential/∂q as polynomials, N·m."""
+        return self.dynamics.polynomials.gravity
+
+    @property
+    def ring(self) -> fmpq_mpoly_ctx:
+        """Generators s1…sn, c1…cn and one for each entry of ``parameters``."""
+        return self.potential.context()
+
+    @property
+    def chain(self) -> Chain | None:
+        """The links where they are known and exact."""
+        return self.dynamics if isinstance(self.dynamics, Chain) and not self.parameters else None
+
+    @cached_property
+    def chain_bounds(self) -> ChainBounds | None:
+        """What masses and distances of exact links say for all angles."""
+        return None if self.chain is None else chain_bounds(self.chain)
+
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
+    ) -> Place:
+        """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
+        known = parameters or {}
+        values = {
+            name: known[name] if name in known else lift(number.value)
+            for name, number in self.parameters.items()
+        }
+        return self.dynamics.at(sin, cos, values, lift)
+
+    def mass_at(
+        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
+    ) -> list[list[T]]:
+        """M(q), (n, n), kg·m², in any arithmetic."""
+        return self.at(sin, cos, lift, parameters).mass()
+
+    def coriolis_at(
+        self,
+        sin: Sequence[T],
+        cos: Sequence[T],
+        x: Sequence[T],
+        lift: Lift[T],
+        parameters: Mapping[str, T] | None = None,
+    ) -> list[list[T]]:
+        """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, in any arithmetic; x is (n,), rad/s."""
+        return self.at(sin, cos, lift, parameters).coriolis(x)
+
+    def gravity_at(
+        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
+    ) -> list[T]:
+        """g(q), (n,), N·m, in any arithmetic."""
+        return self.at(sin, cos, lift, parameters).gravity()
+
+    def potential_at(
+        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
+    ) -> T:
+        """The potential energy, J, in any arithmetic."""
+        found: T = self.at(sin, cos, lift, parameters).potential()
+        return found
+
+    def fixed(self: P, **parameters: Fraction | int) -> P:
+        """The same arm with every uncertain parameter of M and the potential at one exact value.
+
+        Args:
+            parameters: values by name; a parameter that is not named keeps its nominal value.
+
+        Raises:
+            InputError: a name that is not a parameter of this arm.
+        """
+        for name in parameters:
+            if name not in self.parameters:
+                known = ", ".join(self.parameters) or "none"
+                raise argument_error(
+                    "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
+                )
+        if not self.parameters:
+            return self
+        values = {
+            name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
+        }
+        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})
