@@ -107,6 +107,27 @@ def slope_of(m, n):
     }
 
 
+proof.section("The torque of one joint")
+
+
+@proof.claim(
+    "torque.joint",
+    "k_p + k_v ≤ (τmax − k_g)/γ implies |τ_i| ≤ γ (k_p + k_v) + k_g ≤ τmax",
+    "as (10p) of Section 4, whose √n one joint does not need",
+    uses=["h.bound"],
+)
+def _(case):
+    g, kp, kv, kg, limit, at_e, at_w, own, size = map(
+        var, ("gamma", "kp", "kv", "kg", "limit", "abs_h_e", "abs_h_w", "abs_g", "tau")
+    )
+    given = (size <= kp * at_e + kv * at_w + own, at_e <= g, at_w <= g, own <= kg)
+    signs = positive("gamma", "kp", "kv", "limit") + nonnegative("kg", "abs_h_e", "abs_h_w", "abs_g", "tau")
+    return all_of(
+        bound=implies(signs, given, size <= g * (kp + kv) + kg),
+        rule=implies(signs, (*given, kp + kv <= (limit - kg) / g), size <= limit),
+    )
+
+
 proof.section("The function h")
 
 

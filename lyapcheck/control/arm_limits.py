@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from flint import fmpq_mpoly
@@ -22,6 +22,7 @@ class ArmLimits:
         viscous_min: λmin(B), N·m·s/rad.
         torque_notes: which torque limits are assumed, and why.
         viscous_notes: which friction is assumed, and why.
+        model: the arm itself.
     """
 
     name: str
@@ -31,6 +32,7 @@ class ArmLimits:
     viscous_min: Fraction
     torque_notes: tuple[str, ...] = ()
     viscous_notes: tuple[str, ...] = ()
+    model: RobotModel | None = field(default=None, compare=False, repr=False)
 
     @property
     def n(self) -> int:
@@ -57,6 +59,7 @@ def model_limits(model: RobotModel) -> ArmLimits:
         viscous_min=min(number.bounds[0] for number in model.viscous),
         torque_notes=_assumed("torque limit", model.joints, model.torque_limit),
         viscous_notes=_assumed("friction", model.joints, model.viscous),
+        model=model,
     )
 
 

@@ -4,6 +4,8 @@ With N = √n γ the three read
 
     (10)   λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g) / N
     (10p)  k_pi + k_vi < (τmax_i − k_gi) / N          for each joint i
+    (10i)  k_pi + k_vi ≤ (τmax_i − k_gi) / γ          for each joint i: (10p) without its √n, which the torque
+                                                      of one joint does not need
     (19)   k_vi < λmin(B) / N                         for each joint i, which is λmax(K_v) < λmin(B)/N
 
 Each check is a statement about numbers and has the verdict of ``lyapcheck.check.verify``; see ``threshold``.
@@ -11,6 +13,7 @@ Each check is a statement about numbers and has the verdict of ``lyapcheck.check
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -29,7 +32,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits
     from lyapcheck.files.decimals import Written
 
-CONDITIONS = ("10", "10p", "19")
+CONDITIONS = ("10", "10p", "10i", "19")
 __all__ = ["ACCEPTED", "CONDITIONS", "REJECTED", "UNDECIDED", "Check", "Conditions", "check_10p", "check_19"]
 
 _UNBOUNDED = "the function is unbounded (γ = ∞): no gain keeps the torque within a limit for every state"
@@ -43,7 +46,7 @@ class Check:
     """One condition on one joint (or on all): its value, its limit and what would still pass.
 
     Args:
-        id: ``10``, ``10p``, ``19``, ``scalar`` or ``global``.
+        id: ``10``, ``10p``, ``10i``, ``19``, ``scalar``, ``global`` or ``lasalle``.
         joint: counted from 0; ``None`` where the condition is on all joints.
         judgement: the statement, and what the checker says of it; ``None`` where there is none to make.
         value: what is compared, N·m (N·m·s/rad for 19), exact; the ε₀ that a certificate proves, ``None``
@@ -84,6 +87,10 @@ class Conditions:
             None if torque is None else scaled(torque - gravity, n, gamma)
             for torque, gravity in zip(limits.torque, limits.gravity, strict=True)
         ]
+        self._single = [
+            None if torque is None else scaled(torque - gravity, 1, gamma, "<=")
+            for torque, gravity in zip(limits.torque, limits.gravity, strict=True)
+        ]
         self._damping = None if limits.viscous_min is None else scaled(limits.viscous_min, n, gamma)
 
     def check_10(self, gains: GainSet) -> list[Check]:
@@ -99,10 +106,14 @@ class Conditions:
 
         References: the tuning rule of Section 4, reyes2019family.
         """
-        return [
-            self._check("10p", i, kp + kv, max(places_of(kp), places_of(kv)), self._joints[i], _NO_TORQUE)
-            for i, (kp, kv) in enumerate(zip(gains.kp, gains.kv, strict=True))
-        ]
+        return self._sums("10p", gains, self._joints)
+
+    def check_10i(self, gains: GainSet) -> list[Check]:
+        """k_pi + k_vi ≤ (τmax_i − k_gi)/γ for each joint, which bounds |τ_i| ≤ γ (k_pi + k_vi) + k_gi.
+
+        References: (6) of reyes2019family; claim ``torque.joint`` of ``proofs/scalar.py``.
+        """
+        return self._sums("10i", gains, self._single)
 
     def check_19(self, gains: GainSet) -> list[Check]:
         """k_vi < λmin(B)/(√n γ) for each joint.
@@ -114,9 +125,17 @@ class Conditions:
             for i, kv in enumerate(gains.kv)
         ]
 
-    def all(self, gains: GainSet) -> tuple[Check, ...]:
-        """The checks of all three."""
-        return (*self.check_10(gains), *self.check_10p(gains), *self.check_19(gains))
+    def all(self, gains: GainSet, deciding: Sequence[str] = ()) -> tuple[Check, ...]:
+        """The checks of the paper's three, and of (10i) where it decides or (10p) fails."""
+        joints = self.check_10p(gains)
+        single = self.check_10i(gains) if "10i" in deciding or _fails(joints) else []
+        return (*self.check_10(gains), *joints, *single, *self.check_19(gains))
+
+    def _sums(self, name: str, gains: GainSet, thresholds: Sequence[Threshold | None]) -> list[Check]:
+        return [
+            self._check(name, i, kp + kv, max(places_of(kp), places_of(kv)), thresholds[i], _NO_TORQUE)
+            for i, (kp, kv) in enumerate(zip(gains.kp, gains.kv, strict=True))
+        ]
 
     def _check(
         self,
@@ -135,6 +154,10 @@ class Conditions:
         limit = threshold.apart(value, places)
         reason = _UNTOLD.format(found.reason) if found.proof is None else ""
         return Check(name, joint, found, value, limit, threshold.largest(places), reason)
+
+
+def _fails(checks: Sequence[Check]) -> bool:
+    return any(check.verdict == REJECTED and check.limit is not None for check in checks)
 
 
 def gamma_of(gain_set: GainSet, source: str = "true") -> Tree | None:

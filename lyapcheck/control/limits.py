@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from lyapcheck.output.escapes import printable
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
+    from lyapcheck.robots import RobotModel
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class Limits:
         joints: their names.
         assumptions: what the numbers rest on that no source prints.
         robot: the arm as it was named; empty where the gain file gives all numbers itself.
+        model: the arm; ``None`` where the gain file gives all numbers itself.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -35,6 +37,7 @@ class Limits:
     joints: tuple[str, ...]
     assumptions: tuple[str, ...] = ()
     robot: str = ""
+    model: RobotModel | None = field(default=None, compare=False, repr=False)
 
     @property
     def n(self) -> int:
@@ -43,7 +46,7 @@ class Limits:
 
     def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
         """The same limits with other assumptions told."""
-        return Limits(self.torque, self.gravity, self.viscous_min, self.joints, assumptions, self.robot)
+        return replace(self, assumptions=assumptions)
 
 
 def limits_for(
@@ -79,6 +82,7 @@ def limits_for(
         joints=arm.joints,
         assumptions=notes,
         robot=name,
+        model=arm.model,
     )
 
 

@@ -1,6 +1,6 @@
 """What the conditions compare gains with: terms of which the checker judges and whose digits are shown.
 
-scaled   budget/(√n γ)        of (10p) and (19), which gains must stay below
+scaled   budget/(√n γ)        of (10p) and (19), which gains must stay below; of (10i) with n = 1
 norms    (√T − √G)/(√n γ)     of (10), which gains must not exceed; T = ‖τmax‖² and G = k_g²
 """
 
@@ -126,9 +126,9 @@ class Threshold:
         return statement, [Witness((("x", x),))]
 
 
-def scaled(budget: Fraction, n: int, gamma: Tree | None) -> Threshold:
-    """budget/(√n γ), which values must stay below."""
-    return Threshold(number(budget), n, gamma)
+def scaled(budget: Fraction, n: int, gamma: Tree | None, operator: str = "<") -> Threshold:
+    """budget/(√n γ), which values must stay below, or must not exceed."""
+    return Threshold(number(budget), n, gamma, operator)
 
 
 def norms(torque_squared: Fraction, gravity_squared: Fraction, n: int, gamma: Tree | None) -> Threshold:

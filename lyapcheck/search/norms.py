@@ -11,6 +11,8 @@ from lyapcheck.search.proof import Proof
 from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
+    from lyapcheck.check.kinds.inertia import Bisection, Links
+    from lyapcheck.check.loop import Closure
     from lyapcheck.check.statement import Ends
     from lyapcheck.search.setting import Setting
 
@@ -30,8 +32,21 @@ def norm_epsilon(setting: Setting, viscous: tuple[Ends, ...] | None = None) -> t
     closure = setting.closure(Fraction(1))
     if viscous is not None:
         closure = replace(closure, viscous=viscous)
-    found = scalar_epsilon(closure.tail)
+    return norm_proof(closure, setting.inertia_proof)
+
+
+def norm_proof(
+    closure: Closure, inertia: Bisection | Links, *, conic: bool = True
+) -> tuple[Proof | None, str]:
+    """The same for a closed loop whose ε₀ is to be found.
+
+    Args:
+        closure: the loop.
+        inertia: what shows M(q) ≻ 0.
+        conic: propose ε₀ by the conic program, and not by bisection, which loads nothing.
+    """
+    found = scalar_epsilon(closure.tail, conic=conic)
     if found.eps0 is None:
         return None, found.reason
-    proof = Proof(replace(closure, eps0=found.eps0), BoxTree("."), setting.inertia_proof)
+    proof = Proof(replace(closure, eps0=found.eps0), BoxTree("."), inertia)
     return (proof, "") if proof.accepted() else (None, REFUSED)

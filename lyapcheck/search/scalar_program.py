@@ -21,7 +21,7 @@ class ScalarResult:
     reason: str = ""
 
 
-def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
+def scalar_epsilon(form: ScalarForm | None, *, conic: bool = True) -> ScalarResult:
     """The largest ε₀ with Θ'(ε) ≻ 0 for all ε in (0, ε₀], rounded down to nine digits and proved.
 
     The condition k (β − ε c) ≥ ¼ ε (d + ε c)² is convex in ε ≥ 0; Clarabel maximises ε. An answer that is
@@ -29,6 +29,7 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
 
     Args:
         form: Θ', or ``None`` for an unbounded function.
+        conic: whether Clarabel is asked, or bisection alone.
 
     Soundness: ``lyapcheck.check.loop.scalar.certifies`` alone decides.
     """
@@ -36,7 +37,8 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
         return ScalarResult(None, None, "none", "h is unbounded, and the scalar form needs its bound γ")
     if form.friction <= 0:
         return ScalarResult(None, form, "none", "a joint has no viscous friction, so θ'22 is never positive")
-    for method, proposal in (("conic program", _conic(form)), ("bisection", _bisection(form))):
+    for method, propose in (("conic program", _conic), ("bisection", _bisection))[0 if conic else 1 :]:
+        proposal = propose(form)
         eps0 = None if proposal is None else _rounded_down(proposal)
         if eps0 is not None and certifies(form, eps0):
             return ScalarResult(eps0, form, method)

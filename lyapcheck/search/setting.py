@@ -19,13 +19,10 @@ from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
-from lyapcheck.robots.trig import fraction
+from lyapcheck.search.closed_loop import closed_loop_of, terms
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
 if TYPE_CHECKING:
-    from flint import fmpq_mpoly
-
-    from lyapcheck.check.loop.states import Term
     from lyapcheck.control.gains import GainSet
 
 
@@ -100,7 +97,7 @@ class Setting:
     @cached_property
     def arm(self) -> Arm:
         """M and B, exactly."""
-        mass = tuple(tuple(_terms(entry) for entry in row) for row in self.fixed.mass)
+        mass = tuple(tuple(terms(entry) for entry in row) for row in self.fixed.mass)
         return Arm(mass, tuple(number.value for number in self.fixed.viscous))
 
     @cached_property
@@ -130,37 +127,8 @@ class Setting:
         """
         if self.family.bounded:
             _ = self.family.checked
-        model = self.ranged
-        mass = tuple(tuple(_terms(entry) for entry in row) for row in model.mass)
-        # what M does not depend on, gravity for one, is no side of the boxes
-        first = 2 * model.n
-        used = {
-            k
-            for row in mass
-            for entry in row
-            for powers, _ in entry
-            for k, p in enumerate(powers[first:])
-            if p
-        }
-        return Closure(
-            arm=Arm(mass, tuple(number.value for number in model.viscous)),
-            family=self.gains.family,
-            m=self.gains.m,
-            kp=tuple(self.gains.kp),
-            kv=tuple(self.gains.kv),
-            eps0=eps0,
-            parameters=tuple(
-                number.bounds if place in used else (number.value, number.value)
-                for place, number in enumerate(model.parameters.values())
-            ),
-            viscous=tuple(number.bounds for number in model.viscous) if self.ranges else (),
-            coupling=coupling,
-        )
+        return closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0
         return np.array([float(gain) * unit for gain in gains])
-
-
-def _terms(entry: fmpq_mpoly) -> tuple[Term, ...]:
-    return tuple((tuple(int(p) for p in powers), fraction(value)) for powers, value in entry.terms())

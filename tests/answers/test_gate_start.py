@@ -96,7 +96,7 @@ def test_the_summary_of_a_job_is_added_to(monkeypatch: pytest.MonkeyPatch, tmp_p
     answer = gate(read_gain_file(paper_gain_file()))
     show(answer, "github")
     text = path.read_text()
-    assert text.startswith("before\n# ✗ 2 rejected, 1 accepted")
+    assert text.startswith("before\n# ✗ 2 break (19), stability proved otherwise; 1 accepted")
     assert "## ✓ tau_m1" in text
     show(answer, "text")
     assert path.read_text() == text
@@ -117,5 +117,5 @@ def test_a_summary_of_many_sets_keeps_to_the_size_that_is_shown(
     show(gate(read_gain_file(tmp_path / "g.toml")), "github")
     text = (tmp_path / "summary.md").read_text(encoding="utf-8")
     assert len(text.encode()) < 2**20
-    assert text.startswith("# ✗ 1500 rejected, 1500 accepted; ")
+    assert text.startswith("# ✗ 1350 rejected; 150 break (19), stability proved otherwise; 1500 accepted; ")
     assert "## ✓" not in text

@@ -45,7 +45,7 @@ def limits_of(torque: list[str], gravity: list[str], friction: str | None) -> Li
 
 def checked(gains: GainSet, limits: Limits, gamma: Tree | None = None) -> dict[tuple[str, int | None], Check]:
     bound = gamma_of(gains) if gamma is None else gamma
-    return {(check.id, check.joint): check for check in Conditions(limits, bound).all(gains)}
+    return {(check.id, check.joint): check for check in Conditions(limits, bound).all(gains, ("10i",))}
 
 
 def check_10(gains: GainSet, limits: Limits, gamma: Tree | None) -> list[Check]:
@@ -121,6 +121,7 @@ def test_the_conditions_agree_with_an_independent_computation(
             torque = limits.torque[i]
             assert torque is not None
             expected["10p", i] = kp + kv, (real(torque) - real(limits.gravity[i])) / scale
+            expected["10i", i] = kp + kv, (real(torque) - real(limits.gravity[i])) / gammas[gains.m]
             expected["19", i] = kv, real(limits.viscous_min) / scale
         assert found.keys() == expected.keys()
         for key, (value, limit) in expected.items():

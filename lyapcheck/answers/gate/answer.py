@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from lyapcheck.answers.gate.judge import GateResult
-from lyapcheck.answers.gate.stability import remarks, stable_otherwise
+from lyapcheck.answers.gate.bench import friction_lines, held_anywhere
+from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
+from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.answers.gate.words import (
     KEYS,
     RULES,
     SYMBOLS,
     about,
     advice,
+    advices,
     joint_name,
     largest_text,
     limit_ends,
@@ -64,14 +66,18 @@ class GateAnswer(tuple[GateResult, ...], Answer):
         ]
 
     def annotations(self) -> list[Annotation]:
-        """A case a check that decides, and what the conditions say about each other."""
+        """A case a gain set, at the first gain that breaks a condition."""
         return [annotation for result in self for annotation in _annotations(result)]
 
     def _title(self) -> str:
-        verdicts = [result.verdict for result in self]
+        verdicts, words = ([getattr(result, name) for result in self] for name in ("verdict", "standing"))
         worst = next((v for v in (REJECTED, UNDECIDED) if v in verdicts), ACCEPTED)
-        counts = {verdict: verdicts.count(verdict) for verdict in (REJECTED, UNDECIDED, ACCEPTED)}
-        counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+        counts = {word: words.count(word) for word in (REJECTED, BREAKS_19, UNDECIDED, ACCEPTED)}
+        counted = "; ".join(
+            f"{count} {word.replace('breaks', 'break') if count > 1 else word}"
+            for word, count in counts.items()
+            if count
+        )
         return f"{SYMBOLS[worst]} {counted or 'no gain sets'}"
 
     def _notes(self) -> Iterator[str]:
@@ -88,10 +94,10 @@ def _assumptions(results: GateAnswer) -> Iterator[str]:
 
 
 def _section(result: GateResult) -> Section:
-    verdict = result.verdict
-    title = f"{SYMBOLS[verdict]} {result.name}: {verdict} ({about(result)}, {result.file.path})"
+    symbol = SYMBOLS[result.verdict]
+    title = f"{symbol} {result.name}: {result.standing} ({about(result)}, {result.file.path})"
     rows = tuple([_row(result, check) for check in result.checks])
-    said = [*(advice(result, check) for check in result.failures), *remarks(result)]
+    said = [*advices(result), *remarks(result)]
     table = Table(HEADS, rows, align="lllrrrr", keys=3)
     return Section(title, (table, Bullets(tuple(said))) if said else (table,))
 
@@ -110,13 +116,14 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
 
 
 def _data(result: GateResult) -> dict[str, Any]:
-    stable = stable_otherwise(result)
+    stable = result.stable
     return {
         "name": result.name,
         "file": result.file.path,
         "family": result.gains.family,
         "m": result.m,
         "verdict": result.verdict,
+        "standing": result.standing,
         "deciding": list(result.deciding),
         "strict": result.strict,
         "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": _exact(stable)},
@@ -148,31 +155,23 @@ def _check_data(result: GateResult, check: Check) -> dict[str, Any]:
 
 
 def _annotations(result: GateResult) -> Iterator[Annotation]:
-    for check in result.checks:
-        if check.id not in result.deciding:
-            continue
-        place = result.file.place(result.gains, KEYS[check.id], check.joint)
-        yield Annotation(
-            level=Level.FAILED if result.failed(check) else LEVELS[check.verdict],
-            rule=f"condition-{check.id}",
-            rule_text=RULES[check.id],
-            group=result.name,
-            case=joint_name(result, check),
-            message=advice(result, check),
-            path=result.file.path,
-            line=0 if place is None else place.line,
-            column=0 if place is None else place.column,
-        )
-    place = result.file.place(result.gains)
-    for remark in remarks(result):
-        yield Annotation(
-            level=Level.REMARK,
-            rule="remark",
-            rule_text="what the conditions say about each other",
-            group=result.name,
-            case="",
-            message=remark,
-            path=result.file.path,
-            line=0 if place is None else place.line,
-            column=0 if place is None else place.column,
-        )
+    """One case for the set; where it passes, also what dry friction makes of its gains."""
+    first = next(iter(result.failures), None)
+    place = result.file.place(result.gains, *(() if first is None else (KEYS[first.id], first.joint)))
+    level = LEVELS[result.verdict]
+    if result.strict and level is Level.UNDECIDED:
+        level = Level.FAILED
+    head = [] if result.standing in LEVELS else [result.standing]
+    known = [*head, *advices(result), *(() if result.stable is None else remarks(result)[:1])]
+
+    def said(level: Level, rule: str, text: str, message: str) -> Annotation:
+        at = (0, 0) if place is None else (place.line, place.column)
+        return Annotation(level, rule, text, result.name, "", message, result.file.path, *at)
+
+    asked = "the gains meet " + ", ".join(f"({name})" for name in result.deciding)
+    yield said(level, "gate", asked, "; ".join(known) if level is not Level.PASSED else "")
+    model = result.limits.model
+    stuck = held_anywhere(result.gains, model) if model is not None and level is Level.PASSED else []
+    if model is not None and stuck:
+        lines = friction_lines(result.gains, model, stuck)[: len(stuck)]
+        yield said(Level.REMARK, "dry-friction", "γ k_p exceeds the dry friction", "; ".join(lines))

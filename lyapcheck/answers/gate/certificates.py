@@ -57,9 +57,9 @@ def certificates(results: Sequence[GateResult]) -> Certified:
         if of_the_arm:
             missing = (f"|g_{i + 1}| ≤ {decimal_text(limits.gravity[i])} N·m" for i in _missing(gravity))
             made.granted += (f"{limits.robot}: no certificate shows {one} for all q" for one in missing)
-        for check in result.checks:
+        for check in (*result.checks, *(() if result.otherwise is None else (result.otherwise,))):
             entering = gravity if check.id == "10" else gravity[check.joint or 0 :][:1]
-            used = [one for one in entering if one is not None and check.id in ("10", "10p")]
+            used = [one for one in entering if one is not None and check.id in ("10", "10p", "10i")]
             found = _certificate(result, check, used)
             if found is None:
                 continue

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
@@ -21,8 +22,12 @@ from lyapcheck.errors import argument_error
 
 DECIDING = ("10p", "19")
 """What the paper's tuning rules ask for; (10) is shown beside them and decides only when asked to."""
-CERTIFICATES = ("scalar", "global")
-"""Proofs that dV/dt < 0 for the arm; they are looked for only when asked to decide."""
+BREAKS_19 = "breaks (19), stability proved otherwise"
+"""What is said of a rejected set that its users may still want."""
+CERTIFICATES = ("scalar", "global", "lasalle")
+"""Proofs of stability for the arm; they are looked for when asked to decide, or where (19) alone fails."""
+MOST_EXPLAINED = 300
+"""Gain sets of a file of which more is found out than whether they pass."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,8 @@ class GateResult:
         checks: of (10), (10p) and (19), and of the certificates that decide.
         deciding: the conditions that must hold.
         strict: whether what is undecided counts as a failure.
+        otherwise: a proof of stability for gains that break (19), where one was looked for and found.
+        explained: whether more is to be said of the set than its checks.
     """
 
     file: GainFile
@@ -44,6 +51,8 @@ class GateResult:
     checks: tuple[Check, ...]
     deciding: tuple[str, ...] = DECIDING
     strict: bool = False
+    otherwise: Check | None = None
+    explained: bool = False
 
     @property
     def name(self) -> str:
@@ -59,6 +68,24 @@ class GateResult:
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
         return self.verdict_of(self.deciding)
+
+    @property
+    def standing(self) -> str:
+        """The verdict in words: what breaks nothing but (19), and is proved stable, is told from the rest."""
+        others = tuple(name for name in self.deciding if name != "19")
+        if self.verdict != REJECTED or self.stable is None:
+            return self.verdict
+        return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
+
+    @property
+    def stable(self) -> Check | None:
+        """The proof of stability with the larger ε₀, whatever (19) says; ``None`` without one.
+
+        Soundness: it was accepted by ``lyapcheck.check.verify``.
+        """
+        known = [check for check in self.checks if check.id in CERTIFICATES and check.verdict == ACCEPTED]
+        known += [] if self.otherwise is None else [self.otherwise]
+        return max(known, key=lambda check: check.value or 0, default=None)
 
     def verdict_of(self, conditions: Sequence[str]) -> str:
         """The verdict that some of the conditions give together."""
@@ -99,9 +126,21 @@ def judged_sets(
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*conditions[key].all(gains), *certificates)
-        results.append(GateResult(gain_file, gains, limits, checks, tuple(deciding), strict))
+        checks = (*conditions[key].all(gains, deciding), *certificates)
+        explained = len(results) < MOST_EXPLAINED
+        found = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=explained)
+        results.append(_looked_into(found, gain_file.bounds.viscous_min) if explained else found)
     return results
+
+
+def _looked_into(found: GateResult, viscous_min: Fraction | None) -> GateResult:
+    """The same, with a proof of stability where (19) fails and none was asked for."""
+    model = found.limits.model
+    if found.verdict_of(("19",)) != REJECTED or model is None or found.stable is not None:
+        return found
+    from lyapcheck.answers.gate.otherwise import proved_otherwise
+
+    return replace(found, otherwise=proved_otherwise(found.gains, model, viscous_min))
 
 
 def _require_known(deciding: Sequence[str]) -> None:
@@ -122,6 +161,6 @@ def _certificates(
         return [()] * len(gain_file.gains), ()
     from lyapcheck.answers.gate.prover import Prover
 
-    prover = Prover(limits.robot, gain_file.bounds.viscous_min)
+    prover = Prover(limits.model, gain_file.bounds.viscous_min)
     checks = [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
     return checks, prover.assumptions

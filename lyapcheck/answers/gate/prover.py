@@ -2,22 +2,22 @@
 
     scalar   dV/dt < 0 at every state but the origin, from norms of M and C alone
     global   the same by boxes or by bounds in ‖e‖, which prove a larger ε₀
+    lasalle  M(q) ≻ 0, which is all that LaSalle's theorem asks of an arm, with or without friction
 
-Both are statements ``Decreasing``, M(q) ≻ 0 included, accepted where ``lyapcheck.check.verify`` proves them.
-A search that finds nothing refutes nothing: there is no ``rejected`` here.
+The first two are statements ``Decreasing``, M(q) ≻ 0 included, accepted where ``lyapcheck.check.verify``
+proves them. A search that finds nothing refutes nothing: there is no ``rejected`` here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import cached_property
 
-from lyapcheck.check.statement import Ends
+from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import Number, RobotModel
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
@@ -41,41 +41,41 @@ class Prover:
     """The certificates of gain sets on one arm at its nominal numbers.
 
     Args:
-        robot: name or path of the arm; empty where there is none.
+        model: the arm; ``None`` where the gain file gives its limits only.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
     """
 
-    def __init__(self, robot: str, viscous_min: Fraction | None = None) -> None:
-        self.robot, self.viscous_min = robot, viscous_min
+    def __init__(self, model: RobotModel | None, viscous_min: Fraction | None = None) -> None:
+        self.model, self.viscous_min = model, viscous_min
 
     def check(self, name: str, gains: GainSet) -> Check:
         """The check of one certificate: its value is the ε₀ proved.
 
         Soundness: that of ``lyapcheck.check.verify``.
         """
-        if not self.robot:
+        if self.model is None:
             return Check(name, None, None, None, None, None, _NO_ARM)
         setting = Setting(gains, self.model)
         reason = self._unphysical(setting)
         proof = None
+        if not reason and name == LASALLE:
+            return lasalle(setting.fixed)
         if not reason:
+            friction = friction_of(self.model, self.viscous_min)
             proof, reason = (
-                norm_epsilon(setting, self._friction) if name == "scalar" else self._global(setting)
+                norm_epsilon(setting, friction)
+                if name == "scalar"
+                else self._global(setting, self.model.viscous)
             )
         if proof is None:
             return Check(name, None, None, None, None, None, reason)
         found = judged(proof.statement, [proof.certificate])
         return Check(name, None, found, proof.closure.eps0, None, None, found.reason)
 
-    @cached_property
-    def model(self) -> RobotModel:
-        """The arm."""
-        return load(self.robot)
-
     @property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about the arm, and that its numbers are nominal."""
-        return (_NOMINAL, *self.model.assumptions) if self.robot else ()
+        return () if self.model is None else (_NOMINAL, *self.model.assumptions)
 
     def _unphysical(self, setting: Setting) -> str:
         """Why there is nothing to prove on this arm, looked at once."""
@@ -85,16 +85,8 @@ class Prover:
 
     _fault: str | None = None
 
-    @property
-    def _friction(self) -> tuple[Ends, ...] | None:
-        """Every B between the λmin(B) that was given and the arm's own."""
-        least = self.viscous_min
-        if least is None:
-            return None
-        return tuple((least, max(least, number.value)) for number in self.model.viscous)
-
-    def _global(self, setting: Setting) -> tuple[Proof | None, str]:
-        if self.viscous_min not in (None, min(number.value for number in self.model.viscous)):
+    def _global(self, setting: Setting, viscous: Sequence[Number]) -> tuple[Proof | None, str]:
+        if self.viscous_min not in (None, min(number.value for number in viscous)):
             return None, _OTHER_FRICTION
         coarse, reason = norm_epsilon(setting)
         if coarse is None:

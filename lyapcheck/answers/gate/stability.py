@@ -1,11 +1,12 @@
 """What is known about stability beside (19), which is sufficient and not necessary.
 
-Stability is said only with an ε₀ that was proved in this run for this arm and these gains. It is about the
-torques of (6): a motor that saturates is outside, see (10p).
+Stability is said only of what was proved in this run for this arm and these gains. It is about the torques of
+(6): a motor that saturates is outside, see (10p).
 """
 
 from __future__ import annotations
 
+from lyapcheck.answers.gate.bench import at_the_bench
 from lyapcheck.answers.gate.judge import CERTIFICATES, GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.files.decimals import decimal_text
@@ -13,37 +14,57 @@ from lyapcheck.files.decimals import decimal_text
 _NO_ARM = (
     "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
 )
-
-
-def stable_otherwise(result: GateResult) -> Check | None:
-    """The certificate with the larger ε₀, which proves stability whatever (19) says; ``None`` without one.
-
-    Soundness: it was accepted by ``lyapcheck.check.verify``, as a statement of kind ``Decreasing``.
-    """
-    proved = [check for check in result.checks if check.id in CERTIFICATES and check.verdict == ACCEPTED]
-    return max(proved, key=lambda check: check.value or 0, default=None)
+_SINGLE = (
+    "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps every joint within its limit; "
+    "{} accepts it"
+)
+_NO_FRICTION = (
+    "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
+    "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
+    "error, no bound under a disturbance. A measured friction goes into [bounds] viscous_min"
+)
 
 
 def remarks(result: GateResult) -> list[str]:
-    """What the conditions say about each other, a sentence each; nothing where they agree."""
-    known, damping = stable_otherwise(result), result.verdict_of(("19",))
+    """What the conditions say about each other, and the bench about the gains, a sentence each."""
+    damping, joints = result.verdict_of(("19",)), result.verdict_of(("10p",))
     missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
-    found = [_without_19(known, result)] if damping == REJECTED and result.limits.viscous_min else []
+    found = _without_19(result) if damping == REJECTED else []
     if missing and result.verdict_of(("10p", "19")) == ACCEPTED:
         found += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
-    if known is not None and result.verdict_of(("10p",)) == REJECTED:
+    if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
+        found.append(_SINGLE.format(_flags(result, {"10p": "10i"})))
+    elif joints == REJECTED and result.stable is not None:
         found.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
-    return found
+    return [*found, *(at_the_bench(result) if result.explained else [])]
 
 
-def _without_19(known: Check | None, result: GateResult) -> str:
+def _without_19(result: GateResult) -> list[str]:
+    known, frictionless = result.stable, result.limits.viscous_min == 0
     if known is not None:
-        eps0 = "" if known.value is None else decimal_text(known.value)
-        return (
-            f"(19) fails, yet the gains are proved stable without it: {known.id} certificate, "
-            f"dV/dt < 0 with ε₀ = {eps0}; --condition {known.id} without 19 accepts it"
-        )
+        accepts = f"; {_flags(result, {'19': known.id})} accepts it" if "19" in result.deciding else ""
+        found = f"(19) fails, yet the gains are proved stable without it: {_proof(known)}{accepts}"
+        return [found, _NO_FRICTION] if frictionless else [found]
     if not result.limits.robot:
-        return _NO_ARM
+        return [_NO_ARM]
+    if frictionless:
+        return []
     asked = set(CERTIFICATES) & set(result.deciding)
-    return f"(19) fails, but it is only sufficient{'' if asked else '; --condition scalar looks for a proof'}"
+    return [
+        f"(19) fails, but it is only sufficient{'' if asked else '; --condition scalar looks for a proof'}"
+    ]
+
+
+def _proof(known: Check) -> str:
+    if known.value is None:
+        return "M(q) ≻ 0 is proved for the arm at its nominal numbers, the rest is LaSalle's theorem"
+    return (
+        f"dV/dt < 0 with ε₀ = {decimal_text(known.value)} ({known.id} certificate, "
+        "for the arm at its nominal numbers)"
+    )
+
+
+def _flags(result: GateResult, instead: dict[str, str]) -> str:
+    """The options with which other conditions decide in place of some."""
+    wanted = dict.fromkeys(instead.get(name, name) for name in result.deciding)
+    return " ".join(f"--condition {name}" for name in wanted)

@@ -15,13 +15,16 @@ SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 RULES = {
     "10": "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ)",
     "10p": "k_p + k_v < (τmax − k_g)/(√n γ)",
+    "10i": "k_p + k_v ≤ (τmax − k_g)/γ",
     "19": "k_v < λmin(B)/(√n γ)",
     "scalar": "dV/dt < 0 with some ε₀ > 0 at every state, from norms alone; the value is the ε₀ proved",
     "global": "dV/dt < 0 with some ε₀ > 0 at every state, box by box; the value is the ε₀ proved",
+    "lasalle": "M(q) ≻ 0, which with positive gains makes the origin globally asymptotically stable by "
+    "LaSalle's theorem, with or without friction (Khalil 2002, corollary 4.2)",
 }
-KEYS = {"10": "kp", "10p": "kp", "19": "kv", "scalar": "", "global": ""}
+KEYS = {"10": "kp", "10p": "kp", "10i": "kp", "19": "kv", "scalar": "", "global": "", "lasalle": ""}
 """The gain to look at when a check fails."""
-_SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "19": "k_v"}
+_SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "10i": "k_p + k_v", "19": "k_v"}
 
 
 def joint_name(result: GateResult, check: Check) -> str:
@@ -36,13 +39,15 @@ def about(result: GateResult) -> str:
 
 def value_text(check: Check) -> str:
     """What was compared, exactly; ``none`` where a certificate proved no ε₀."""
+    if check.id == "lasalle":
+        return ""
     return "none" if check.value is None else decimal_text(check.value)
 
 
 def limit_text(check: Check, digits: int = 6) -> str:
     """The limit to a few digits, all correct; ``none`` where there is no limit."""
     if check.id not in _SUBJECTS:
-        return "ε₀ > 0"
+        return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit, digits)
 
 
@@ -91,21 +96,32 @@ def advice(result: GateResult, check: Check) -> str:
     """What is wrong and what to change, in one sentence; empty for an accepted check."""
     if check.verdict == ACCEPTED:
         return ""
-    joint = joint_name(result, check)
+    return f"({check.id}) {joint_name(result, check)}: {_broken(result, check)}"
+
+
+def advices(result: GateResult) -> list[str]:
+    """The same for all that decides and was not accepted, joints of which the same is said together."""
+    said: dict[tuple[str, str], list[str]] = {}
+    for check in result.failures:
+        said.setdefault((check.id, _broken(result, check)), []).append(joint_name(result, check))
+    return [f"({name}) {', '.join(joints)}: {text}" for (name, text), joints in said.items()]
+
+
+def _broken(result: GateResult, check: Check) -> str:
     if check.limit is None or check.verdict == "undecided":
-        return f"({check.id}) {joint}: {check.reason}"
+        return check.reason
     broken = (
         f"{_SUBJECTS[check.id]} = {value_text(check)} breaks {RULES[check.id]} = {limit_text(check)}, "
         f"margin {margin_text(check)}"
     )
-    return f"({check.id}) {joint}: {broken}; {_repair(result, check)}"
+    return f"{broken}; {_repair(result, check)}"
 
 
 def _repair(result: GateResult, check: Check) -> str:
     if check.largest_admissible is None:
-        return "no positive gain passes on this arm"
+        return "no k_v > 0 meets it without friction" if check.id == "19" else "gravity alone needs the motor"
     most = largest_text(check)
-    if check.id != "10p" or check.joint is None:
+    if check.id not in ("10p", "10i") or check.joint is None:
         return f"lower it to at most {most}"
     kv = result.gains.kv[check.joint]
     room = check.largest_admissible - kv

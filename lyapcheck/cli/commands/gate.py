@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from lyapcheck.verdicts import Exit
 
 
-CONDITIONS = ("10", "10p", "19", "scalar", "global")
+CONDITIONS = ("10", "10p", "10i", "19", "scalar", "global", "lasalle")
 """The conditions that can decide."""
 GAMMAS = ("true", "printed")
 """Which γ the conditions use."""
@@ -26,8 +26,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
     parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
     about = (
-        "A condition that must hold; may be repeated. scalar and global: dV/dt < 0 proved for the arm. "
-        "10p and 19 if missing."
+        "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
+        "proved for the arm; lasalle: stability without friction. 10p and 19 if missing."
     )
     parser.add_choice("--condition", CONDITIONS, about, repeated=True)
     parser.add_choice("--gamma", GAMMAS, "The certified γ, or the one the paper prints.", default="true")

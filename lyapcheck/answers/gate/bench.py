@@ -1,0 +1,142 @@
+"""What an engineer at the bench should know of gains that theory accepts: how they swing, where they stop.
+
+Near the goal a joint that moves alone obeys J ë + b ė + k_v h(ė) + k_p h(e) = 0. With h(x) = L x, which it is
+at most, the damping ratio is ζ = (b + L k_v)/(2 √(J L k_p)), J the largest M_ii. Dry friction f holds the
+joint wherever k_p |h(e)| ≤ f: everywhere, where γ k_p ≤ f.
+
+References: (6), (11) of reyes2019family.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import lru_cache
+from math import degrees, exp, pi, sqrt
+from typing import TYPE_CHECKING
+
+from flint import arb
+
+from lyapcheck.check.numbers.harmonics import harmonics, largest
+from lyapcheck.family.registry import named
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots import trig
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
+    from lyapcheck.check.numbers.members import Member
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+
+SWINGS = 0.5
+"""A damping ratio below which a joint overshoots by more than a sixth of its step."""
+HALVINGS = 30
+FARTHEST = 50.0
+"""rad: a joint held so far away is held anywhere."""
+
+
+def at_the_bench(result: GateResult) -> list[str]:
+    """What is said of a gain set: damping, and dry friction where the arm has a known one; floating point."""
+    model, gains = result.limits.model, result.gains
+    if model is None:
+        return []
+    return [*friction_lines(gains, model, held_anywhere(gains, model)), *_damping(gains, model)]
+
+
+def held_anywhere(gains: GainSet, model: RobotModel) -> list[int]:
+    """The joints, from 0, that dry friction holds wherever they stop: γ k_p ≤ f."""
+    gamma = named(gains.family, gains.m).constants().gamma
+    if gamma is None:
+        return []
+    return [
+        i
+        for i, (kp, f) in enumerate(zip(gains.kp, dry_friction(model), strict=True))
+        if 0 < kp * gamma.upper <= f
+    ]
+
+
+def dry_friction(model: RobotModel) -> list[Fraction]:
+    """Coulomb torques in N·m, 0 where nothing is known."""
+    return [Fraction(0) if number is None else number.value for number in model.coulomb]
+
+
+def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:
+    """Where a joint rests anywhere, and how far from the goal the others may."""
+    friction = dry_friction(model)
+    if not any(friction):
+        return []
+    assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
+    found = [
+        f"γ k_p of {model.joints[i]} does not exceed its dry friction of {decimal_text(friction[i])} N·m"
+        f"{assumed}: the joint rests wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
+        for i in stuck
+    ]
+    errors = rest_errors(gains, model)
+    far = [
+        f"{joint} {degrees(e):.1f}°"
+        for joint, e, f in zip(model.joints, errors, friction, strict=True)
+        if f and e is not None
+    ]
+    if far:
+        found.append(f"dry friction{assumed} may leave, at most: {', '.join(far)} from the goal")
+    return found
+
+
+def rest_errors(gains: GainSet, model: RobotModel) -> list[float | None]:
+    """Per joint the largest error in rad that dry friction holds, k_p |h(e)| ≤ f; ``None``: it holds any."""
+    unit = degrees(1.0) if gains.angle_unit == "deg" else 1.0
+    family = named(gains.family, gains.m)
+    ratios = [float(f) / (float(kp) * unit) for kp, f in zip(gains.kp, dry_friction(model), strict=True)]
+    return [_held(family.checked, ratio) for ratio in ratios] if family.bounded else [*ratios]
+
+
+@lru_cache(maxsize=4096)
+def _held(member: Member, ratio: float) -> float | None:
+    """The largest x with h(x) ≤ ratio before h stays above it; 0 without friction."""
+    if ratio <= 0:
+        return 0.0
+
+    def h(x: float) -> float:
+        return float(member.h(arb(x)).mid())
+
+    if h(FARTHEST) <= ratio:
+        return None
+    low, high = 0.0, 1.0
+    while h(high) <= ratio:
+        low, high = high, 2 * high
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if h(middle) <= ratio else (low, middle)
+    return high
+
+
+def _damping(gains: GainSet, model: RobotModel) -> list[str]:
+    ratios = damping_ratios(gains, model)
+    text = ", ".join(f"{joint} {ratio:.2f}" for joint, ratio in zip(model.joints, ratios, strict=True))
+    least = min(ratios)
+    end = ""
+    if least < SWINGS:
+        over = 100 * exp(-pi * least / sqrt(1 - least**2))
+        end = f": without dry friction it swings, by up to {over:.0f} % of a step"
+    soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
+    return [f"damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+
+
+def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:
+    """ζ of each joint alone, at the arm's nominal numbers."""
+    unit = degrees(1.0) if gains.angle_unit == "deg" else 1.0
+    L = float(named(gains.family, gains.m).constants().L.mid)
+    rows = zip(gains.kp, gains.kv, model.viscous, _inertias(model), strict=True)
+    return [
+        (float(b.value) + L * float(kv) * unit) / (2 * sqrt(J * L * float(kp) * unit))
+        for kp, kv, b, J in rows
+    ]
+
+
+@lru_cache(maxsize=8)
+def _inertias(model: RobotModel) -> tuple[float, ...]:
+    """The largest M_ii of each joint as Fourier sums show it, kg·m²."""
+    nominal = model.fixed()
+    return tuple(
+        float(largest(harmonics(trig.to_terms(nominal.mass[i][i]), model.n))) for i in range(model.n)
+    )

@@ -1,0 +1,85 @@
+"""Stability of gains that break (19), by proofs that cost milliseconds and load nothing heavy.
+
+    scalar   dV/dt < 0 at every state but the origin, from norms of M and C alone, with some ε₀
+    lasalle  M(q) ≻ 0. With the energy as V, dV/dt = −wᵀK_v h(w) − wᵀB w ≤ 0, and where it stays 0 the arm
+             rests, so K_p h(e) = 0 and e = 0: the origin is globally asymptotically stable for all positive
+             gains
+
+References: (11)-(15) of reyes2019family; LaSalle's theorem, khalil2002nonlinear, corollary 4.2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from lyapcheck.control.conditions import ACCEPTED, Check
+from lyapcheck.control.judgement import judged
+
+if TYPE_CHECKING:
+    from lyapcheck.check.statement import Ends
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+
+SCALAR, LASALLE = "scalar", "lasalle"
+MOST_TERMS = 2000
+"""Terms of M(q): the proof for an arm with more takes seconds, and is left to those who ask for it."""
+
+
+def proved_otherwise(gains: GainSet, model: RobotModel, viscous_min: Fraction | None) -> Check | None:
+    """The first of both that the checker proves; ``None`` where neither is, or the arm is large.
+
+    Args:
+        gains: a set that breaks (19).
+        model: the arm, taken at its nominal numbers.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+
+    Soundness: that of ``lyapcheck.check.verify``; that M(q) ≻ 0 is enough is LaSalle's theorem, cited.
+    """
+    fixed = model.fixed()
+    if sum(len(entry) for row in fixed.mass for entry in row) > MOST_TERMS:
+        return None
+    found = _scalar(gains, fixed, friction_of(model, viscous_min))
+    if found is None or found.verdict != ACCEPTED:
+        found = lasalle(fixed)
+    return found if found.verdict == ACCEPTED else None
+
+
+def friction_of(model: RobotModel, viscous_min: Fraction | None) -> tuple[Ends, ...] | None:
+    """Every B between a λmin(B) that replaces the arm's and the arm's own; ``None`` where none does."""
+    if viscous_min is None:
+        return None
+    return tuple((viscous_min, max(viscous_min, number.value)) for number in model.viscous)
+
+
+def _scalar(gains: GainSet, fixed: RobotModel, friction: tuple[Ends, ...] | None) -> Check | None:
+    from lyapcheck.family.registry import named
+    from lyapcheck.search.closed_loop import closed_loop_of
+    from lyapcheck.search.inertia import mass_of, mass_proof, remember
+    from lyapcheck.search.norms import norm_proof
+
+    if not named(gains.family, gains.m).bounded:
+        return None
+    remember(fixed)
+    closure = closed_loop_of(gains, fixed, Fraction(1))
+    if friction is not None:
+        closure = replace(closure, viscous=friction)
+    proof, _ = norm_proof(closure, mass_proof(mass_of(fixed)), conic=False)
+    if proof is None:
+        return None
+    found = judged(proof.statement, [proof.certificate])
+    return Check(SCALAR, None, found, proof.closure.eps0, None, None, found.reason)
+
+
+@lru_cache(maxsize=8)
+def lasalle(fixed: RobotModel) -> Check:
+    """Whether M(q) ≻ 0 is proved of an arm without parameters."""
+    from lyapcheck.check.kinds.inertia import MassAbove
+    from lyapcheck.search.inertia import mass_of, mass_proof, remember
+
+    remember(fixed)
+    mass = mass_of(fixed)
+    found = judged(MassAbove(mass, (), Fraction(0)), [mass_proof(mass)])
+    return Check(LASALLE, None, found, None, None, None, found.reason)
