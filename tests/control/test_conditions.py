@@ -339,6 +339,7 @@ def test_without_a_limit_nothing_is_decided() -> None:
     assert {key for key, check in found.items() if check.verdict == "undecided"} == {
         ("10", None),
         ("10p", 1),
+        ("10i", 1),
         ("19", 0),
         ("19", 1),
     }

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from flint import arb
 
+from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text
@@ -111,6 +112,8 @@ def _held(member: Member, ratio: float) -> float | None:
 
 
 def _damping(gains: GainSet, model: RobotModel) -> list[str]:
+    if not small(model.fixed()):
+        return []
     ratios = damping_ratios(gains, model)
     text = ", ".join(f"{joint} {ratio:.2f}" for joint, ratio in zip(model.joints, ratios, strict=True))
     least = min(ratios)
