@@ -32,6 +32,7 @@ SAID = {
     "cli.task": (1, "the word of an option"),
     "control.conditions": (2, "names handed on"),
     "control.judgement": (8, "the words of the gate for what the checker says there"),
+    "kernel.statements": (1, "the name of a predicate in Coq"),
     "output.text": (4, COLOURS),
     "report.drawings": (1, HEADING),
     "report.figures.constants": (1, HEADING),

@@ -95,7 +95,8 @@ def test_the_data_beside_a_figure_are_those_of_the_run(report: Report, files: di
     run = report.runs[0]
     rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
     for joint, peak in zip(run["joints"], run["peak_torque"], strict=True):
-        assert max(abs(float(row[f"{joint} [N·m]"])) for row in rows) == pytest.approx(peak, rel=1e-6)
+        sampled = max(abs(float(row[f"{joint} [N·m]"])) for row in rows)  # the peak may lie between two
+        assert sampled <= peak * (1 + 1e-6) and sampled == pytest.approx(peak, rel=1e-3)
     assert float(rows[-1]["t [s]"]) == run["time"]
 
 
