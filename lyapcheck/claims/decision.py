@@ -16,7 +16,8 @@ class Decision:
     """A verdict with its grade, the method, and a witness (refuted) or a reason with advice (undecided).
 
     ``evidence`` holds what else was found, as plain data (boxes used, samples without a counterexample, the
-    value that would have made a printed number right). ``certificate`` is what the checker accepted.
+    value that would have made a printed number right). ``certificate`` is what the checker accepted, by
+    ``rules``, taking for granted what ``granted`` says.
     """
 
     verdict: Verdict
@@ -26,6 +27,8 @@ class Decision:
     witness: dict[str, Any] | None = None
     evidence: dict[str, Any] = field(default_factory=dict)
     certificate: Proof | None = None
+    rules: tuple[str, ...] = ()
+    granted: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         decided = self.verdict in (Verdict.PROVED, Verdict.REFUTED)
@@ -64,6 +67,8 @@ def decided(finding: Finding, judged: Judged | None) -> Decision:
         finding.witness,
         finding.evidence,
         finding.proof,
+        judged.rules,
+        judged.granted,
     )
 
 

@@ -19,13 +19,16 @@ from lyapcheck.temporary import temporary_folder
 class Judged:
     """What the checker says about one certificate; verdict and grade only where it is accepted.
 
-    ``grade`` is the weakest of the certificate's own and of those it rests on.
+    ``grade`` is the weakest of the certificate's own and of those it rests on; ``rules`` are all that the
+    verdict trusts, ``granted`` is what its statements take for granted.
     """
 
     accepted: bool
     reason: str
     verdict: str | None
     grade: str | None
+    rules: tuple[str, ...] = ()
+    granted: tuple[str, ...] = ()
 
 
 class Alarm(Exception):
@@ -69,4 +72,5 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
 def _judged(row: dict[str, Any], claim: About) -> Judged:
     if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
         raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
-    return Judged(row["accepted"] is True, row["reason"], row["verdict"], row["grade"])
+    rests = (tuple(row["rules"]), tuple(row["granted"]))
+    return Judged(row["accepted"] is True, row["reason"], row["verdict"], row["grade"], *rests)

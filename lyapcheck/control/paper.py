@@ -26,6 +26,6 @@ def paper_gain_file(name: str = "table2") -> Path:
     """
     path = proofs_folder() / f"{name}.toml"
     if not path.is_file():
-        known = ", ".join(sorted(file.stem for file in proofs_folder().glob("*.toml")))
+        known = ", ".join(sorted(file.stem for file in proofs_folder().glob("table*.toml")))
         raise argument_error("gain file", name, "is not one of the paper's", f"use one of: {known}")
     return path

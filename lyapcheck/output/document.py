@@ -30,6 +30,19 @@ class Code:
 
 
 @dataclass(frozen=True)
+class Figure:
+    """A drawing in a file beside the document.
+
+    Args:
+        path: of the file, from the folder of the document.
+        caption: what it shows.
+    """
+
+    path: str
+    caption: str
+
+
+@dataclass(frozen=True)
 class Table:
     """A table.
 
@@ -65,7 +78,7 @@ class Section:
     blocks: tuple[Block, ...]
 
 
-Block = Paragraph | Bullets | Code | Table | Section
+Block = Paragraph | Bullets | Code | Figure | Table | Section
 
 
 @dataclass(frozen=True)

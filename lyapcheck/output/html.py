@@ -2,63 +2,76 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from urllib.parse import quote
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.escapes import html_text
 
 _SIDES = {"l": "left", "r": "right"}
+Drawn = Callable[[Figure], Markup | None]
+
+
+def linked(figure: Figure) -> Markup:
+    """A figure as a link to its file."""
+    image = element("img", src=quote(figure.path), alt=figure.caption)
+    return element("figure", image, element("figcaption", figure.caption))
 
 
 def render(document: Document, level: int = 2) -> str:
     """The whole document, its title a heading of a level; no script, no style sheet needed."""
-    lines = [_element(f"h{level}", document.title), *_blocks(document.body, level + 1)]
+    lines = [element(f"h{level}", document.title), *blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
 
 
-def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
-    for block in blocks:
-        yield from _block(block, level)
+def blocks(found: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:
+    """Blocks one after the other.
+
+    Args:
+        found: the blocks.
+        level: of the headings of sections among them.
+        drawn: what becomes of a figure.
+    """
+    for block in found:
+        match block:
+            case Paragraph(text):
+                yield element("p", text)
+            case Bullets(items):
+                yield Markup("<ul>")
+                yield from (element("li", item) for item in items)
+                yield Markup("</ul>")
+            case Code(text):
+                shown = Markup("\n".join(map(html_text, text.splitlines())))
+                yield element("pre", element("code", shown))
+            case Figure():
+                if (shape := drawn(block)) is not None:
+                    yield shape
+            case Section(title, inner):
+                yield element(f"h{min(level, 6)}", title)
+                yield from blocks(inner, level + 1, drawn)
+            case Table():
+                yield from _table(block)
 
 
-def _block(block: Block, level: int) -> Iterator[str]:
-    match block:
-        case Paragraph(text):
-            yield _element("p", text)
-        case Bullets(items):
-            yield from _bullets(items)
-        case Code(text):
-            shown = "\n".join(map(html_text, text.splitlines()))
-            yield f"<pre><code>{shown}</code></pre>"
-        case Section(title, blocks):
-            yield _element(f"h{min(level, 6)}", title)
-            yield from _blocks(blocks, level + 1)
-        case Table():
-            yield from _table(block)
-
-
-def _bullets(items: Iterable[str]) -> Iterator[str]:
-    yield "<ul>"
-    yield from (_element("li", item) for item in items)
-    yield "</ul>"
-
-
-def _table(table: Table) -> Iterator[str]:
-    yield "<table>"
+def _table(table: Table) -> Iterator[Markup]:
+    yield Markup("<table>")
     if table.caption:
-        yield _element("caption", table.caption)
-    yield f"<thead><tr>{_cells('th', table.heads, table.align)}</tr></thead>"
-    yield "<tbody>"
-    yield from (f"<tr>{_cells('td', row, table.align)}</tr>" for row in table.rows)
-    yield from ("</tbody>", "</table>")
+        yield element("caption", table.caption)
+    heads = [
+        element("th", head, style=_side(side), scope="col")
+        for head, side in zip(table.heads, table.align, strict=True)
+    ]
+    yield element("thead", element("tr", heads))
+    yield Markup("<tbody>")
+    yield from (element("tr", _cells(row, table)) for row in table.rows)
+    yield from (Markup("</tbody>"), Markup("</table>"))
 
 
-def _cells(name: str, cells: Sequence[str], align: str) -> str:
-    return "".join(
-        f'<{name} style="text-align:{_SIDES[side]}">{html_text(cell)}</{name}>'
-        for cell, side in zip(cells, align, strict=True)
-    )
+def _cells(row: Sequence[str], table: Table) -> Iterator[Markup]:
+    for cell, head, side in zip(row, table.heads, table.align, strict=True):
+        yield element("td", cell, style=_side(side), data_label=head)
 
 
-def _element(name: str, text: str) -> str:
-    return f"<{name}>{html_text(text)}</{name}>"
+def _side(side: str) -> str:
+    return f"text-align:{_SIDES[side]}"

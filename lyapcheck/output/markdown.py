@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from urllib.parse import quote
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.escapes import markdown_text, printable
 
 
@@ -29,6 +30,8 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield from _bullets(items)
         case Code(text):
             yield from _fenced(text)
+        case Figure(path, caption):
+            yield from (f"![{markdown_text(caption)}]({quote(path)})", "", markdown_text(caption))
         case Section(title, blocks):
             yield f"{'#' * min(level, 6)} {markdown_text(title)}"
             yield from _blocks(blocks, level + 1)

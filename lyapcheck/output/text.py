@@ -8,7 +8,7 @@ from itertools import zip_longest
 from textwrap import wrap
 from unicodedata import combining, east_asian_width
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.escapes import printable
 
 WIDTH = 80
@@ -66,6 +66,8 @@ class _Writer:
                 yield from self.bullets(items)
             case Code(text):
                 yield from (f"    {printable(line)}" for line in text.splitlines())
+            case Figure(path, caption):
+                yield from _wrapped(f"{caption} [{path}]")
             case Section(title, blocks):
                 yield self.title(title, "─")
                 yield from self.blocks(blocks)

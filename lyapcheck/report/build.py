@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.report.compute import compute
-from lyapcheck.report.findings import findings
+from lyapcheck.report.drawings import draw_damping
+from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Data, Report
+from lyapcheck.report.notes import published_notes
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
 PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
-EQUATIONS = ("V12", "V13", "rate", "Q", "X", "Y", "S")
 
 
 @dataclass(frozen=True)
@@ -28,11 +29,13 @@ class Subject:
         robot: name or file of the arm, as ``lyapcheck.robots.load`` takes it.
         ms: the members of the family.
         gain_files: the gains; sets of other members are left out, those without a member (PD) stay.
+        own: whether arm or gains are others than the paper's: it is then about these alone.
     """
 
     robot: str
     ms: tuple[int, ...]
     gain_files: tuple[GainFile, ...]
+    own: bool = False
 
     @property
     def sets(self) -> list[tuple[GainFile, str]]:
@@ -43,6 +46,16 @@ class Subject:
             for item in file.gains
             if item.m is None or item.m in self.ms
         ]
+
+    @property
+    def of_family(self) -> dict[int, Any]:
+        """The first gain set of each member."""
+        found: dict[int, Any] = {}
+        for file in self.gain_files:
+            for item in file.gains:
+                if item.m in self.ms and item.family == "hyperbolic":
+                    found.setdefault(item.m, item)
+        return found
 
 
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:
@@ -59,22 +72,28 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     """
     from lyapcheck.robots import load
 
-    model = load(subject.robot)
-    found = compute(subject, on_progress or (lambda fraction, note: None))
+    model, notes = load(subject.robot), published_notes()
+    found = compute(subject, notes, on_progress or (lambda fraction, note: None))
     gate = tuple(_gate(subject))
+    if subject.own:
+        weighed = own_findings(gate, found.epsilon, found.claims)
+    else:
+        weighed = findings(notes, found.claims, found.small, found.epsilon, found.sensitivity)
     return Report(
+        notes=notes,
+        own=subject.own,
         robot=_robot(model),
         ms=subject.ms,
         table=tuple(_table(subject.ms)),
-        equations=_equations(),
         gate=gate,
         epsilon=found.epsilon,
         claims=found.claims,
-        instead=found.instead,
+        others=found.others,
         runs=found.runs,
         sensitivity=found.sensitivity,
-        findings=findings(found.claims, gate, found.epsilon, found.sensitivity),
-        figures=dict(sorted(found.figures.items())),
+        findings=weighed,
+        figures=dict(sorted((found.figures | draw_damping(gate)).items())),
+        certificates=dict(sorted(found.certificates.items())),
         versions={name: version(name) for name in PACKAGES},
         seed=SEED,
     )
@@ -106,10 +125,3 @@ def _robot(model: RobotModel) -> Data:
         ],
         "assumptions": list(model.assumptions),
     }
-
-
-def _equations() -> dict[str, str]:
-    from lyapcheck.lyapunov.latex import latex_forms
-
-    forms = latex_forms()
-    return {name: forms[name] for name in EQUATIONS}

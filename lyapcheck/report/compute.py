@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -12,60 +12,81 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
-from lyapcheck.report.drawings import draw_claims, draw_comparisons, draw_family, draw_sensitivity, draw_set
+from lyapcheck.report.drawings import draw_comparisons, draw_family, draw_sensitivity, draw_set, draw_sides
 from lyapcheck.report.experiment import printed_experiment
-from lyapcheck.report.jobs import claims_job, gains_job
+from lyapcheck.report.findings import small_path
+from lyapcheck.report.jobs import PaperData, claims_job, gains_job, paper_job
 from lyapcheck.report.model import Data
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
+    from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.notes import Notes
 
 Job = Future[Any]
 
 PROOF = "published.py"
-INSTEAD = ("scalar.py", "tracking.py")
+OTHERS = ("scalar.py", "tracking.py")
 """Proofs of what the paper concludes, that do not rest on what is refuted."""
 WORKERS = 2
 
 
 @dataclass(frozen=True)
 class Computed:
-    """What the long computations hand back, with their figures."""
+    """What the long computations hand back, with their figures and certificates."""
 
     claims: tuple[Data, ...]
-    instead: tuple[Data, ...]
+    others: tuple[Data, ...]
+    small: Mapping[str, SmallWitness]
     epsilon: tuple[Data, ...]
     runs: tuple[Data, ...]
     sensitivity: Data | None
     figures: Files
+    certificates: dict[str, str]
 
 
-def compute(subject: Subject, tell: Progress) -> Computed:
+def compute(subject: Subject, notes: Notes, tell: Progress) -> Computed:
     """The long computations, a process for each core; what can be drawn of one is drawn when it is done.
 
     Args:
         subject: arm, members and gains.
+        notes: on the paper.
         tell: told the fraction done and a few words.
     """
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
-        jobs = _submit(subject, pool)
+        jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | _drawn(jobs, tell)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
-    study = printed_experiment(of_the_report, load(subject.robot))
+    study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))
     parts = [job.result() for job in jobs.sets]
+    paper: PaperData = jobs.paper.result()
+    others = [job.result() for job in jobs.others]
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
+    certificates: dict[str, str] = {}
+    for part in (paper.claims, *others):
+        certificates |= part.certificates
+    small = {} if subject.own else paper.small
+    certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
+    rows = (*paper.claims.rows, *(row for part in others for row in part.rows))
+    if subject.own:
+        rows = tuple(row for row in rows if row["id"] in notes.own.get(row["proof"], ()))
+        kept = {row["certificate"] for row in rows}
+        certificates = {path: text for path, text in certificates.items() if path in kept}
+    figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
-        claims=_merged([row for job in jobs.published for row in job.result()]),
-        instead=tuple(row for job in jobs.instead for row in conclusions(job.result())),
+        claims=tuple(row for row in rows if row["proof"] == "published"),
+        others=tuple(row for row in rows if row["proof"] != "published"),
+        small=small,
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        figures=figures | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study),
+        figures=figures,
+        certificates=certificates,
     )
 
 
@@ -80,20 +101,20 @@ class Jobs:
 
     Args:
         sets: ε₀ and simulation of each gain set.
-        published: the claims of the paper for each m.
-        instead: those of the other proofs.
+        paper: the claims of the paper, with small witnesses.
+        others: those of the other proofs.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
     """
 
     sets: list[Job]
-    published: list[Job]
-    instead: list[Job]
+    paper: Job
+    others: list[Job]
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
 
 
-def _submit(subject: Subject, pool: ProcessPoolExecutor) -> Jobs:
+def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     """The longest first, so that no process is left with one at the end."""
     labels: dict[Job, str] = {}
 
@@ -102,16 +123,12 @@ def _submit(subject: Subject, pool: ProcessPoolExecutor) -> Jobs:
         labels[job] = label
         return job
 
-    def claims(proof: str, m: int) -> Job:
-        return start(f"{proof} for m = {m}", claims_job, proof, m, subject.robot, subject.gain_files[0].path)
-
+    about = (subject.ms, subject.robot, subject.gain_files[0].path)
+    paper = start(PROOF, paper_job, PROOF, *about, notes)
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
-    published = [claims(PROOF, m) for m in subject.ms]
-    instead = [claims(proof, m) for proof in INSTEAD for m in subject.ms]
-    drawings: dict[Job, Callable[[Any], Files]] = dict.fromkeys(sets, draw_set)
-    drawings |= {job: partial(draw_claims, m) for m, job in zip(subject.ms, published, strict=True)}
-    return Jobs(sets, published, instead, labels, drawings)
+    others = [start(proof, claims_job, proof, *about) for proof in OTHERS]
+    return Jobs(sets, paper, others, labels, dict.fromkeys(sets, draw_set))
 
 
 def _drawn(jobs: Jobs, tell: Progress) -> Files:
@@ -129,16 +146,3 @@ def _drawn(jobs: Jobs, tell: Progress) -> Files:
             job.cancel()
         raise
     return figures
-
-
-def conclusions(rows: Sequence[Data]) -> list[Data]:
-    """The claims of a proof that no other claim of it uses."""
-    used = {name for row in rows for name in row["uses"]}
-    return [row for row in rows if row["id"] not in used]
-
-
-def _merged(rows: Sequence[Data]) -> tuple[Data, ...]:
-    """The rows of all m in the order of the text; a claim without m only once."""
-    order = {row["id"]: place for place, row in reversed(list(enumerate(rows)))}
-    seen = {(row["id"], row["m"]): row for row in reversed(rows)}
-    return tuple(sorted(seen.values(), key=lambda row: (order[row["id"]], row["m"] or 0)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
+    from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.report.figures.plot import Files
     from lyapcheck.report.jobs import GainData
 
@@ -24,11 +25,15 @@ def draw_family(ms: Sequence[int]) -> Files:
     return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
 
 
-def draw_claims(m: int, claims: Sequence[Data]) -> Files:
-    """What rests on what for one member."""
-    from lyapcheck.report.figures.claims import claims_plot
+def draw_sides(small: Mapping[str, SmallWitness]) -> Files:
+    """Both sides of what fails, over the letter that is worth moving."""
+    from lyapcheck.report.figures.sides import sides_plot
 
-    return claims_plot([row for row in claims if row["m"] in (m, None)]).files(f"claims_m{m}")
+    files: Files = {}
+    for name, witness in small.items():
+        if witness.moved:
+            files |= sides_plot(witness).files(f"sides_{name.replace('.', '_')}")
+    return files
 
 
 def draw_set(data: GainData) -> Files:
@@ -65,6 +70,22 @@ def draw_comparisons(epsilon: Sequence[Data], runs: Sequence[Data], sensitivity:
         values = {kind: [_float(row[kind]) for row in known] for kind in KINDS}
         figures |= epsilon_plot([row["name"] for row in known], values).files("epsilon")
     return figures
+
+
+def draw_damping(gate: Sequence[Data]) -> Files:
+    """Condition (19) of each gain set to which it applies; nothing where it applies to none."""
+    from lyapcheck.report.figures.bars import damping_plot
+
+    rows = {}
+    for result in gate:
+        checks = [check for check in result["checks"] if check["id"] == "19" and check["limit"]]
+        if checks:
+            largest = max(float(check["value"]) for check in checks)
+            rows[result["name"]] = largest, float(checks[0]["limit"]["lower"])
+    if not rows:
+        return {}
+    values, limits = zip(*rows.values(), strict=True)
+    return damping_plot(list(rows), values, limits).files("damping")
 
 
 def draw_sensitivity(study: Data | None) -> Files:

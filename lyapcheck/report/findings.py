@@ -1,66 +1,147 @@
-"""Where the paper is not confirmed, computed from the results."""
+"""Where the paper is not confirmed, by weight, computed from the results; notes add what the paper argues."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from lyapcheck.report.model import Data, Finding
+from lyapcheck.report.model import Data, Finding, Witness, applies, behind
+from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
 from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
+if TYPE_CHECKING:
+    from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.report.notes import Notes
+
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
+MISPRINTS = "Section 4"
+"""The part of the paper in which a refuted claim is a slip of the pen, unless a note says more."""
+Small = Mapping[str, "SmallWitness"]
 
 
 def findings(
+    notes: Notes,
     claims: Sequence[Data],
-    gate: Sequence[Data],
-    epsilon: Sequence[Data],
+    small: Small,
+    epsilon: Sequence[Data] = (),
     sensitivity: Data | None = None,
 ) -> tuple[Finding, ...]:
-    """All findings: refuted claims first, then rejected gains, ε₀, and the experiment."""
-    experiment = () if sensitivity is None else _experiment(sensitivity)
-    return (*_refuted(claims), *_rejected(gate), *_epsilons(epsilon), *experiment)
+    """About the paper: refuted claims by weight, ε₀ that (18) allows and a state refutes, the experiment.
+
+    A refuted claim breaks the proof if the proposition rests on it.
+    """
+    found = [*_refuted(notes, claims, small), *_contradicted(epsilon)]
+    if sensitivity is not None:
+        found += _experiment(sensitivity)
+    return tuple(sorted(found, key=lambda finding: finding.weight))
 
 
-def _refuted(claims: Sequence[Data]) -> Iterator[Finding]:
-    """One finding a claim, for all m at which it is refuted."""
+def own_findings(
+    gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[Data]
+) -> tuple[Finding, ...]:
+    """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
+    found = [*_rejected(gate), *_contradicted(epsilon)]
+    for row in claims:
+        if row["verdict"] == "refuted" and row["section"].startswith("Section 2"):
+            text = witness_words(row)
+            found.append(Finding("A", f"claim {row['id']}", (row["id"],), _ms([row]), row["comment"], text))
+    return tuple(sorted(found, key=lambda finding: finding.weight))
+
+
+def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Finding]:
+    """One finding a note with refuted claims, and one a refuted claim without a note."""
     refuted: dict[str, list[Data]] = {}
     for row in claims:
         if row["verdict"] == "refuted":
             refuted.setdefault(row["id"], []).append(row)
-    for claim_id, rows in refuted.items():
-        first = rows[0]
-        ms = tuple(row["m"] for row in rows if row["m"] is not None)
-        text = f"“{first['comment']}”: {witness_words(first)}"
-        yield Finding(f"claim {claim_id}", ms, text, first["verdict"])
+    carrying = behind(notes.paper.theorem, claims)
+    done: set[str] = set()
+    for note in notes.findings:
+        names = tuple(name for name in note.claims if name in refuted)
+        seen = [row for name in names for row in refuted[name]]
+        if not seen and not (note.ask and any(name in small for name in note.claims)):
+            continue
+        done.update(names)
+        weight = "A" if carrying & set(names) else "B"
+        yield _finding(weight, names or note.claims, seen, note, small)
+    for name, rows in refuted.items():
+        if name not in done:
+            slip = rows[0]["section"].startswith(MISPRINTS)
+            weight = "A" if name in carrying else "C" if slip else "B"
+            yield _finding(weight, (name,), rows, Note((name,), rows[0]["comment"]), small)
+
+
+def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: Note, small: Small) -> Finding:
+    own = next((small[name] for name in names if name in small), None)
+    witness = _ordinary(min(rows, key=_length)) if own is None else _small(own)
+    return Finding(
+        weight=weight,
+        subject=f"claim {names[0]}",
+        claims=names,
+        ms=_ms(rows) if rows else (note.ask["m"],),
+        title=note.title,
+        text=witness_words(rows[0]) if rows else "",
+        printed=note.printed,
+        argument=note.argument,
+        fails=note.fails,
+        consequence=note.consequence,
+        repair=note.repair,
+        witness=witness,
+        figure=f"sides_{own.id.replace('.', '_')}" if own is not None and own.moved else note.figure,
+    )
+
+
+def _ms(rows: Sequence[Data]) -> tuple[int, ...]:
+    return tuple(sorted({row["m"] for row in rows if row["m"] is not None}))
+
+
+def _small(own: SmallWitness) -> Witness:
+    data = own.data
+    sides = tuple(data["left"]), data["operator"], tuple(data["right"])
+    return Witness(own.m, own.n, data["point"], *sides, small_path(own.id), True)
+
+
+def _length(row: Data) -> int:
+    """Of the numbers of a witness, written out: the roundest is the shortest."""
+    return sum(map(len, row["witness"].get("point", {}).values()))
+
+
+def small_path(claim: str) -> str:
+    """Where the certificate of a small witness stands in a report."""
+    return f"certificates/small/{claim}.json"
+
+
+def _ordinary(row: Data) -> Witness | None:
+    data = row["witness"]
+    if "point" not in data:
+        return None
+    sides = tuple(data["left"]), data["operator"], tuple(data["right"])
+    return Witness(row["m"], row["n"], data["point"], *sides, row["certificate"], False)
 
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
     for result in gate:
         deciding = [check for check in result["checks"] if check["id"] in result["deciding"]]
         broken = [check for check in deciding if check["message"]]
-        if result["verdict"] == "rejected" and result["m"] is not None and broken:
+        if result["verdict"] == "rejected" and applies(result) and broken:
             first, rest = broken[0]["message"], len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
-            yield Finding(f"gains {result['name']}", (result["m"],), first + more, result["verdict"])
+            title = f"{result['name']} breaks ({broken[0]['id']})"
+            yield Finding("B", f"gains {result['name']}", (), (result["m"],), title, first + more)
 
 
-def _epsilons(epsilon: Sequence[Data]) -> Iterator[Finding]:
+def _contradicted(epsilon: Sequence[Data]) -> Iterator[Finding]:
     for row in epsilon:
-        if row["m"] is None:
-            continue
-        published, falsified, certified = row["published"], row["falsified"], row["certified"]
-        if published is None:
-            proved = f"; even so dV/dt < 0 is proved with ε₀ = {float(certified):.4g}" if certified else ""
-            text = f"the interval (18) for ε₀ is empty, because (19) fails{proved}"
-            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "empty")
-        elif falsified is not None and float(published) > float(falsified):
+        published, falsified = row["published"], row["falsified"]
+        if published is not None and falsified is not None and float(published) > float(falsified):
             text = (
                 f"(18) allows ε₀ up to {float(published):.4g}, but dV/dt > 0 at a state found for "
                 f"ε₀ = {float(falsified):.4g}"
             )
-            yield Finding(f"ε₀ of {row['name']}", (row["m"],), text, "contradicted")
+            title = f"(18) allows an ε₀ for {row['name']} that a state refutes"
+            yield Finding("A", f"ε₀ of {row['name']}", (), (row["m"],), title, text)
 
 
 def _experiment(study: Data) -> Iterator[Finding]:
@@ -70,9 +151,11 @@ def _experiment(study: Data) -> Iterator[Finding]:
         for number in one["numbers"]:
             text = _apart(number, study)
             if text:
-                yield Finding(f"{quantity_words(number)} of {one['name']}", ms, text, "differs")
+                subject = f"{quantity_words(number)} of {one['name']}"
+                yield Finding("D", subject, (), ms, subject, text)
     if study["together"] and study["together"]["worst"] > SAME:
-        yield Finding("indices of all gains", (), together_words(study), "differs")
+        subject = "indices of all gains"
+        yield Finding("D", subject, (), (), subject, together_words(study))
 
 
 def _apart(number: Data, study: Data) -> str:

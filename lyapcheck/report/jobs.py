@@ -2,23 +2,37 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
-
-
 BOXES = 100_000
-"""Budget of branch and bound for one gain set: a report takes half a minute, ``epsilon`` goes further."""
+"""Budget of branch and bound for one gain set, in every report; ``epsilon`` goes further on request."""
+DIGITS = 4
+"""Significant digits of ε₀ in a report, rounded to the safe side: more would differ between machines."""
+CHAIN = "Section 3"
+"""The part of the paper whose refuted claims deserve a small witness."""
+SHOWN = 6
+"""Significant digits of what floating point computes."""
 
 
-"""The study of the experiment where nothing can be compiled: a bench run then takes 50 times longer."""
+@dataclass(frozen=True)
+class ProofData:
+    """The claims of a proof, row by row, and the certificates behind them by their paths in a report."""
+
+    rows: tuple[dict[str, Any], ...]
+    certificates: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -41,17 +55,61 @@ class GainData:
     run: RunData
 
 
-def claims_job(proof: str, m: int, robot: str, gains: str) -> list[dict[str, Any]]:
-    """Every claim of a proof for one m, as rows with their details in words."""
+def claims_job(proof: str, ms: Sequence[int], robot: str, gains: str) -> ProofData:
+    """Every claim of a proof, with what its verdicts rest on."""
     from lyapcheck.claims import run_proof
+    from lyapcheck.claims.certificates import file_name
 
-    result = run_proof(proof, (m,), robot, None, gains)
-    about = {"proof": result.name, "title": result.title}
-    return [{**row.data(), **about, "details": [row.words, *row.support]} for row in result.claims]
+    result = run_proof(proof, ms, robot, None, gains)
+    rows = []
+    for row in result.claims:
+        own = file_name(row.id, row.m)
+        certificate = result.certificates.get(own)
+        rows.append(
+            {
+                **row.data(),
+                "proof": result.name,
+                "title": result.title,
+                "details": [row.words, *row.support],
+                "certificate": f"certificates/{result.name}/{own}" if certificate else None,
+                "digest": certificate.digest if certificate else None,
+                "rules": list(row.decision.rules),
+                "granted": list(row.decision.granted),
+            }
+        )
+    files = {f"certificates/{result.name}/{own}": one.text() for own, one in result.certificates.items()}
+    return ProofData(tuple(rows), files)
+
+
+@dataclass(frozen=True)
+class PaperData:
+    """The paper's claims, and for those that are refuted small witnesses."""
+
+    claims: ProofData
+    small: Mapping[str, SmallWitness]
+
+
+def paper_job(proof: str, ms: Sequence[int], robot: str, gains: str, notes: Notes) -> PaperData:
+    """Every claim of the paper; what is refuted again with few joints and numbers of the arm at hand."""
+    from lyapcheck.claims.smallest import smallest_witnesses
+    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.robots import load
+
+    found = claims_job(proof, ms, robot, gains)
+    wanted: dict[str, list[int]] = {}
+    for row in found.rows:
+        if row["verdict"] == "refuted" and row["section"].startswith(CHAIN):
+            wanted.setdefault(row["id"], []).extend([] if row["m"] is None else [row["m"]])
+    sets = {one.m: one for one in read_gain_file(gains).gains if one.m is not None and one.m in ms}
+    for note in notes.findings:
+        if note.ask and sets and not wanted.keys() & set(note.claims):
+            wanted |= {name: [note.ask["m"]] for name in note.claims}
+            sets.setdefault(note.ask["m"], next(iter(sets.values())))
+    return PaperData(found, smallest_witnesses(proof, wanted, load(robot), sets))
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
-    """The four ε₀ of one gain set, its worst states, and the reference simulation."""
+    """The four ε₀ of one gain set, and the reference simulation."""
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
@@ -63,18 +121,28 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
-    """The four ε₀, and the states of largest dV/dt at the certified one."""
+    """The four ε₀, rounded to the safe side, and why one is missing."""
     from lyapcheck.answers.epsilon import epsilon
     from lyapcheck.answers.epsilon.data import result_data
-    from lyapcheck.answers.epsilon.words import reasons
-    from lyapcheck.search.falsify import worst_states
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.answers.epsilon.words import KINDS
 
     result = epsilon(gain_set, model, max_boxes=BOXES, seed=seed)
-    at = result.certified or result.scalar or result.falsified
-    setting = Setting(gain_set, model)
-    states = [asdict(state) for state in (worst_states(setting, float(at), seed=seed) if at else ())]
-    return {**result_data(result), "remarks": reasons(result), "worst_states": states}
+    values: dict[str, Fraction | None] = {kind: getattr(result, kind) for kind in KINDS}
+    shown = {kind: _rounded(value, up=kind == "falsified") for kind, value in values.items()}
+    low, high = shown["certified"], shown["falsified"]
+    ratio = f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None
+    data = result_data(result)
+    kept = {key: data[key] for key in ("name", "m", "robot", "certified_by", "assumptions", "seed")}
+    missing = {kind: text for kind, text in data["reasons"].items() if shown.get(kind) is None}
+    return {**kept, **shown, "ratio": ratio, "boxes": BOXES, "reasons": missing}
+
+
+def _rounded(value: Fraction | None, up: bool) -> str | None:
+    if value is None:
+        return None
+    scale = Fraction(10) ** (DIGITS - 1 - math.floor(math.log10(value)))
+    whole = math.ceil(value * scale) if up else math.floor(value * scale)
+    return f"{float(Fraction(whole) / scale):.{DIGITS}g}"
 
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
@@ -92,4 +160,15 @@ def _run_data(run: Run) -> RunData:
     from lyapcheck.answers.simulate.runs import SetPointRuns
 
     (facts,) = SetPointRuns((run,)).data()["results"]
-    return RunData(facts, run.t, run.e, run.tau, run.V, run.dV)
+    for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
+        del facts[name]
+    return RunData(shortened(facts), run.t, run.e, run.tau, run.V, run.dV)
+
+
+def shortened(value: Any) -> Any:
+    """The same with every floating-point number to the digits that machines agree on."""
+    if isinstance(value, float):
+        return float(f"{value:.{SHOWN}g}")
+    if isinstance(value, dict):
+        return {key: shortened(part) for key, part in value.items()}
+    return [shortened(part) for part in value] if isinstance(value, (list, tuple)) else value

@@ -1,31 +1,77 @@
-"""The one object that every renderer reads."""
+"""What a report says, before it is laid out."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-SCHEMA = "lyapcheck/report/1"
+if TYPE_CHECKING:
+    from lyapcheck.report.notes import Notes
 
 Data = Mapping[str, Any]
+
+WEIGHTS = {
+    "A": "breaks the proof",
+    "B": "wrong, but the proposition stands without it",
+    "C": "misprints and arithmetic",
+    "D": "the experiment",
+}
+
+
+@dataclass(frozen=True)
+class Witness:
+    """Where a relation fails.
+
+    Args:
+        m, n: for which member and how many joints; none where it does not matter.
+        point: exact values by letter.
+        left, right: both sides, each between two decimals.
+        operator: of the relation that fails.
+        certificate: its path in the report.
+        small: whether it was searched for as small as it is.
+    """
+
+    m: int | None
+    n: int | None
+    point: Mapping[str, str]
+    left: tuple[str, str]
+    operator: str
+    right: tuple[str, str]
+    certificate: str | None
+    small: bool
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One place where the paper is not confirmed.
+    """One place where the paper is not confirmed, or one thing that is wrong with gains.
 
     Args:
-        subject: what it is about: a claim, a gain set, an index.
+        weight: a key of ``WEIGHTS``.
+        subject: claim or gain set, in a word.
+        claims: the refuted claims that it is about, if any.
         ms: the members of the family it concerns; empty where it concerns all.
-        text: one or two sentences, numbers included.
-        kind: ``refuted``, ``rejected``, ``empty`` or ``differs``.
+        title: what is wrong, in one sentence.
+        text: numbers, in one or two sentences.
+        printed: the statement in LaTeX, as printed.
+        argument, fails, consequence, repair: the text's, why it is wrong, what follows, what helps.
+        witness: where it fails.
+        figure: name of the drawing of both sides.
     """
 
+    weight: str
     subject: str
+    claims: tuple[str, ...]
     ms: tuple[int, ...]
+    title: str
     text: str
-    kind: str
+    printed: str = ""
+    argument: str = ""
+    fails: str = ""
+    consequence: str = ""
+    repair: str = ""
+    witness: Witness | None = None
+    figure: str = ""
 
 
 @dataclass(frozen=True)
@@ -33,96 +79,83 @@ class Report:
     """Everything that was found out about one arm and its gain sets, as plain data and finished figures.
 
     Args:
+        notes: what the paper prints and argues.
+        own: whether it is about another arm or other gains than the paper's.
         robot: name, title, joints, numbers and assumptions of the arm.
         ms: the members of the family that were asked for.
         table: rows of the constants table.
-        equations: LaTeX of the controller, V and dV/dt, by name.
         gate: gate results, one a gain set.
         epsilon: the four ε₀, one entry a gain set.
         claims: decided claims of the paper, one row a claim and m.
-        instead: what other proofs conclude, one row a conclusion and m.
+        others: those of the proofs of what the paper concludes.
         runs: simulated runs, one a gain set, the PD baseline last.
         sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
-        findings: where the paper is not confirmed.
+        findings: the heaviest first.
         figures: SVG text, PNG and CSV by file name.
+        certificates: by their paths, those that the checker has accepted.
         versions: the software that was used.
         seed: the seed of every random search.
     """
 
+    notes: Notes
+    own: bool
     robot: Data
     ms: tuple[int, ...]
     table: tuple[Data, ...]
-    equations: Mapping[str, str]
     gate: tuple[Data, ...]
     epsilon: tuple[Data, ...]
     claims: tuple[Data, ...]
-    instead: tuple[Data, ...]
+    others: tuple[Data, ...]
     runs: tuple[Data, ...]
     sensitivity: Data | None
     findings: tuple[Finding, ...]
     figures: Mapping[str, str | bytes] = field(repr=False)
+    certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
 
-    def of(self, m: int) -> MemberView:
-        """What concerns one member of the family."""
-        return MemberView(self, m)
-
-    def counts(self, rows: tuple[Data, ...] | None = None) -> dict[str, int]:
-        """How many claims have each verdict."""
-        chosen = self.claims if rows is None else rows
-        order = ("proved", "refuted", "undecided", "error")
-        return {verdict: sum(row["verdict"] == verdict for row in chosen) for verdict in order}
-
-
-@dataclass(frozen=True)
-class MemberView:
-    """The part of a report that concerns one m; claims without an m belong to every view."""
-
-    report: Report
-    m: int
-
     @property
-    def claims(self) -> tuple[Data, ...]:
-        """Claims decided for this m, and those that do not depend on m."""
-        return tuple(row for row in self.report.claims if row["m"] in (self.m, None))
+    def every_claim(self) -> tuple[Data, ...]:
+        """Those of the paper, then those of the other proofs."""
+        return (*self.claims, *self.others)
 
     @property
     def instead(self) -> tuple[Data, ...]:
-        """Conclusions of other proofs for this m."""
-        return tuple(row for row in self.report.instead if row["m"] in (self.m, None))
-
-    @property
-    def constants(self) -> Data | None:
-        """The row of the constants table."""
-        return next((row for row in self.report.table if row["m"] == self.m), None)
-
-    @property
-    def gate(self) -> tuple[Data, ...]:
-        """Gate results of the gain sets of this m."""
-        return tuple(row for row in self.report.gate if row["m"] == self.m)
-
-    @property
-    def epsilon(self) -> tuple[Data, ...]:
-        """ε₀ of the gain sets of this m."""
-        return tuple(row for row in self.report.epsilon if row["m"] == self.m)
-
-    @property
-    def runs(self) -> tuple[Data, ...]:
-        """Runs of the gain sets of this m."""
-        return tuple(row for row in self.report.runs if row["m"] == self.m)
-
-    @property
-    def sensitivity(self) -> tuple[Data, ...]:
-        """The printed numbers of the gain sets of this m, beside what the assumed arms do."""
-        sets = self.report.sensitivity["sets"] if self.report.sensitivity else ()
-        return tuple(one for one in sets if one["m"] == self.m)
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """Findings about this m, and about all."""
-        return tuple(finding for finding in self.report.findings if not finding.ms or self.m in finding.ms)
+        """The conclusions of the other proofs: claims that no other claim of theirs uses."""
+        used = {(row["proof"], name) for row in self.others for name in row["uses"]}
+        return tuple(row for row in self.others if (row["proof"], row["id"]) not in used)
 
     def counts(self) -> dict[str, int]:
-        """How many claims have each verdict."""
-        return self.report.counts(self.claims)
+        """How many claims of the paper have each verdict."""
+        order = ("proved", "refuted", "undecided", "error")
+        return {verdict: sum(row["verdict"] == verdict for row in self.claims) for verdict in order}
+
+    def weighing(self, weight: str) -> tuple[Finding, ...]:
+        """The findings of one weight."""
+        return tuple(finding for finding in self.findings if finding.weight == weight)
+
+    def verdicts(self, ids: Sequence[str], proof: str) -> list[str]:
+        """Of all rows of some claims."""
+        rows = (row for row in self.every_claim if row["proof"] == proof and row["id"] in ids)
+        return [row["verdict"] for row in rows]
+
+
+def anchor(proof: str, claim: str) -> str:
+    """The id of a claim's row on the page: that of the paper's claims is their own."""
+    return claim if proof == "published" else f"{proof}:{claim}"
+
+
+def behind(claim: str, rows: Iterable[Data]) -> set[str]:
+    """The claim, and all that it uses, directly or not."""
+    uses = {row["id"]: row["uses"] for row in rows}
+    found, waiting = {claim}, [claim]
+    while waiting:
+        fresh = set(uses.get(waiting.pop(), ())) - found
+        found |= fresh
+        waiting += fresh
+    return found
+
+
+def applies(result: Data) -> bool:
+    """Whether the conditions of the gate are about gains at all: without γ they have no limit."""
+    return any(check["limit"] is not None for check in result["checks"])

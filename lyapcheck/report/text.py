@@ -42,30 +42,9 @@ def joined(values: Sequence[Any], places: int = 2) -> str:
     return ", ".join(fixed(value, places) for value in values)
 
 
-def listed(values: Sequence[Any], digits: int = 4) -> str:
-    """A list of numbers of very different sizes in one cell, each to a few significant digits."""
-    return ", ".join(number(value or 0.0, digits) for value in values)
-
-
 def plural(count: int, noun: str) -> str:
     """``1 claim``, ``3 claims``."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
-def tally(counts: dict[str, int]) -> str:
-    """``12 proved, 3 refuted``."""
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count) or "none"
-
-
-def together(rows: Sequence[Data]) -> list[dict[str, Any]]:
-    """Rows of the same claim and verdict as one, with all their m under ``m``."""
-    found: dict[tuple[str, ...], dict[str, Any]] = {}
-    for row in rows:
-        key = (row["proof"], row["id"], row["verdict"], row["grade"], *row["details"])
-        first = found.setdefault(key, {**row, "m": []})
-        if row["m"] is not None:
-            first["m"].append(row["m"])
-    return [{**row, "m": ", ".join(map(str, row["m"]))} for row in found.values()]
 
 
 MOST_COORDINATES = 3
@@ -91,3 +70,14 @@ def span_words(ends: Sequence[str], digits: int = 6) -> str:
     """An enclosure in a few digits; a range where its ends differ by more."""
     low, high = (f"{float(end):.{digits}g}" for end in ends)
     return low if low == high else f"{low} to {high}"
+
+
+def and_list(names: Sequence[str]) -> str:
+    """``a``, ``a and b``, ``a, b and c``."""
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def member_words(ms: Sequence[int]) -> str:
+    """``m = 1, 2``; ``every m`` where it concerns all."""
+    return f"m = {', '.join(map(str, ms))}" if ms else "every m"

@@ -7,16 +7,12 @@ from typing import Any
 
 from lyapcheck.report.model import Data
 
-NARROW = "\u00a0"
-"""A space at which no line ends."""
-
 QUANTITIES = {
     "L2": "L2 index",
     "settling": "settling time",
     "final_error": "error after 5 s",
-    "start_torque": f"torque at t{NARROW}={NARROW}0",
+    "start_torque": "torque at t = 0",
 }
-BAND = "settling_band"
 LEAST_SHARE = 0.1
 """An assumption that accounts for less of the variance than this is not what a number hangs on."""
 
@@ -140,19 +136,6 @@ def figure_gains_words(one: Data) -> str:
     )
 
 
-def arm_words(at: Mapping[str, float] | None, study: Data) -> str:
-    """An arm by its assumed numbers, without the band of settling times, which is none of its own."""
-    if at is None:
-        return ""
-    known = {one["name"]: one for one in study["assumed"]}
-    numbers = (
-        f"{known[name]['words']} {value:.3g} {known[name]['unit']}"
-        for name, value in at.items()
-        if name != BAND
-    )
-    return ", ".join(number.rstrip() for number in numbers)
-
-
 def span(ends: Any, unit: str = "") -> str:
     """Two ends of a range; open where a joint does not settle."""
     low, high = ends
@@ -165,7 +148,7 @@ def span(ends: Any, unit: str = "") -> str:
 
 def percent(share: float, sign: str = "+") -> str:
     """A share in per cent."""
-    return f"{100 * share:{sign}.0f}{NARROW}%"
+    return f"{100 * share:{sign}.0f} %"
 
 
 def _short(value: float) -> str:

@@ -6,25 +6,32 @@ import os
 import shutil
 import tempfile
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
+from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
+from lyapcheck.report.page.shell import redirect
+from lyapcheck.report.page.shell import render as page
 from lyapcheck.temporary import pending, try_writing
 
 FORMATS = ("html", "md", "json")
-_MODULES = {"html": "html", "md": "markdown", "json": "json"}
 
 
 def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str | bytes]:
-    """Every file of a report by its name; figures are shared by the formats that show them."""
+    """Every file of a report by its name; figures and certificates are shared by the formats."""
     files: dict[str, str | bytes] = {}
-    for name in formats:
-        files |= import_module(f"lyapcheck.report.{_MODULES[name]}").render(report)
+    answer = ReportAnswer(report)
+    if "html" in formats:
+        files["index.html"] = page(report)
+        files |= {f"m{m}.html": redirect(m) for m in report.ms}
+    if "md" in formats:
+        files["report.md"] = answer.written("markdown")
+    if "json" in formats:
+        files["report.json"] = answer.written("json")
     if set(formats) & {"html", "md"}:
         files |= {f"figures/{name}": drawing for name, drawing in report.figures.items()}
-    return files
+    return {**files, **report.certificates}
 
 
 def require_folder(option: str, folder: Path) -> None:

@@ -82,7 +82,7 @@ def test_the_wheel_carries_everything_that_is_read_at_run_time(wheel):
     assert proofs <= held
     for ending in (".py", ".toml", "/references.bib", "/published.py"):
         assert any(name.startswith("lyapcheck/proofs/") and name.endswith(ending) for name in held)
-    for needed in ("py.typed", "robots/arms/buap3.toml", "report/templates/index.html.j2"):
+    for needed in ("py.typed", "robots/arms/buap3.toml", "report/page/style.css", "report/page/page.js"):
         assert f"lyapcheck/{needed}" in held
     assert not [name for name in held if name.startswith(("tests/", "proofs/"))]
 
@@ -143,12 +143,12 @@ def test_certificates_of_the_wheel_pass_the_checker_of_the_wheel(installed, else
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_report_has_its_templates(installed, elsewhere):
+def test_report_has_its_style_and_script(installed, elsewhere):
     gains = Path(paper_gains(installed, elsewhere)).with_name("table2_shoulder_elbow.toml")
     lyapcheck = installed / "lyapcheck"
     wanted = ("report", "--m", "1", "--robot", "reyes-kelly2", "--gains", gains, "--out", "report")
     done = run(lyapcheck, *wanted, cwd=elsewhere)
     assert done.returncode == 0, done.stderr
-    assert {"index.html", "report.md", "report.json", "style.css"} <= {
+    assert {"index.html", "report.md", "report.json"} <= {
         path.name for path in (elsewhere / "report").iterdir()
     }

@@ -64,7 +64,7 @@ def counterexample(statement: Implies) -> Failure | None:
     from lyapcheck.claims.procedures.sampling import candidates
 
     given = [hypothesis.comparison for hypothesis in statement.hypotheses]
-    given += [_bound(v) for v in statement.variables if v.low is not None]
+    given += [bound_of(v) for v in statement.variables if v.low is not None]
     points = candidates(statement.variables, statement.hypotheses, statement.conclusion)
     return first_refutation(statement.conclusion.comparison, points, given)
 
@@ -83,7 +83,8 @@ def _refuted(statement: Implies) -> Finding | None:
     return broken(witness_of(found), f"{METHOD}: a point where it fails", witness_data(found), **sampled())
 
 
-def _bound(variable: Variable) -> Comparison:
+def bound_of(variable: Variable) -> Comparison:
+    """The lower bound of a variable as a relation."""
     return ("num", str(variable.low)), "<" if variable.strict else "<=", ("var", variable.name)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,9 +15,11 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.report.build import Subject
     from lyapcheck.report.model import Report
 
+_MEMBERS = "1:3"
 _MOST_MEMBERS = 20
 _PRINT = (
     "write html and print it, its pages are made for paper: "
@@ -26,8 +29,9 @@ _PRINT = (
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "Members of the family: 1 2 3, 1,2,5 or 1:12."
-    parser.add_argument("--m", metavar="M", nargs="+", default=["1:3"], help=f"{about} [1:3]")
+    parser.add_argument("members", metavar="M", nargs="*", help="Members, as --m takes them.")
+    about = "Members of the family: 1 2 3, 1,2,5 or 1:12. [1:3, or those of the gain file]"
+    parser.add_argument("--m", metavar="M", nargs="+", default=[], help=about)
     parser.add_argument("--robot", metavar="ROBOT", help="A built-in arm or an arm file.")
     about = "A gain file; the paper's Table 2 and its PD baseline if missing."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
@@ -38,6 +42,7 @@ def arguments(parser: Parser) -> None:
 
 
 def run(
+    members: list[str],
     m: list[str],
     robot: str | None,
     gains: Path | None,
@@ -46,18 +51,20 @@ def run(
 ) -> Exit:
     """Check proof, gains and closed loop for each m and write it all up in a folder.
 
-    Without arguments: the paper's arm and gains for m = 1, 2, 3, into reports/. Exit code 0 when the report
-    is written, whatever it says; 2: unusable input.
+    Without arguments: the paper's arm and gains for m = 1, 2, 3, into reports/. With --robot or --gains the
+    report is about that arm and those gains alone. Exit code 0 when the report is written, whatever it says;
+    2: unusable input.
 
     Examples:
       lyapcheck report
+      lyapcheck report 1
       lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
     from lyapcheck.report.write import render, require_folder, write
 
     formats = _formats(format)
     require_folder("--out", out)
-    subject = _subject(",".join(m), robot, gains)
+    subject = _subject(",".join([*m, *members]), robot, gains)
     from lyapcheck.report.build import build
 
     with progress("report") as advance:
@@ -88,23 +95,30 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     from lyapcheck.report.build import Subject
     from lyapcheck.robots import load
 
-    members = tuple(parse_m(",".join(m.replace(",", " ").split())))
+    chosen = [gains] if gains else [paper_gain_file("table2"), paper_gain_file("table2_pd")]
+    files = tuple(read_gain_file(path) for path in chosen)
+    asked = m or ",".join(str(one) for one in _members(files) if gains) or _MEMBERS
+    members = tuple(parse_m(",".join(asked.replace(",", " ").split())))
     if len(members) > _MOST_MEMBERS:
         rule = f"a report covers at most {_MOST_MEMBERS} members"
         raise argument_error("--m", m, rule, "ask for fewer, or run it several times with --out")
-    chosen = [gains] if gains else [paper_gain_file("table2"), paper_gain_file("table2_pd")]
-    files = tuple(read_gain_file(path) for path in chosen)
     arm = robot_name(robot, files)
     require_joints(files, load(arm))
-    return Subject(arm, members, files)
+    own = gains is not None or arm != robot_name(None, files)
+    return Subject(arm, members, files, own)
+
+
+def _members(files: Iterable[GainFile]) -> list[int]:
+    """Those of the gain sets."""
+    return sorted({item.m for file in files for item in file.gains if item.m is not None})
 
 
 def _summary(report: Report, out: Path, formats: tuple[str, ...]) -> str:
     """What was found, in a few lines, and where to read it."""
     first = {"html": "index.html", "md": "report.md", "json": "report.json"}
-    counts = ", ".join(f"{count} {verdict}" for verdict, count in report.counts().items() if count)
-    lines = [f"claims: {counts}"]
-    lines += [f"gains {row['name']}: {row['verdict']}" for row in report.gate]
-    lines += [f"findings: {len(report.findings)} places where the paper is not confirmed"]
+    from lyapcheck.report.verdict import badges, sentences
+
+    lines = [f"{badge.subject}: {badge.word}" for badge in badges(report)]
+    lines += ["", *sentences(report), ""]
     lines += [f"written: {out / first[name]}" for name in formats]
     return "\n".join(lines) + "\n"

@@ -45,6 +45,27 @@ def indices_plot(names: Sequence[str], bars: Mapping[str, Sequence[float | None]
     return Plot(figure, ["gains", *(f"{source} [deg]" for source in bars)], list(rows))
 
 
+def damping_plot(names: Sequence[str], values: Sequence[float], limits: Sequence[float]) -> Plot:
+    """The largest k_v of each gain set beside the largest that (19) admits, both in N·m.
+
+    References: (19) of reyes2019family.
+    """
+    with styled():
+        figure, axes = panels(1, 1, width=4.6, height=2.4)
+        axis = axes[0, 0]
+        for index, (label, numbers) in enumerate((("λmax(K_v)", values), ("λmin(B)/(√n γ)", limits))):
+            places = [i + (index - 0.5) * 0.38 for i in range(len(names))]
+            colour = COLOURS[1 - index]
+            drawn = axis.bar(places, numbers, 0.38, label=label, color=colour, hatch=HATCHES[index])
+            axis.bar_label(drawn, [f"{number:.4g}" for number in numbers], fontsize=8, padding=2)
+        axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
+        axis.set(ylabel="N·m", ylim=(0, 1.25 * max([*values, *limits])))
+        axis.grid(axis="x", visible=False)
+        axis.legend(loc="upper right", ncols=2, fontsize=8)
+    rows = list(zip(names, values, limits, strict=True))
+    return Plot(figure, ["gains", "largest k_v [N·m]", "limit of (19) [N·m]"], rows)
+
+
 def epsilon_plot(names: Sequence[str], epsilons: Mapping[str, Sequence[float | None]]) -> Plot:
     """The four ε₀ of each gain set on one logarithmic axis; an ε₀ that does not exist has no mark."""
     with styled():

@@ -1,0 +1,91 @@
+"""What a published proof prints and argues, in words: read from the file beside its script."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from lyapcheck.control.paper import proofs_folder
+
+
+@dataclass(frozen=True)
+class Paper:
+    """The text that a proof script is about."""
+
+    authors: str
+    title: str
+    source: str
+    theorem: str
+    controller: str
+
+    @property
+    def citation(self) -> str:
+        """In one line."""
+        return f"{self.authors}, {self.title}, {self.source}"
+
+
+@dataclass(frozen=True)
+class Box:
+    """A step of the proof, or of the way round: as good as the worst of its claims."""
+
+    label: str
+    title: str
+    claims: tuple[str, ...]
+    proof: str = "published"
+    after: str = ""
+
+
+@dataclass(frozen=True)
+class Note:
+    """What the text argues where claims fail, why that is wrong, and what mends it; formulas in LaTeX."""
+
+    claims: tuple[str, ...]
+    title: str
+    printed: str = ""
+    argument: str = ""
+    fails: str = ""
+    consequence: str = ""
+    repair: str = ""
+    left: str = "left side"
+    right: str = "right side"
+    figure: str = ""
+    ask: Mapping[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Notes:
+    """All that the file says.
+
+    Args:
+        paper: the text.
+        chain: its proof from left to right.
+        route: the way round what is broken.
+        findings: notes on claims that may fail; one whose claims hold is not shown.
+        equations: LaTeX of the numbered formulas.
+        own: by proof the claims about an arm and gains, for reports on others than the paper's.
+    """
+
+    paper: Paper
+    chain: tuple[Box, ...]
+    route: tuple[Box, ...]
+    findings: tuple[Note, ...]
+    equations: Mapping[str, str]
+    own: Mapping[str, tuple[str, ...]]
+
+
+def published_notes() -> Notes:
+    """Those on the paper."""
+    found = tomllib.loads((proofs_folder() / "published.toml").read_text(encoding="utf-8"))
+    return Notes(
+        paper=Paper(**found["paper"]),
+        chain=tuple(_box(one) for one in found["chain"]),
+        route=tuple(_box(one) for one in found["route"]),
+        findings=tuple(Note(**one | {"claims": tuple(one["claims"])}) for one in found["findings"]),
+        equations=found["equations"],
+        own={proof: tuple(ids) for proof, ids in found["own"].items()},
+    )
+
+
+def _box(data: dict[str, str]) -> Box:
+    return Box(**data | {"claims": tuple(data["claims"])})  # type: ignore[arg-type]

@@ -1,0 +1,154 @@
+"""Findings by weight: what breaks the proof and what is wrong as cards, misprints and experiment folded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.mathml import latex, sentence
+from lyapcheck.report.model import WEIGHTS, Finding, Report, Witness
+from lyapcheck.report.page.drawing import figure
+from lyapcheck.report.text import member_words, span_words
+
+FOLDED = ("C", "D")
+
+
+def findings_section(report: Report) -> Markup:
+    """Everything that is not confirmed, the heaviest first."""
+    title = "What to mend" if report.own else "Findings"
+    groups = [_group(report, weight) for weight in WEIGHTS if report.weighing(weight)]
+    none = element("p", "Everything that was decided is confirmed.")
+    return element("section", element("h2", title), groups or none, id="findings")
+
+
+def _group(report: Report, weight: str) -> Markup:
+    found = report.weighing(weight)
+    words = WEIGHTS[weight] if not report.own else {"A": "must be mended", "B": "conditions not met"}[weight]
+    title = f"{weight} · {words} ({len(found)})"
+    if weight in FOLDED:
+        rows = [element("tr", element("th", f.subject, scope="row"), element("td", _short(f))) for f in found]
+        table = element("table", element("tbody", rows), class_="cards-on-phone")
+        return element("details", element("summary", element("h3", title)), table, class_="fold")
+    return element(
+        "div", element("h3", title), [_card(report, one) for one in found], class_=f"weight {weight}"
+    )
+
+
+def _short(finding: Finding) -> list[Markup | str | None]:
+    said = sentence(finding.title) if finding.claims else None
+    ms = f" ({member_words(finding.ms)})" if finding.ms else ""
+    links = [_claim_link(name) for name in finding.claims]
+    return [said, ms, ". " if said else None, finding.text, " " if links else None, *links]
+
+
+def _claim_link(name: str) -> Markup:
+    return element("a", f"claim {name}", href=f"#{name}")
+
+
+def _card(report: Report, finding: Finding) -> Markup:
+    tone = "bad" if finding.weight == "A" else "warn"
+    head = [
+        element(
+            "p", [[_claim_link(name), " "] for name in finding.claims], member_words(finding.ms), class_="ids"
+        ),
+        element("h4", finding.title, id=f"finding-{finding.subject.replace(' ', '-')}"),
+    ]
+    about = [
+        ("The paper argues", finding.argument),
+        ("Why it fails", finding.fails),
+        ("Consequence", finding.consequence),
+        ("Repair", finding.repair),
+    ]
+    parts = [[element("dt", term), element("dd", sentence(text))] for term, text in about if text]
+    printed = element("div", latex(finding.printed), class_="printed") if finding.printed else None
+    drawn = figure(report, finding.figure, _caption(report, finding)) if finding.figure else None
+    numbers = [_witness(finding.witness) if finding.witness else element("p", finding.text), drawn]
+    left = element("div", printed, element("dl", parts) if parts else None, class_="said")
+    right = element("div", numbers, _again(finding), class_="shown")
+    return element("article", head, element("div", left, right, class_="two"), class_=f"card {tone}")
+
+
+def _caption(report: Report, finding: Finding) -> str:
+    note = next((n for n in report.notes.findings if set(n.claims) & set(finding.claims)), None)
+    left, right = (note.left, note.right) if note else ("left side", "right side")
+    if not finding.figure.startswith("sides"):
+        return f"{left} of each gain set, and {right}: the largest that the condition admits."
+    return f"Solid: {left}. Dashed: {right}. Shaded: where the statement fails."
+
+
+def _witness(witness: Witness) -> Markup:
+    where = [f"n = {witness.n}"] if witness.n else []
+    where += [f"m = {witness.m}"] if witness.m else []
+    zero = [name for name, value in witness.point.items() if Fraction(value) == 0]
+    where += [
+        f"{_letter(name)} = {short_number(value)}"
+        for name, value in witness.point.items()
+        if name not in zero
+    ]
+    rest = "; all else 0" if zero else ""
+    sides = (
+        f"{span_words(witness.left)} is not {witness.operator.replace('<=', '≤')} {span_words(witness.right)}"
+    )
+    low, high = float(witness.left[0]), float(witness.right[0])
+    if low * high > 0 and witness.operator != "=":
+        sides += f" (ratio {low / high:.3g})"
+    title = "A small witness" if witness.small else "A witness"
+    return element(
+        "div",
+        element("p", element("b", title), ": ", sentence(", ".join(where)), rest, "."),
+        element("p", sides, class_="sides"),
+        class_="witness",
+    )
+
+
+LETTERS = {
+    "gamma": "γ",
+    "rho": "ρ",
+    "beta": "β_M",
+    "kc": "k_c",
+    "eps0": "ε₀",
+    "kp": "λmin(K_p)",
+    "kv": "λmax(K_v)",
+    "kp_min": "λmin(K_p)",
+    "b": "λmin(B)",
+    "more": "λmax(B) − λmin(B)",
+    "share": "ε/ε₀",
+    "e": "q̃",
+    "x": "x",
+    "factor of K_v": "factor of K_v",
+}
+
+
+def _letter(name: str) -> str:
+    """A letter of a script as the paper writes it, with the number of its joint."""
+    if name in LETTERS:
+        return LETTERS[name]
+    stem = name.rstrip("0123456789")
+    short = {"kp": "k_p", "kv": "k_v", "e": "q̃_", "q": "q_", "w": "q̇_", "x": "x_", "c": "c_"}.get(stem)
+    return f"{short}{name[len(stem) :]}" if short else name
+
+
+def short_number(value: str) -> str:
+    """A rational as a decimal where that is exact and short, else as it is."""
+    number = Fraction(value)
+    decimal = f"{float(number):.6g}"
+    return decimal if "e" not in decimal and Fraction(decimal) == number else value
+
+
+def _again(finding: Finding) -> Markup | None:
+    """The command that decides it again, and its certificate."""
+    if not finding.claims:
+        return None
+    ms = f" --m {','.join(map(str, finding.ms))}" if finding.ms else ""
+    small = finding.witness is not None and finding.witness.small and finding.witness.n
+    size = f" --n {finding.witness.n}" if small and finding.witness and finding.witness.n != 3 else ""
+    command = f"lyapcheck check published.py --only {finding.claims[0]}{ms}{size}"
+    path = finding.witness.certificate if finding.witness else None
+    link = element("a", "its certificate", href=path) if path else None
+    return element("p", element("code", command), [" ", link] if link else None, class_="again")
+
+
+def listed(findings: Sequence[Finding]) -> list[str]:
+    """Findings in a line each."""
+    return [f"{one.subject}: {one.title}. {one.text}" for one in findings]

@@ -1,0 +1,227 @@
+"""Every claim: the graph of what rests on what, and tables with its equation, certificate and trust."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+
+from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.mathml import latex, sentence
+from lyapcheck.report.model import Data, Report, anchor
+from lyapcheck.report.page.graph import graph
+from lyapcheck.report.text import SYMBOLS, plural
+
+GRADES = {
+    "kernel": "accepted by Coq's kernel",
+    "exact": "rational numbers and symbolic normal forms",
+    "enclosure": "balls that enclose the exact numbers",
+    "numeric": "floating point, which decides nothing",
+}
+
+
+def claims_section(report: Report) -> Markup:
+    """The claims of the paper and of the proofs that go round it, each with all its members."""
+    rows = report.every_claim
+    used_by: dict[str, list[str]] = {}
+    for row in {(r["proof"], r["id"]): r for r in rows}.values():
+        for name in row["uses"]:
+            used_by.setdefault(anchor(row["proof"], name), []).append(anchor(row["proof"], row["id"]))
+    return element(
+        "section",
+        element("h2", "Claims"),
+        _switch(report),
+        _filters(rows),
+        None if report.own else _graph(report),
+        [_group(report, title, list(group), used_by) for title, group in _sections(rows)],
+        _equations(report),
+        id="claims",
+    )
+
+
+def _switch(report: Report) -> Markup:
+    """One member or all, without any script."""
+    choices = [("all", "all m"), *((str(m), f"m = {m}") for m in report.ms)]
+    buttons = [
+        element(
+            "label",
+            element("input", type="radio", name="m", id=f"m{value}", value=value, checked=value == "all"),
+            words,
+        )
+        for value, words in choices
+    ]
+    return element("fieldset", element("legend", "Members"), buttons, class_="switch")
+
+
+def _filters(rows: Iterable[Data]) -> Markup:
+    found = list(rows)
+    return element(
+        "form",
+        element("label", "Find", element("input", type="search", id="find", placeholder="id or words")),
+        _select("verdict", [row["verdict"] for row in found]),
+        _select("grade", [row["grade"] for row in found]),
+        element("output", id="shown"),
+        class_="filters script-only",
+        onsubmit="return false",
+    )
+
+
+def _select(name: str, values: Iterable[str]) -> Markup:
+    known = dict.fromkeys(sorted(values))
+    options = [element("option", f"any {name}", value=""), *(element("option", v, value=v) for v in known)]
+    return element("label", name.capitalize(), element("select", options, id=f"by-{name}"))
+
+
+def _graph(report: Report) -> Markup:
+    m = report.ms[0]
+    chosen = [row for row in report.claims if row["m"] in (m, None)]
+    words = (
+        f"What rests on what in the paper, for m = {m}: each claim stands right of those it uses; "
+        "click one to read it."
+    )
+    folded = element(
+        "div", graph(chosen, words), class_="scroll", tabindex="0", role="region", aria_label="Graph"
+    )
+    return element(
+        "details",
+        element("summary", element("h3", "The graph of claims")),
+        folded,
+        element("p", words),
+        class_="fold graph",
+        open=True,
+    )
+
+
+def _sections(rows: Sequence[Data]) -> Iterator[tuple[str, Iterator[Data]]]:
+    def title(row: Data) -> str:
+        section = str(row["section"] or "Claims")
+        return section if row["proof"] == "published" else f"{row['proof']}.py: {section}"
+
+    yield from groupby(rows, key=title)
+
+
+def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, list[str]]) -> Markup:
+    claims = [(key, list(group)) for key, group in groupby(rows, key=lambda row: (row["proof"], row["id"]))]
+    verdicts = [row["verdict"] for row in rows]
+    counts = ", ".join(
+        element("span", plural_verdict(verdicts.count(word), word), class_=word)
+        for word in ("proved", "refuted", "undecided", "error")
+        if word in verdicts
+    )
+    heads = [
+        element("th", element("button", words, type="button", class_="sort"), scope="col")
+        for words in ("claim", "statement", "verdict", "grade")
+    ]
+    table = element(
+        "table",
+        element("thead", element("tr", heads)),
+        element("tbody", [_claim(report, group, used_by) for _, group in claims]),
+        class_="claims cards-on-phone",
+    )
+    summary = element(
+        "summary",
+        element("h3", title),
+        element("span", plural(len(claims), "claim"), ": ", Markup(counts), class_="tally"),
+    )
+    return element("details", summary, table, class_="fold group")
+
+
+def plural_verdict(count: int, word: str) -> str:
+    """``3 proved``."""
+    return f"{count} {word}"
+
+
+def _claim(report: Report, rows: Sequence[Data], used_by: dict[str, list[str]]) -> Markup:
+    first = rows[0]
+    own = anchor(first["proof"], first["id"])
+    name = element("a", first["id"], href=f"#{own}")
+    chips = [_chip(row) for row in rows]
+    grades = sorted({row["grade"] for row in rows})
+    more = element(
+        "details",
+        element("summary", sentence(first["comment"])),
+        _details(report, rows, used_by),
+        class_="more",
+    )
+    return element(
+        "tr",
+        element("th", name, scope="row", class_="id"),
+        element("td", more, class_="statement"),
+        element("td", element("span", chips, class_="chips")),
+        element("td", ", ".join(grades), class_="grade"),
+        id=own,
+        data_verdict=" ".join(sorted({row["verdict"] for row in rows})),
+        data_grade=" ".join(grades),
+    )
+
+
+def _chip(row: Data) -> Markup:
+    word = row["verdict"]
+    member = "" if row["m"] is None else f"m={row['m']} "
+    shown = [element("span", member, class_="m"), f"{SYMBOLS[word]} {word}"]
+    return element("span", shown, class_=f"chip {word}", data_m=row["m"])
+
+
+def _details(report: Report, rows: Sequence[Data], used_by: dict[str, list[str]]) -> list[Markup | None]:
+    first = rows[0]
+    own = anchor(first["proof"], first["id"])
+    rests = [_link(first["proof"], name) for name in first["uses"]]
+    carries = [element("a", name, href=f"#{name}") for name in used_by.get(own, ())]
+    lines = [
+        _line("In the paper", _place(report, first)) if first["place"] else None,
+        _line("Rests on", _joined(rests)) if rests else None,
+        _line("Carries", _joined(carries)) if carries else None,
+    ]
+    return [element("dl", lines, class_="about"), *map(_member, rows)]
+
+
+def _member(row: Data) -> Markup:
+    """What was decided for one m, on what evidence."""
+    head = f"m = {row['m']}: " if row["m"] is not None else ""
+    lines = [
+        element(
+            "p", element("b", head, row["verdict"]), f" [{row['grade']}: {GRADES.get(row['grade'], '')}]"
+        ),
+        element("p", row["statement"], class_="decided"),
+        [element("p", text) for text in row["details"][1:]],
+    ]
+    if row["certificate"]:
+        link = element("a", "certificate", href=row["certificate"])
+        trust = [" Trusts the rules: ", ", ".join(row["rules"]), "."] if row["rules"] else None
+        lines.append(element("p", link, " ", element("code", row["digest"][:12]), ".", trust, class_="trust"))
+        lines += [element("p", "Takes for granted: ", text) for text in row["granted"]]
+    return element("div", lines, class_=f"member {row['verdict']}", data_m=row["m"])
+
+
+def _line(term: str, what: object) -> list[Markup]:
+    return [element("dt", term), element("dd", what)]  # type: ignore[arg-type]
+
+
+def _joined(links: Sequence[Markup]) -> list[Markup | str]:
+    return [part for link in links for part in (", ", link)][1:]
+
+
+def _link(proof: str, claim: str) -> Markup:
+    return element("a", claim, href=f"#{anchor(proof, claim)}")
+
+
+def _place(report: Report, row: Data) -> list[Markup | str]:
+    """Where the paper says it, the numbers of formulas as links to them."""
+    parts: list[Markup | str] = []
+    for k, part in enumerate(re.split(r"\((\d+)\)", row["place"])):
+        if k % 2 == 0:
+            parts.append(part)
+        elif part in report.notes.equations:
+            parts.append(element("a", f"({part})", href=f"#equation-{part}"))
+        else:
+            parts.append(f"({part})")
+    return parts
+
+
+def _equations(report: Report) -> Markup:
+    rows = [
+        element("li", element("b", f"({number})"), latex(text), id=f"equation-{number}")
+        for number, text in report.notes.equations.items()
+    ]
+    title = element("summary", element("h3", "The paper's formulas"))
+    return element("details", title, element("ul", rows, class_="equations"), class_="fold")

@@ -1,0 +1,38 @@
+"""What the verdicts rest on: ε₀ between brackets, what is assumed, the runs, versions, digests and seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import PurePosixPath
+
+from lyapcheck.output.document import Block, Figure
+from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.html import blocks
+from lyapcheck.report.document import evidence, four_epsilons, rests
+from lyapcheck.report.model import Report
+from lyapcheck.report.page.drawing import figure
+
+
+def evidence_section(report: Report) -> Markup:
+    """ε₀ first, all else folded."""
+    return element(
+        "section",
+        element("h2", "Evidence"),
+        element("h3", "ε₀ between what is proved and what a state refutes"),
+        shown(report, four_epsilons(report)),
+        [_fold(report, section.title, section.blocks) for section in (*evidence(report), *rests(report))],
+        id="evidence",
+    )
+
+
+def _fold(report: Report, title: str, inner: Iterable[Block]) -> Markup:
+    return element("details", element("summary", element("h3", title)), shown(report, inner), class_="fold")
+
+
+def shown(report: Report, found: Iterable[Block]) -> Markup:
+    """Blocks of the document with their figures inside the page."""
+
+    def drawn(block: Figure) -> Markup | None:
+        return figure(report, PurePosixPath(block.path).stem, f"{block.caption}.")
+
+    return element("div", list(blocks(found, 4, drawn)), class_="blocks scroll")

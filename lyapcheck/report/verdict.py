@@ -1,0 +1,169 @@
+"""The answer in ten seconds: is the proposition true, where does its printed proof break, which gains pass.
+
+Everything here is computed from verdicts; a report that could not decide something says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lyapcheck.report.model import Data, Report, applies, behind
+from lyapcheck.report.notes import Box
+from lyapcheck.report.text import and_list
+
+
+@dataclass(frozen=True)
+class Badge:
+    """One of the four words on the first screen; ``tone`` is ``good``, ``bad``, ``warn`` or ``open``."""
+
+    subject: str
+    word: str
+    tone: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """A box of the picture with what became of its claims; ``tone`` as of badges."""
+
+    box: Box
+    tone: str
+    word: str
+
+
+def sentences(report: Report) -> tuple[str, ...]:
+    """The three sentences of the first screen; about an arm of one's own, those on its gains."""
+    if report.own:
+        return _gains(report)
+    return (_theorem(report), _proof(report), *_gains(report))
+
+
+def badges(report: Report) -> tuple[Badge, ...]:
+    """Theorem, proof, tables and experiment; of an arm of one's own, its gain sets."""
+    if report.own:
+        return tuple(_of_gains(row, report) for row in report.gate)
+    true, broken = _is_true(report), break_places(report)
+    theorem = Badge("theorem", "proved", "good") if true else Badge("theorem", "not decided", "open")
+    if broken:
+        proof = Badge("printed proof", f"breaks at {broken[0]}", "bad")
+    else:
+        held = set(report.verdicts((report.notes.paper.theorem,), "published")) == {"proved"}
+        proof = Badge("printed proof", "holds", "good") if held else Badge("printed proof", "open", "open")
+    judged = [row for row in report.gate if applies(row)]
+    passed = sum(row["verdict"] == "accepted" for row in judged)
+    tone = "good" if passed == len(judged) else "warn"
+    slips = len(report.weighing("C"))
+    tables = Badge("tables", f"{passed} of {len(judged)} gain sets pass, {slips} misprints", tone)
+    differs = report.weighing("D")
+    if report.sensitivity is None:
+        experiment = Badge("experiment", "not compared", "open")
+    else:
+        experiment = Badge(
+            "experiment", "not explained" if differs else "explained", "warn" if differs else "good"
+        )
+    return theorem, proof, tables, experiment
+
+
+def chain(report: Report) -> tuple[Step, ...]:
+    """The printed proof, box by box."""
+    carrying = behind(report.notes.paper.theorem, report.claims)
+    return tuple(_step(box, report, carrying) for box in report.notes.chain)
+
+
+def route(report: Report) -> tuple[Step, ...]:
+    """The way round; empty where a part of it is not proved."""
+    steps = tuple(_step(box, report, set()) for box in report.notes.route)
+    return steps if all(step.tone == "good" for step in steps) else ()
+
+
+def break_places(report: Report) -> list[str]:
+    """Where the refuted claims stand that the theorem rests on and that rest on no other of them."""
+    carrying = behind(report.notes.paper.theorem, report.claims)
+    refuted = {
+        row["id"]: row for row in report.claims if row["verdict"] == "refuted" and row["id"] in carrying
+    }
+    first = [name for name, row in refuted.items() if not set(row["uses"]) & set(refuted)]
+    return list(dict.fromkeys(refuted[name]["place"] or f"claim {name}" for name in first))
+
+
+def _step(box: Box, report: Report, carrying: set[str]) -> Step:
+    rows = [r for r in report.every_claim if r["proof"] == box.proof and r["id"] in box.claims]
+    refuted = {row["id"] for row in rows if row["verdict"] == "refuted"}
+    if refuted & carrying and box.proof == "published":
+        return Step(box, "bad", "breaks")
+    if refuted:
+        return Step(box, "warn", "wrong, repairable")
+    if rows and all(row["verdict"] == "proved" for row in rows):
+        return Step(box, "good", "proved")
+    return Step(box, "open", "not shown")
+
+
+def _is_true(report: Report) -> bool:
+    return bool(route(report)) or set(report.verdicts((report.notes.paper.theorem,), "published")) == {
+        "proved"
+    }
+
+
+def _theorem(report: Report) -> str:
+    if not _is_true(report):
+        return "Whether the proposition is true was not decided here."
+    last = report.notes.route[-1] if route(report) else report.notes.chain[-1]
+    rows = [r for r in report.every_claim if r["proof"] == last.proof and r["id"] in last.claims]
+    joints = {row["n"] for row in rows}
+    size = (
+        "every number of joints n" if joints == {None} else f"n = {and_list(sorted(map(str, joints)))} joints"
+    )
+    members = "every m" if {r["m"] for r in rows} == {None} else f"m = {and_list(list(map(str, report.ms)))}"
+    return (
+        f"The proposition is true: proved, with certificates, for every arm with Properties 2.1 to 2.7 and "
+        f"all positive gains, {size}, {members}."
+    )
+
+
+def _proof(report: Report) -> str:
+    broken = break_places(report)
+    if not broken:
+        return "No step that its printed proof rests on was refuted."
+    wrong = sum(1 for finding in report.weighing("B") if finding.claims)
+    more = f"; {wrong} more of its statements are wrong without harm to it" if wrong else ""
+    return f"Its printed proof breaks at {and_list(broken)}{more}."
+
+
+def _gains(report: Report) -> tuple[str, ...]:
+    judged = [row for row in report.gate if applies(row)]
+    others = [row["name"] for row in report.gate if not applies(row)]
+    passed = [row for row in judged if row["verdict"] == "accepted"]
+    failed = [row for row in judged if row["verdict"] == "rejected"]
+    parts = []
+    if passed:
+        parts.append(f"{_named(passed)} meet{'s' if len(passed) == 1 else ''} (10p) and (19)")
+    if failed:
+        ids = (c["id"] for r in failed for c in r["checks"] if c["message"] and c["id"] in r["deciding"])
+        broken = and_list([f"({one})" for one in dict.fromkeys(ids)])
+        parts.append(f"{_named(failed)} break{'s' if len(failed) == 1 else ''} {broken}")
+    if not parts:
+        return ()
+    stable = {row["name"]: row["certified"] for row in report.epsilon}
+    proved = [row["name"] for row in judged if stable.get(row["name"])]
+    tail = ""
+    if proved and len(proved) == len(judged):
+        tail = "; dV/dt < 0 at every state is proved for " + ("it" if len(proved) == 1 else "all of them")
+        tail += " on this arm" if report.own else ", so all are stable all the same" if failed else ""
+    elif proved:
+        tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}"
+    rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
+    subject = "" if report.own else "Gains of Table 2: "
+    return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
+
+
+def _named(rows: Sequence[Data]) -> str:
+    return and_list([f"{row['name']} (m = {row['m']})" for row in rows])
+
+
+def _of_gains(row: Data, report: Report) -> Badge:
+    if not applies(row):
+        return Badge(row["name"], "conditions do not apply", "open")
+    eps0 = next((one["certified"] for one in report.epsilon if one["name"] == row["name"]), None)
+    stable = ", proved stable" if eps0 else ""
+    tones = {"accepted": "good", "rejected": "warn" if eps0 else "bad"}
+    return Badge(row["name"], f"{row['verdict']}{stable}", tones.get(row["verdict"], "open"))
