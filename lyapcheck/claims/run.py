@@ -7,8 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from lyapcheck import store
 from lyapcheck._types import Progress
 from lyapcheck.answers.check import ClaimResult, ProofResult
+from lyapcheck.check.certificate import digest_of
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
@@ -22,7 +27,7 @@ from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.statements import Missing, Statement
 from lyapcheck.search.inertia import remember
-from lyapcheck.verdicts import Verdict
+from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_ROBOT = "buap3"
 DEFAULT_GAINS = "table2"
@@ -149,10 +154,32 @@ def _dependences(told: Handover) -> dict[str, set[str]]:
 
 
 def _search(statement: Statement | Missing) -> Finding:
+    """What the search proposes, from the store if it has proposed it before: the checker judges it anyway."""
     try:
-        return propose(statement)
+        if isinstance(statement, Missing):
+            return propose(statement)
+        question = {"search": digest_of(to_json(statement))}
+        if (found := _read(store.take(question))) is not None:
+            return found
+        found = propose(statement)
+        if found.proof is not None:
+            store.put(question, _written(found, found.proof))
+        return found
     except Exception as error:
         return Finding(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
+
+
+def _written(found: Finding, proof: Proof) -> dict[str, Any]:
+    return {**vars(found), "grade": found.grade.label, "proof": to_json(proof)}
+
+
+def _read(kept: Any) -> Finding | None:
+    """A finding as it was written; none if it is not exactly of that form."""
+    try:
+        proof, grade = from_json(Proof, kept["proof"], "proof"), Grade[kept["grade"].upper()]
+        return Finding(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
+    except (Refused, KeyError, TypeError, ValueError):
+        return None
 
 
 def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[Key, ClaimResult]:

@@ -1,0 +1,152 @@
+"""What is kept in the user's cache between runs: found again by its key, checked to be whole, never trusted.
+
+A kept file is its content followed by the SHA-256 of that, written beside its place and moved there in one
+step: a killed run leaves no half file, and a damaged one is not found. Keys of answers are digests of the
+question, of the versions behind it and of the source of lyapcheck itself, so that another version asks anew.
+Whoever takes an answer that holds verdicts has the checker judge its certificates again.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import json
+import os
+import stat
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from lyapcheck.control.paper import proofs_folder
+from lyapcheck.temporary import pending
+
+OFF = "LYAPCHECK_NO_STORE"
+"""Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
+ANSWERS = "answers"
+BEHIND = ("lyapcheck", "casadi", "clarabel", "cvxpy", "matplotlib", "numpy", "python-flint", "scipy", "sympy")
+_DIGEST = hashlib.sha256().digest_size
+
+
+def home() -> Path:
+    """$XDG_CACHE_HOME/lyapcheck, or the same in ~/.cache."""
+    given = os.environ.get("XDG_CACHE_HOME", "")
+    base = Path(given) if given and Path(given).is_absolute() else Path("~/.cache").expanduser()
+    return base / "lyapcheck"
+
+
+def kept(room: str, name: str) -> bytes | None:
+    """The content kept in a room under a name, if it is there, ours alone to write, and whole."""
+    path = home() / room / name
+    try:
+        if not _private(path.parent) or not _private(path):
+            return None
+        content = path.read_bytes()
+    except (OSError, RuntimeError):
+        return None
+    body, digest = content[:-_DIGEST], content[-_DIGEST:]
+    return body if body and hashlib.sha256(body).digest() == digest else None
+
+
+def keep(room: str, name: str, body: bytes) -> Path | None:
+    """Put a content under its name in one step; none if the cache cannot be written."""
+    try:
+        folder = home() / room
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not _private(folder):
+            return None
+        return _write(folder, body + hashlib.sha256(body).digest()).replace(folder / name)
+    except (OSError, RuntimeError):
+        return None
+
+
+def take(question: Mapping[str, Any]) -> Any | None:
+    """The answer kept for a question, as plain data; none if there is none, or it is damaged."""
+    if os.environ.get(OFF):
+        return None
+    body = kept(ANSWERS, key_of(question))
+    try:
+        return None if body is None else json.loads(gzip.decompress(body))
+    except (OSError, ValueError, EOFError):
+        return None
+
+
+def put(question: Mapping[str, Any], answer: Any) -> None:
+    """Keep the answer to a question, plain data; without a word where that is not possible."""
+    if not os.environ.get(OFF):
+        text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"))
+        keep(ANSWERS, key_of(question), gzip.compress(text.encode(), 3, mtime=0))
+
+
+def key_of(question: Mapping[str, Any]) -> str:
+    """The digest of a question, plain data, with all that an answer depends on besides."""
+    whole = {"question": question, "source": source_digest(), "versions": {p: version(p) for p in BEHIND}}
+    text = json.dumps(whole, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+@cache
+def source_digest() -> str:
+    """Of every file of lyapcheck and of the proofs that come with it."""
+    whole = hashlib.sha256()
+    for root in (Path(__file__).parent, proofs_folder()):
+        for path in sorted(root.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                whole.update(
+                    f"{path.relative_to(root)}\n".encode() + hashlib.sha256(path.read_bytes()).digest()
+                )
+    return whole.hexdigest()
+
+
+@dataclass(frozen=True)
+class Held:
+    """How much one room holds."""
+
+    room: str
+    files: int
+    bytes: int
+
+
+def held() -> list[Held]:
+    """What is kept, room by room."""
+    return [
+        Held(room.name, len(files), sum(path.stat().st_size for path in files))
+        for room in _rooms()
+        for files in [[path for path in room.iterdir() if path.is_file()]]
+    ]
+
+
+def clear() -> None:
+    """Remove everything that is kept."""
+    for room in _rooms():
+        for path in room.iterdir():
+            if path.is_file():
+                path.unlink(missing_ok=True)
+
+
+def _rooms() -> Iterator[Path]:
+    folder = home()
+    if folder.is_dir():
+        yield from sorted(path for path in folder.iterdir() if path.is_dir() and not path.is_symlink())
+
+
+def _write(folder: Path, content: bytes) -> Path:
+    """A new file that only this user can read, gone again if it cannot be written to its end."""
+    handle, name = tempfile.mkstemp(dir=folder, prefix=".new-")
+    try:
+        with pending(name), os.fdopen(handle, "wb") as file:
+            file.write(content)
+    except OSError:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return Path(name)
+
+
+def _private(path: Path) -> bool:
+    """Whether only this user can change it: what is kept here is run and shown."""
+    status = path.stat()
+    mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
+    return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
