@@ -102,7 +102,8 @@ def test_the_data_beside_a_figure_are_those_of_the_run(report: Report, files: di
     rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
     for joint, peak in zip(run["joints"], run["peak_torque"], strict=True):
         sampled = max(abs(float(row[f"{joint} [N·m]"])) for row in rows)  # the peak may lie between two
-        assert sampled <= peak * (1 + 1e-5) and sampled == pytest.approx(peak, rel=1e-3)
+        assert sampled <= peak * (1 + 1e-5)
+        assert sampled == pytest.approx(peak, rel=1e-3)
     assert float(rows[-1]["t [s]"]) == run["time"]
 
 
