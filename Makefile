@@ -8,8 +8,8 @@ BIN := .venv/bin
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
-	@echo "make test       the fast tests"
-	@echo "make test-slow  the slow tests: built wheel, large m, long searches"
+	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
+	@echo "make test-slow  the rest: whole grids, planted faults, 40,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
@@ -28,7 +28,7 @@ test: .venv/.ready
 	$(BIN)/pytest -n 2 -m "not slow"
 
 test-slow: .venv/.ready
-	$(BIN)/pytest -n 2 -m slow
+	$(BIN)/pytest -n 2 -m "slow or hypothesis" --hypothesis-profile thorough
 
 # Packages that only these tests need; users never do.
 test-robots: .venv/.ready

@@ -67,6 +67,7 @@ def test_bounds_are_judged_one_by_one_at_the_line_of_the_gain_set(compared: Comp
         assert lines[one.line - 1 : one.line + 1] == ["[[gains]]", f'name = "{one.group}"']
 
 
+@pytest.mark.slow
 def test_without_a_rate_at_the_goal_it_says_so() -> None:
     asked = (load("reyes-kelly2"), TASK, math.radians(10), (), (0.0, 0.0))
     found = Comparisons((compare(FILE.gains[1], *asked, max_boxes=4_000),))

@@ -1,19 +1,14 @@
 """The check and explain commands: exit codes, formats, and one clear message for every bad input."""
 
 import json
-import subprocess
-import sys
 
 import pytest
 
 from lyapcheck.output.formats import Format, JudgedFormat
+from tests.helpers.command import lyapcheck
+from tests.helpers.shares import one_in
 
-
-def lyapcheck(*arguments, folder=None):
-    words = ["lyapcheck", *map(str, arguments)]
-    code = f"import sys; sys.argv = {words!r}; from lyapcheck.cli.main import main; main()"
-    command = [sys.executable, "-c", code]
-    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=120, check=False)
+pytestmark = pytest.mark.usefixtures("in_this_process")
 
 
 @pytest.mark.parametrize(("claim", "code"), [("7a", 0), ("16.6", 1), ("P", 3), ("T1.torque.m1.elbow", 0)])
@@ -67,7 +62,7 @@ def test_markdown_is_one_table_a_section(tmp_path):
     assert run.stdout.count("|  | claim | grade | seconds | statement |") == 1
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", one_in(4, JudgedFormat))
 def test_every_format_names_the_claim(name, tmp_path):
     run = lyapcheck("check", "published.py", "--only", "17a", "--format", name, folder=tmp_path)
     assert run.returncode == 1, run.stderr

@@ -21,13 +21,14 @@ from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
 from lyapcheck.search.setting import Setting
 from tests.helpers.command import invoke
+from tests.helpers.shares import but
 
 F = Fraction
 ARM = load("reyes-kelly2")
 SETS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
 
 
-@pytest.fixture(scope="module", params=[0, 1], ids=["m1", "m2"])
+@pytest.fixture(scope="module", params=but((0,), (0, 1)), ids=["m1", "m2"])
 def case(request: pytest.FixtureRequest) -> tuple[GainSet, EpsilonResult]:
     return SETS[request.param], epsilon(SETS[request.param], ARM, starts=6, max_boxes=8_000)
 
@@ -160,7 +161,7 @@ def test_pd_has_no_published_number() -> None:
 
 
 def test_gains_that_break_19_have_an_empty_18() -> None:
-    found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=4, max_boxes=2_000)
+    found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=1, max_boxes=50)
     assert found.published is None
     assert "(19)" in found.reasons["published"]
 
@@ -183,9 +184,9 @@ def test_command_prints_the_same_bytes_twice() -> None:
         "--m",
         "2",
         "--starts",
-        "3",
+        "1",
         "--max-boxes",
-        "500",
+        "100",
         "--format",
         "json",
     )

@@ -17,9 +17,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
 
-SETTINGS = settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+SETTINGS = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 EXACT = Context(prec=200, traps=[Inexact])
 """Decimal arithmetic that never rounds."""

@@ -26,6 +26,9 @@ from lyapcheck.search.proof import Proof
 from lyapcheck.search.setting import Setting
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import Done, invoke
+from tests.helpers.shares import one_in
+
+pytestmark = pytest.mark.usefixtures("in_this_process")
 
 TABLE2 = paper_gain_file("table2_shoulder_elbow")
 
@@ -175,7 +178,7 @@ torque_limit = 50
 
 
 @pytest.mark.parametrize("name", ["scalar", "global"])
-@pytest.mark.parametrize("kv", ["[0.1, 0.1]", "[9, 9]"])
+@pytest.mark.parametrize("kv", one_in(2, ["[0.1, 0.1]", "[9, 9]"]))
 def test_an_arm_that_cannot_exist_is_never_accepted(tmp_path: Path, name: str, kv: str) -> None:
     (tmp_path / "arm.toml").write_text(UNPHYSICAL)
     path = gain_file(tmp_path / "g.toml", "robot = 'arm.toml'", kv)
@@ -375,7 +378,11 @@ def recheck(folder: Path) -> tuple[int, str]:
     return done.exit_code, done.output
 
 
-@pytest.mark.parametrize("words", [(), ("--gamma=printed",), ("--condition", "scalar", "--condition=global")])
+ALL_CONDITIONS = ("--condition", "scalar", "--condition=global")
+PRINTED = pytest.param(("--gamma=printed",), marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("words", [(), PRINTED, ALL_CONDITIONS])
 def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tuple[str, ...]) -> None:
     judged_by_command(str(TABLE2), f"--certificates={tmp_path / 'made'}", *words)
     made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}

@@ -23,6 +23,7 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.document import Bullets, Section, Table
 from lyapcheck.output.formats import JudgedFormat
+from tests.helpers.shares import one_in
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +38,7 @@ def undecided(tmp_path_factory: pytest.TempPathFactory) -> GateAnswer:
     return gate(read_gain_file(path))
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", one_in(4, JudgedFormat))
 def test_the_same_input_gives_the_same_bytes(name: str) -> None:
     code = "from lyapcheck.cli.main import main; main()"
     words = ["gate", str(paper_gain_file("table2")), "--format", name]

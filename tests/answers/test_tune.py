@@ -11,7 +11,7 @@ from pathlib import Path
 
 import mpmath
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
@@ -105,7 +105,6 @@ def cases(draw):
     return robot, m, targets, Bounds(draw(decimals(0.1, 5, 3)), torque, gravity)
 
 
-@settings(max_examples=60, deadline=None)
 @given(case=cases())
 def test_no_gain_of_any_arm_can_be_one_unit_larger(case, tmp_path_factory):
     robot, m, targets, bounds = case
@@ -114,7 +113,6 @@ def test_no_gain_of_any_arm_can_be_one_unit_larger(case, tmp_path_factory):
     require_largest(tuning, (m,), tmp_path_factory.mktemp("tuned"))
 
 
-@settings(max_examples=25, deadline=None)
 @given(case=cases(), ratio=decimals(0.01, 2, 3))
 def test_with_a_damping_ratio_no_other_decimals_have_a_larger_kp(case, ratio):
     robot, m, targets, bounds = case

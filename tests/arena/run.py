@@ -35,9 +35,9 @@ def outcome(checker: Sequence[str], path: Path) -> str:
     return ENDS.get(ended.returncode, f"exit code {ended.returncode}")
 
 
-def faults(checker: Sequence[str], jobs: int = 2) -> list[str]:
-    """One line for each entry of which the checker says something else than expected."""
-    entries = json.loads((ARENA / "expected.json").read_text())
+def faults(checker: Sequence[str], jobs: int = 2, one_in: int = 1) -> list[str]:
+    """One line for each entry, or one in so many, of which the checker says something else than expected."""
+    entries = json.loads((ARENA / "expected.json").read_text())[::one_in]
     with ThreadPoolExecutor(jobs) as pool:
         outcomes = pool.map(lambda entry: outcome(checker, ARENA / entry["path"]), entries)
         return [

@@ -63,6 +63,7 @@ def test_certificates_are_measured_on_the_joints_an_arm_has():
     assert all(cost.checked is not None for cost in result.costs)
 
 
+@pytest.mark.slow
 def test_a_share_that_is_not_proved_has_no_time_of_the_checker():
     (result,) = certificates.benchmark(("reyes-kelly2",), (2,), (Fraction(101, 100), Fraction(99, 100)), 300)
     assert [cost.checked for cost in result.costs] == [None, None]

@@ -16,6 +16,8 @@ from lyapcheck.robots import RobotModel, load
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
 from lyapcheck.verdicts import Verdict
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
 ARMS = ("pelican2", UR5)
 

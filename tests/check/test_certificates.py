@@ -9,7 +9,7 @@ from functools import reduce
 from operator import getitem
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.certificate import SCHEMA, About, Certificate, digest_of, judge, parse, read
@@ -62,6 +62,8 @@ from lyapcheck.verdicts import Verdict
 from tests.claims.test_claims import PROVED, REFUTED
 from tests.helpers.independent_truth import contradicts
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 x, y, a, b = map(var, "xyab")
 F = Fraction
 CASES = {**PROVED, **REFUTED, "all of": all_of(one=PROVED["√3 < 1.7321"], two=PROVED["U' = h"])}
@@ -107,6 +109,7 @@ def test_a_certificate_survives_its_file(made):
         assert judge(again).verdict == certificate.verdict
 
 
+@pytest.mark.slow
 def test_the_same_proof_gives_the_same_bytes_without_paths(published):
     again = run_proof("published.py", ms=(2,)).certificates
     assert {name: c.text() for name, c in again.items()} == {name: c.text() for name, c in published.items()}
@@ -229,7 +232,6 @@ def test_other_operations_are_refused_or_still_true(made):
 
 
 @given(st.data())
-@settings(max_examples=60, deadline=None)
 def test_published_certificates_do_not_survive_changes_that_matter(published, data):
     certificate = data.draw(st.sampled_from([published[name] for name in sorted(published)]))
     document = json.loads(certificate.text())

@@ -29,6 +29,8 @@ from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict
 from tests.helpers.command import invoke
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 F = Fraction
 Document = dict[str, Any]
 
@@ -254,6 +256,7 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     assert result["settling"]["statement"] == statement.text()
 
 
+@pytest.mark.slow
 def test_an_arm_that_is_none_has_no_bounds(tmp_path: Path) -> None:
     """With M11 = 1 + 1.05 cos q2 a run leaves any bound that V would give."""
     gains, made = tmp_path / "gains.toml", tmp_path / "made"
@@ -268,6 +271,7 @@ def test_an_arm_that_is_none_has_no_bounds(tmp_path: Path) -> None:
     assert list(made.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_proof_cannot_do_without_its_mass(made: dict[str, Certificate]) -> None:
     """A statement about an arm that is none is refused, whatever the rest of its proof says."""
     statement, proof = made["settling"].statement, made["settling"].proof

@@ -20,6 +20,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 F = Fraction
 Document = dict[str, Any]
 
@@ -131,6 +133,7 @@ def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certific
         judge(moved)
 
 
+@pytest.mark.slow
 def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     folder = tmp_path / "certificates"
     gains = str(paper_gain_file("table2_shoulder_elbow"))

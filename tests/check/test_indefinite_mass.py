@@ -15,6 +15,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 GAINS = paper_gain_file("table2_shoulder_elbow")
 ARM = """
 title = "M11 = 1 + 1.05 cos q2, which is below 0 where q2 is near π"
@@ -87,6 +89,7 @@ def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
     assert "every arm of 2 joints with Properties 2.1 to 2.7" in said[0].statement
 
 
+@pytest.mark.slow
 def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path: Path) -> None:
     folder = tmp_path / "certificates"
     options = ["--m", "1", "--starts", "4", "--max-boxes", "100", "--certificates", str(folder)]

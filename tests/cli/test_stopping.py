@@ -17,6 +17,7 @@ import pytest
 
 from lyapcheck import temporary
 from lyapcheck.cli.stopping import Stopping
+from tests.helpers.shares import but, one_in
 
 ROOT = Path(__file__).parents[2]
 UR5 = str(ROOT / "examples" / "ur5_gains.toml")
@@ -101,8 +102,8 @@ ONLY_IT, ALL_OF_IT = False, True
 SIGNALLED = [(name, ONLY_IT) for name in COMMANDS] + [("epsilon", ALL_OF_IT), ("simulate", ALL_OF_IT)]
 
 
-@pytest.mark.parametrize(("name", "to_all"), SIGNALLED)
-@pytest.mark.parametrize("number", CODES)
+@pytest.mark.parametrize(("name", "to_all"), but([("check", ONLY_IT)], SIGNALLED))
+@pytest.mark.parametrize("number", one_in(2, CODES))
 def test_a_signal_ends_a_command(name: str, number: signal.Signals, to_all: bool, tmp_path: Path) -> None:
     with started(COMMANDS[name], tmp_path) as process:
         busy = wait_for(lambda: catches_term(process.pid), process)
@@ -118,6 +119,7 @@ def catches_term(pid: int) -> bool:
     return found is not None and bool(int(found[1], 16) >> (signal.SIGTERM - 1) & 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", CODES)
 @pytest.mark.parametrize("to_all", [False, True], ids=["process", "group"])
 def test_a_signal_ends_a_report_and_its_processes(

@@ -8,7 +8,7 @@ from math import isqrt
 
 import mpmath
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from mpmath import mpf
 
@@ -96,7 +96,6 @@ def real(x: Fraction) -> mpf:
     return mpf(x.numerator) / x.denominator
 
 
-@settings(max_examples=80, deadline=None)
 @given(cases())
 def test_the_conditions_agree_with_an_independent_computation(
     gammas: dict[int, mpf], case: tuple[GainSet, Limits]
@@ -166,7 +165,6 @@ def with_value(gains: GainSet, check: Check, value: Fraction) -> GainSet | None:
     return GainSet("set", gains.m, (*gains.kp[:i], value - kv, *gains.kp[i + 1 :]), gains.kv, gains.family)
 
 
-@settings(max_examples=60, deadline=None)
 @given(cases(), st.sampled_from(["hyperbolic", "arctan", "tanh", "algebraic"]))
 def test_the_largest_admissible_is_admitted_and_the_next_decimal_is_not(
     case: tuple[GainSet, Limits], family: str
@@ -241,7 +239,6 @@ SQUARES = st.sampled_from([1, 4, 9])
 POSITIVE = st.fractions(min_value=Fraction(1, 1000), max_value=1000, max_denominator=1000)
 
 
-@settings(max_examples=60, deadline=None)
 @given(SQUARES, POSITIVE, st.sampled_from(["hyperbolic", "tanh", "algebraic"]), st.integers(0, 80))
 def test_19_and_10p_are_strict(n: int, limit: Fraction, family: str, digits: int) -> None:
     """γ = 1 and √n is whole: the border is rational, and only what is below it passes."""
@@ -260,7 +257,6 @@ def test_19_and_10p_are_strict(n: int, limit: Fraction, family: str, digits: int
             assert check.margin == limit - value
 
 
-@settings(max_examples=60, deadline=None)
 @given(SQUARES, POSITIVE, st.integers(1, 30), st.integers(1, 30), st.integers(0, 80))
 def test_10_admits_its_border(n: int, unit: Fraction, a: int, b: int, digits: int) -> None:
     """Norms of Pythagorean pairs are rational, so the border of (10) is, for m = 1."""
@@ -294,7 +290,6 @@ def test_10_at_the_printed_bound() -> None:
     assert (check.verdict, check.margin, check.largest_admissible) == ("accepted", 0, 10)
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.integers(1, 12), POSITIVE, POSITIVE, st.sampled_from([-1, 0, 1]), st.integers(1, 200))
 def test_the_smaller_root_is_the_border(n: int, a: Fraction, b: Fraction, side: int, digits: int) -> None:
     """Norms a > b and γ = (a − b)/k√n with √n rational: exactly on the border, and a little beside it."""
@@ -377,7 +372,6 @@ def test_beyond_the_members_that_the_checker_knows_nothing_is_decided() -> None:
         assert "the checker gives no verdict" in check.reason
 
 
-@settings(max_examples=30, deadline=None)
 @given(cases(), st.sampled_from(["hyperbolic", "arctan", "tanh", "algebraic", "linear"]))
 def test_every_verdict_is_that_of_a_statement_and_its_proof(
     case: tuple[GainSet, Limits], family: str

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.cli import main as cli
@@ -88,7 +88,6 @@ def test_decimals_are_exact_and_keep_their_digits(
     assert places_of(found) == places
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-50, 50))
 def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent: int) -> None:
     text = f"{str(digits).rjust(places + 1, '0')}"
@@ -96,7 +95,6 @@ def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent
     assert written(text) == Fraction(digits) * Fraction(10) ** (exponent - places)
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.fractions(), st.integers(0, 30))
 def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places: int) -> None:
     rounded, unit = round_down(value, places), Fraction(1, 10**places)
@@ -105,7 +103,6 @@ def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places:
     assert Fraction(decimal_text(rounded, places)) == rounded
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.fractions(), st.integers(0, 30))
 def test_decimal_text_says_the_exact_value(value: Fraction, places: int) -> None:
     text = decimal_text(value, places)
@@ -556,19 +553,16 @@ def read_or_refuse(path: Path, content: bytes) -> None:
         assert all(printable(str(problem)) == str(problem) for problem in error.problems)
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.one_of(SHUFFLED, SPLICED).map(lambda text: text.encode("utf-8", "surrogatepass")))
 def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.text())
 def test_printable_text_is_one_line(text: str) -> None:
     shown = printable(text)

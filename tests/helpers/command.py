@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import io
-from contextlib import redirect_stderr, redirect_stdout
+import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
+from pathlib import Path
+from subprocess import CompletedProcess
+from unittest.mock import patch
 
-from lyapcheck.cli.main import run
+from lyapcheck.cli.main import main, run
 from lyapcheck.errors import InputError
 
 
@@ -34,3 +38,17 @@ def invoke(*words: str) -> Done:
         except InputError as error:
             code, refusal = 2, error
     return Done(int(code), out.getvalue(), err.getvalue(), refusal)
+
+
+def lyapcheck(*arguments: object, folder: Path | None = None) -> CompletedProcess[str]:
+    """The whole program in a folder, with what it makes of errors: what a shell would see of it."""
+    words = ["lyapcheck", *map(str, arguments)]
+    out, err = io.StringIO(), io.StringIO()
+    code: object = None
+    with patch.object(sys, "argv", words), chdir(folder or "."), redirect_stdout(out), redirect_stderr(err):
+        try:
+            main()
+        except SystemExit as left:
+            code = left.code
+    assert isinstance(code, int), "a command leaves with its exit code"
+    return CompletedProcess(words, code, out.getvalue(), err.getvalue())

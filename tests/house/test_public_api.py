@@ -68,16 +68,13 @@ def test_names_are_listed_and_kept():
     assert vars(lyapcheck)["Verdict"] is lyapcheck.Verdict
 
 
-def test_importing_lyapcheck_imports_nothing_heavy_and_takes_no_time():
+def test_importing_lyapcheck_imports_nothing_heavy():
     code = (
-        "import sys, typing, importlib, time\n"
-        "start = time.process_time(); import lyapcheck; took = time.process_time() - start\n"
-        "print(took, *sorted({name.partition('.')[0] for name in sys.modules}))"
+        "import sys, typing, importlib, lyapcheck\n"
+        "print(*sorted({name.partition('.')[0] for name in sys.modules}))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    took, *modules = done.stdout.split()
-    assert not set(HEAVY) & set(modules)
-    assert float(took) < 0.02
+    assert not set(HEAVY) & set(done.stdout.split())
 
 
 def test_a_type_checker_may_trust_the_annotations():

@@ -12,7 +12,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
@@ -42,7 +42,6 @@ NASTY = [
     "$\\frac$ 100% {x} ^ ~ _ &",
 ]
 NAMES = st.one_of(st.sampled_from(NASTY), st.text(min_size=1, max_size=12))
-QUICK = settings(max_examples=60, deadline=None)
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,6 @@ def cells(page: Page) -> list[str]:
 # --- names -------------------------------------------------------------------------------------------
 
 
-@QUICK
 @given(NAMES)
 def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
     text = Sample(name).written("text")
@@ -112,7 +110,6 @@ def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
     assert printable(name).split() == [] or printable(name).split()[0] in text
 
 
-@QUICK
 @given(NAMES)
 @example("&lt; a|b \\| ` <i>_x_</i> ~~s~~ http://x.y <http://x.y>")
 def test_markdown_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
@@ -126,7 +123,6 @@ def test_markdown_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
     assert page.parts["h2"] == [shown, "Notes"]
 
 
-@QUICK
 @given(NAMES)
 def test_html_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
     page = Page(Sample(name).written("html"))
@@ -137,7 +133,6 @@ def test_html_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
     assert page.parts["h3"] == [shown, "Notes"]
 
 
-@QUICK
 @given(NAMES)
 def test_latex_obeys_nothing(name: str) -> None:
     head = next(line for line in Sample(name).written("latex").splitlines() if line.startswith(r"\section*"))
@@ -151,7 +146,6 @@ def test_latex_writes_signs_of_formulas() -> None:
     assert latex_text("q̇ᵀ é") == r"\ensuremath{\dot{q}}\ensuremath{^{T}} é"
 
 
-@QUICK
 @given(NAMES)
 @example("=1+1")
 @example("+1")
@@ -164,7 +158,6 @@ def test_csv_holds_no_formula(name: str) -> None:
         )
 
 
-@QUICK
 @given(NAMES)
 def test_json_reads_back(name: str) -> None:
     found = json.loads(Sample(name).written("json"))
@@ -173,7 +166,6 @@ def test_json_reads_back(name: str) -> None:
     assert found["version"] == found["versions"]["lyapcheck"]
 
 
-@QUICK
 @given(NAMES)
 def test_sarif_keeps_texts_and_leaves_passed_cases_out(name: str) -> None:
     (run,) = json.loads(Sample(name).written("sarif"))["runs"]
@@ -187,7 +179,6 @@ def test_sarif_keeps_texts_and_leaves_passed_cases_out(name: str) -> None:
     assert len({result["partialFingerprints"]["case/v1"] for result in run["results"]}) == 3
 
 
-@QUICK
 @given(NAMES)
 @example("\x00\ud7ff\ue000\uffff\t")
 def test_junit_shows_what_prints(name: str) -> None:
@@ -212,7 +203,6 @@ def decoded(text: str) -> str:
     return text
 
 
-@QUICK
 @given(NAMES)
 @example("%0A\n%250A\r")
 def test_github_gets_one_command_a_line(name: str) -> None:
@@ -259,7 +249,6 @@ def tables(draw: st.DrawFn) -> Table:
     return Table(heads, tuple(draw(st.lists(row, min_size=1, max_size=4))), align=align)
 
 
-@QUICK
 @given(tables())
 def test_a_table_of_words_and_numbers_fits_in_a_terminal(table: Table) -> None:
     """Words are wrapped and columns moved below each other; every number stands whole."""
@@ -313,7 +302,6 @@ JSON = st.recursive(
 )
 
 
-@QUICK
 @given(JSON)
 def test_a_layout_is_the_value(value: Any) -> None:
     assert json.loads(laid_out(value)) == value

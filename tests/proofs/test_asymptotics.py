@@ -13,6 +13,8 @@ from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import propose
 from lyapcheck.family.compared import gamma_less_than
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 MEMBERS = (*range(1, 13), 50, 100, 317, 1000)
 
 

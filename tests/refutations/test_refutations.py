@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 
@@ -49,10 +48,14 @@ SHARE = 3
 x, a, b, v = var("x"), var("a"), var("b"), any_vector("v")
 
 
+@pytest.mark.slow
 def test_there_are_enough_faults_of_every_kind() -> None:
-    kinds = Counter(fault.kind for fault in partly_planted().false)
-    assert len(partly_planted().false) >= LEAST
-    assert set(kinds) == set(RULES)
+    assert len(planted().false) >= LEAST
+    assert {fault.kind for fault in planted().false} == set(RULES)
+
+
+def test_there_are_faults_of_every_kind_that_an_unsound_procedure_takes_for_true() -> None:
+    assert {fault.kind for fault in partly_planted().false} >= set(SUSPECT)
 
 
 def test_a_share_of_the_false_statements_is_not_proved() -> None:
@@ -65,7 +68,6 @@ def test_a_share_of_the_false_statements_is_not_proved() -> None:
 @pytest.mark.slow
 def test_no_false_statement_is_proved() -> None:
     found = outcomes(planted().false)
-    assert len(found) >= LEAST
     assert wrongly_proved(found) == []
     assert Verdict.ERROR not in {outcome.verdict for outcome in found}
     assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
@@ -105,10 +107,15 @@ def blind_to_digits(statement: Statement) -> Verdict:
     return verdict_of(statement)
 
 
-@pytest.mark.parametrize("unsound", [credulous, blind_to_strictness, blind_to_constants, blind_to_digits])
+@pytest.mark.parametrize("unsound", [credulous, blind_to_strictness, blind_to_constants])
 def test_an_unsound_procedure_is_caught(unsound: object) -> None:
     suspects = [f for f in partly_planted().false if f.kind in SUSPECT]
     assert wrongly_proved(outcomes(suspects, by=unsound))  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_a_procedure_that_takes_near_numbers_for_equal_is_caught() -> None:
+    assert wrongly_proved(outcomes(planted().false, by=blind_to_digits))
 
 
 SUSPECT = ("strict for weak", "factor of two", "√n missing", "constant rounded the wrong way")

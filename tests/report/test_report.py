@@ -312,6 +312,7 @@ def test_names_of_gain_sets_never_become_paths(name: str) -> None:
     assert re.fullmatch(r"[\w-]+", file_stem(name))
 
 
+@pytest.mark.slow
 def test_figures_are_the_same_bytes_twice() -> None:
     t = np.linspace(0, 5, 50)
     e = np.stack([np.exp(-t), np.cos(t)], axis=1)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -328,7 +328,7 @@ pieces = st.sampled_from(
 )
 
 
-@settings(relaxed, max_examples=300)
+@relaxed
 @given(st.sampled_from([CHAIN, PRINTED]), st.data())
 def test_a_garbled_file_never_ends_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, text: str, data: st.DataObject

@@ -14,6 +14,8 @@ from lyapcheck.robots import RobotModel, load
 from lyapcheck.verdicts import Exit
 from tests.robots.test_arm_files import CHAIN, PRINTED
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 CHRISTOFFEL = """
 [printed]
 C11 = [[-1, "b s2 w2"]]

@@ -60,6 +60,7 @@ def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
     assert not proves(wide.closure(F(6, 10)), outcome.tree)
 
 
+@pytest.mark.slow
 def test_a_wider_spread_certifies_and_refutes_less() -> None:
     found = [
         epsilon(GAINS[0], load("reyes-kelly2", spread=x), ranges=True, starts=3, max_boxes=1500)

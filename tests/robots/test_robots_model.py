@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -48,7 +48,7 @@ def test_identities_of_built_in_arms(arm: RobotModel, check: object) -> None:
     check(arm)
 
 
-@settings(relaxed, max_examples=25)
+@relaxed
 @given(plain_links().map(model_of))
 def test_identities_of_random_chains(model: RobotModel) -> None:
     check_symmetric(model)
@@ -62,7 +62,7 @@ def test_everything_is_in_normal_form(arm: RobotModel) -> None:
     assert all(entry == trig.normal_form(entry) for entry in entries)
 
 
-@settings(relaxed, max_examples=60)
+@relaxed
 @given(st.data())
 def test_mass_is_positive_definite(data: st.DataObject) -> None:
     model = data.draw(models)
@@ -72,7 +72,7 @@ def test_mass_is_positive_definite(data: st.DataObject) -> None:
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
 
 
-@settings(relaxed, max_examples=40)
+@relaxed
 @given(st.data())
 def test_coriolis_torque_does_no_work_beyond_the_mass_rate(data: st.DataObject) -> None:
     """wᵀ(½Ṁ − C)w = 0 at any state, with Ṁ from the derivative of M along w."""
@@ -99,7 +99,7 @@ def slope_of(model: RobotModel, values: list[Fraction], w: list[Fraction], i: in
     return sum((s * x for s, x in zip(slopes, w, strict=True)), Fraction(0))
 
 
-@settings(relaxed, max_examples=40)
+@relaxed
 @given(plain_links(), st.data())
 def test_chain_agrees_with_jacobians(links: list[dict], data: st.DataObject) -> None:
     """M = Σ m JvᵀJv + Jωᵀ R I Rᵀ Jω and U = −Σ m gᵀp in the base frame, in exact arithmetic at a state."""

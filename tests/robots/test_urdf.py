@@ -17,6 +17,7 @@ from lyapcheck.robots.urdf.assemble import OF
 from lyapcheck.robots.urdf.rotations import Roundings, from_rpy, tidy, unit
 from tests.helpers.newton_euler import Arm, rpy
 from tests.helpers.robot_cases import relaxed
+from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import ARMS, TWO, generic
 
 decimals = st.decimals(-7, 7, places=6).map(Fraction)
@@ -83,7 +84,7 @@ def test_a_fixed_joint_is_the_same_as_one_heavier_link(tmp_path: Path) -> None:
     assert mass[1][1] == moment + both * com**2
 
 
-@pytest.mark.parametrize(("file", "tip", "n"), [("ur5", None, 6), ("panda", "panda_hand", 7)])
+@pytest.mark.parametrize(("file", "tip", "n"), one_in(2, [("ur5", None, 6), ("panda", "panda_hand", 7)]))
 def test_real_arms_move_as_newton_and_euler_say(file: str, tip: str | None, n: int) -> None:
     path = ARMS / f"{file}.urdf"
     arm = robots.load(path, tip)

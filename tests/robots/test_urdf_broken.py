@@ -6,7 +6,7 @@ import contextlib
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -219,7 +219,7 @@ def survives(file: Path, text: str) -> None:
         assert isinstance(robots.load(file), robots.RobotModel)
 
 
-@settings(relaxed, max_examples=400)
+@relaxed
 @given(st.sampled_from(sorted(SEEDS)), st.data())
 def test_garbled_files_never_end_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, name: str, data: st.DataObject
@@ -232,7 +232,7 @@ def test_garbled_files_never_end_in_another_error(
     survives(tmp_path_factory.getbasetemp() / name, text.encode("utf-8", "ignore").decode())
 
 
-@settings(relaxed, max_examples=200)
+@relaxed
 @given(st.sampled_from(sorted(SEEDS)), st.binary(max_size=200))
 def test_bytes_never_end_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, name: str, content: bytes

@@ -82,6 +82,7 @@ def test_the_first_two_joints_reach_what_the_states_say(tmp_path: Path) -> None:
     assert five @ RELATION @ five == pytest.approx(0)
 
 
+@pytest.mark.slow
 def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(whirl, "_PROGRAMS", 4)
     arm = arm_of("leaning", tmp_path)
@@ -100,6 +101,7 @@ def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
         assert not whirl._holds(bodies, BASIS, changed, sector)
 
 
+@pytest.mark.slow
 def test_a_sector_says_nothing_of_the_others(tmp_path: Path) -> None:
     """The forms of a narrow sector fail elsewhere on the circle."""
     bodies = hinges(arm_of("leaning", tmp_path).chain)[0]

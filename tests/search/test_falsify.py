@@ -161,6 +161,7 @@ def test_falsify_repeats_itself() -> None:
     assert first == again
 
 
+@pytest.mark.slow
 def test_other_valleys_are_found() -> None:
     """m = 3: the worst state has both joints at the peak of h', the best sampled ones have only one there."""
     witness = falsify(two_joints(3))

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from dataclasses import fields
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
 from lyapcheck.compiled.compiler import OFF, compiler
@@ -24,7 +22,6 @@ from lyapcheck.simulate.batch_compiled import compiled_runs
 from lyapcheck.simulate.batch_runs import Runs
 from lyapcheck.simulate.batch_signals import compiled_signals
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.task import PAPER_TASK
 
@@ -281,25 +278,3 @@ def test_definite_systems_are_solved(n):
     A = random.standard_normal((n, n))
     M, b = A @ A.T + np.eye(n), random.standard_normal(n)
     np.testing.assert_allclose(solve_definite(M.tolist(), b.tolist()), np.linalg.solve(M, b), rtol=1e-10)
-
-
-def test_twenty_times_faster_than_a_loop_of_scipy():
-    """The same tolerance, and a right-hand side that CasADi has compiled."""
-    model, gain_set, q_d = robots.load("buap3"), TABLE2[1], np.array(PAPER_TASK.q_d)
-    first = starts(3, 400)
-    rate = closed_loop(gains_for(gain_set, 3), model).compiled_rate()
-    simulate_many(gain_set, model, q_d, first[:8])
-
-    def loop() -> None:
-        y0 = np.concatenate([first[0], np.zeros(5)])
-        t = np.linspace(0, 5, 501)
-        solve_ivp(lambda _, y: rate(y, q_d), (0, 5), y0, "LSODA", t, rtol=1e-12, atol=1e-14)
-
-    ours = min(_seconds(lambda: simulate_many(gain_set, model, q_d, first)) for _ in range(3)) / len(first)
-    assert min(_seconds(loop) for _ in range(3)) / ours >= (20 if ENGINE == "compiled" else 0.1)
-
-
-def _seconds(work) -> float:
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start

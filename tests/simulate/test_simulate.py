@@ -140,7 +140,7 @@ def test_at_the_goal_nothing_moves():
     assert run.promises.V_decreases
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(
     start=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4),
     m=st.integers(1, 6),

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -23,7 +23,6 @@ def exponential(rates, starts):
     return np.asarray(starts) * np.exp(-np.outer(T, rates))
 
 
-@settings(max_examples=30, deadline=None)
 @given(rate=st.floats(0.5, 8.0), start=st.floats(0.1, 3.0))
 def test_l2_of_an_exponential(rate, start):
     """(1/T)∫ a² e^(−2rt) dt = a² (1 − e^(−2rT)) / (2rT)."""
@@ -47,7 +46,6 @@ def test_the_index_of_a_run_is_that_of_its_samples():
     assert pytest.approx(l2_index(run.t, run.e), rel=1e-5) == run.L2
 
 
-@settings(max_examples=30, deadline=None)
 @given(rate=st.floats(1.5, 8.0), start=st.floats(-3.0, -0.1))
 def test_settling_of_an_exponential(rate, start):
     """|e| falls to 2 % of its start at t = ln 50 / r."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from lyapcheck.errors import InputError
@@ -99,7 +99,6 @@ def test_a_spline_goes_through_its_samples_and_gives_polynomials_back():
 
 
 @example(values=[0.0] * 6 + [2.2e-311], gaps=[1.0] * 12)
-@settings(max_examples=30, deadline=None)
 @given(
     values=st.lists(st.floats(-3, 3), min_size=7, max_size=12),
     gaps=st.lists(st.floats(0.05, 2.0), min_size=12, max_size=12),

@@ -221,7 +221,7 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     assert V.shape == dV.shape
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(start=st.lists(st.floats(-1.5, 1.5), min_size=6, max_size=6), m=st.integers(1, 4))
 def test_no_motion_leaves_the_bounds_of_the_torque(start, m):
     run = run_of(gains(3, m, 20, 2), q0=start[:3], velocity=start[3:], T=0.5, points=51, stop=False)

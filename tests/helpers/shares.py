@@ -1,0 +1,26 @@
+"""Long lists of cases: a share for the fast tests, the rest for the slow ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import pytest
+
+
+def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
+    """The same cases for ``parametrize``; all but the first and each ``count``-th from it are slow."""
+    return [case if k % count == 0 else _slow(case) for k, case in enumerate(cases)]
+
+
+def but(fast: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
+    """The same cases for ``parametrize``; all but the ``fast`` ones are slow."""
+    kept = list(fast)
+    found = list(cases)
+    assert all(case in found for case in kept), "a fast case is one of the cases"
+    return [case if case in kept else _slow(case) for case in found]
+
+
+def _slow(case: Any) -> Any:
+    values = case if isinstance(case, tuple) else (case,)
+    return pytest.param(*values, marks=pytest.mark.slow)
