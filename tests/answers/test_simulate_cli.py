@@ -87,6 +87,7 @@ def test_csv_to_a_file_and_to_standard_output(lyapcheck, tmp_path):
     assert os.listdir(tmp_path) == ["run.csv"]
 
 
+@pytest.mark.slow
 def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
     for _ in range(2):
         assert lyapcheck(PD, "--plot", str(tmp_path)).returncode == 0

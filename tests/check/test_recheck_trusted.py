@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from lyapcheck.check.codec import members, name_of
 from lyapcheck.check.statement import Piece, Proof, Statement
 from lyapcheck.check.trusted import code_lines, definitions, modules, reached, source, totals, tree
 from tests.arena.run import ARENA
+from tests.helpers.command import lyapcheck
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "trusted.txt"
 HEADLINES = {
@@ -145,16 +145,12 @@ def test_sizes_are_those_of_the_sources():
 
 
 @pytest.fixture(scope="module")
-def shown(tmp_path_factory):
+def shown(tmp_path_factory, in_this_process):
     """What recheck says of a proof with theorems, as text and as data."""
     made = tmp_path_factory.mktemp("made")
-    check = "import sys; sys.argv[0] = 'lyapcheck'; from lyapcheck.cli.main import main; main()"
-    arguments = ("check", "scalar.py", "--m", "2", "--only", "arms.all", "--certificates", str(made))
-    subprocess.run([sys.executable, "-c", check, *arguments], capture_output=True, check=True)
-    command = [sys.executable, "-m", "lyapcheck.check", str(made), "--trusted"]
+    lyapcheck("check", "scalar.py", "--m", 2, "--only", "arms.all", "--certificates", made)
     text, data = (
-        subprocess.run([*command, "--format", form], capture_output=True, text=True, check=True).stdout
-        for form in ("text", "json")
+        lyapcheck("recheck", made, "--trusted", "--format", form).stdout for form in ("text", "json")
     )
     return text, json.loads(data)
 

@@ -16,6 +16,7 @@ from lyapcheck.cli import main as command_line
 from lyapcheck.cli.commands import NAMES
 from lyapcheck.cli.main import CLOSED_PIPE, main
 from lyapcheck.errors import argument_error
+from tests.helpers.shares import one_in
 
 SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
 TABLE2 = str(Path(__file__).parents[2] / "proofs" / "table2.toml")
@@ -293,7 +294,9 @@ def test_streams_that_are_not_files_are_left_alone(run, monkeypatch):
 
 
 @pytest.mark.parametrize("module", ["lyapcheck", "lyapcheck.cli", "lyapcheck.cli.main"])
-@pytest.mark.parametrize("words", [["table", "--m", "1"], ["gate", TABLE2], ["gate"], ["explain", "--help"]])
+@pytest.mark.parametrize(
+    "words", one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["gate"], ["explain", "--help"]])
+)
 def test_the_modules_run_as_the_script_does(module, words):
     module_run, script = (
         subprocess.run([*start, *words], capture_output=True, check=False)
@@ -305,10 +308,10 @@ def test_the_modules_run_as_the_script_does(module, words):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")
-@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("unbuffered", one_in(2, ["", "1"]))
 @pytest.mark.parametrize(
     "words",
-    [["table", "--m", "1"], ["gate", TABLE2], ["--help"], ["report"], ["epsilon", TABLE2]],
+    one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["--help"], ["report"], ["epsilon", TABLE2]]),
 )
 def test_a_full_output_is_named(words, unbuffered):
     with open("/dev/full", "wb") as full:

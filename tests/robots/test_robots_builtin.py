@@ -217,6 +217,7 @@ def test_pelican_against_lagrange() -> None:
     assert_same(lagrangian_torque(energy, height, q, w, a), model_torque("pelican2", q, w, a), [*q, *w, *a])
 
 
+@pytest.mark.slow
 def test_paper_arm_against_lagrange() -> None:
     """Two slender rods on a turning base: a rod of transverse inertia I turns with the energy ½I‖ḋ‖²."""
     q, w, a = (list(sp.symbols(f"{letter}1:4")) for letter in "qwa")
