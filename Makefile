@@ -25,7 +25,7 @@ study: .venv/.ready
 	$(BIN)/python -m studies.printed_experiment
 
 test: .venv/.ready
-	$(BIN)/pytest -n 2 -m "not slow"
+	$(BIN)/pytest -n 2 --dist loadfile -m "not slow"
 
 test-slow: .venv/.ready
 	$(BIN)/pytest -n 2 -m "slow or hypothesis" --hypothesis-profile thorough

@@ -115,7 +115,8 @@ def test_an_unsound_procedure_is_caught(unsound: object) -> None:
 
 @pytest.mark.slow
 def test_a_procedure_that_takes_near_numbers_for_equal_is_caught() -> None:
-    assert wrongly_proved(outcomes(planted().false, by=blind_to_digits))
+    suspects = [fault for fault in planted().false if fault.kind in SUSPECT]
+    assert wrongly_proved(outcomes(suspects, by=blind_to_digits))
 
 
 SUSPECT = ("strict for weak", "factor of two", "√n missing", "constant rounded the wrong way")
