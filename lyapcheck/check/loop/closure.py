@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -198,7 +198,7 @@ def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
     return tuple((x + y) % 2 for x, y in zip(a, b, strict=True))
 
 
-class RateProof(Proof):
+class RateProof(Proof, ABC):
     """A proof that dV/dt < 0 at every state but the origin of an admissible closed loop with M ≻ 0."""
 
     @abstractmethod
