@@ -16,10 +16,11 @@ from typing import Any, Protocol, TypeVar
 
 from flint import fmpq_mpoly
 
-from lyapcheck.check.loop.chain import Posture, RigidLink
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.numbers.vectors import Algebra, Entry
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.robots import trig
+from lyapcheck.robots.chain import MovingPosture
 
 T = TypeVar("T")
 Lift = Callable[[Fraction], T]
@@ -252,8 +253,8 @@ class Chain(Dynamics):
         """The links with numbers for their parameters."""
         return Chain(*self._with(values, Algebra(Fraction)))
 
-    def _posture(self, sin: Sequence[Any], cos: Sequence[Any], values: Values, of: Algebra) -> Posture:
-        return Posture(*self._with(values, of), sin, cos, of)
+    def _posture(self, sin: Sequence[Any], cos: Sequence[Any], values: Values, of: Algebra) -> MovingPosture:
+        return MovingPosture(*self._with(values, of), sin, cos, of)
 
     def _with(self, values: Values, of: Algebra) -> tuple[tuple[RigidLink, ...], tuple[Entry, ...]]:
         """Links and free fall with values for the parameters."""

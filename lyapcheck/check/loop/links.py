@@ -8,7 +8,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.chain import Posture, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
-from lyapcheck.check.numbers.vectors import ZERO, Algebra
+from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.statement import Monomials
 
 
@@ -29,7 +29,7 @@ def makes(links: Sequence[RigidLink], mass: Sequence[Sequence[Monomials]]) -> bo
         return polynomial
 
     of = Algebra(lambda x: ring.constant(rational(x)), reduced)
-    rows = Posture(links, [ZERO] * 3, gens[:n], gens[n:], of).mass()
+    rows = Posture(links, gens[:n], gens[n:], of).mass()
     return all(
         reduced(ring.from_dict(_terms(mass[i][j])) - rows[i][j]) == 0 for i in range(n) for j in range(n)
     )
