@@ -14,51 +14,23 @@ from itertools import chain, product
 
 from lyapcheck.check.kinds.compared import Compared, Gap, mixed
 from lyapcheck.check.kinds.inertia import (
-    Mass,
-    mass_text,
+    OfArm,
     polynomial_text,
-    require_mass,
     require_polynomials,
     variable_names,
     written_out,
 )
-from lyapcheck.check.loop.inertia import Inertia, inertia_of
+from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials
+from lyapcheck.check.statement import Monomials
 
 Matrices = tuple[tuple[tuple[Monomials, ...], ...], ...]
 Lost = list[tuple[tuple[int, ...], Uncertain]]
 
 
 @dataclass(frozen=True)
-class _OfMass(Compared):
-    """``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
-
-    mass: Mass
-    parameters: tuple[Ends, ...]
-
-    def require_well_formed(self) -> None:
-        """A matrix of polynomials."""
-        require_mass(self.mass, self.parameters)
-
-    @property
-    def joints(self) -> int:
-        """The rows of M."""
-        return len(self.mass)
-
-    @property
-    def inertia(self) -> Inertia:
-        """M(q)."""
-        return inertia_of(self.mass, self.parameters)
-
-    def rate(self, i: int, j: int, k: int) -> Uncertain:
-        """∂M_ij/∂q_k."""
-        return _slope(self.inertia.mass[i][j], k)
-
-
-@dataclass(frozen=True)
-class MassSymmetric(_OfMass):
+class MassSymmetric(OfArm, Compared):
     """M(q) = M(q)ᵀ, for all q and parameters."""
 
     def gaps(self) -> Iterator[Gap]:
@@ -73,11 +45,11 @@ class MassSymmetric(_OfMass):
 
     def text(self) -> str:
         """``M(q) = M(q)ᵀ …``."""
-        return f"M(q) = M(q)ᵀ for all q, {mass_text(self.mass, self.parameters)}"
+        return f"M(q) = M(q)ᵀ {super().over}"
 
 
 @dataclass(frozen=True)
-class _OfCoriolis(_OfMass):
+class _OfCoriolis(OfArm, Compared):
     """``printed`` has for each i and j the polynomials that w1 … wn multiply, and then the one without rate.
 
     Empty where C is that of Christoffel symbols.
@@ -118,13 +90,13 @@ class _OfCoriolis(_OfMass):
         if not self.printed:
             return _lost_by_symbols(self.inertia, i, j)
         n, at = self.joints, self.symbol
-        found = [((k,), _less(self.rate(i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
+        found = [((k,), _less(_rate(self, i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
         return [*found, ((), _less({}, at(i, j, n), at(j, i, n)))]
 
     @property
     def over(self) -> str:
         """``for all q …``, and what C is."""
-        about = f"for all q, {mass_text(self.mass, self.parameters)}"
+        about = super().over
         if not self.printed:
             return f"{about}; C by Christoffel symbols"
         n = self.joints
@@ -166,7 +138,7 @@ class RateOfMass(_OfCoriolis):
                     yield f"entry {i + 1}{j + 1}", rates, gap
             elif self.inertia.mass[i][j] != self.inertia.mass[j][i]:
                 for k in range(self.joints):
-                    skew = mixed([(1, self.rate(i, j, k)), (-1, self.rate(j, i, k))])
+                    skew = mixed([(1, _rate(self, i, j, k)), (-1, _rate(self, j, i, k))])
                     yield f"asymmetry {i + 1}{j + 1}", (k,), skew
 
     def text(self) -> str:
@@ -184,8 +156,8 @@ class RateLessTwiceCoriolis(_OfCoriolis):
             if j <= i:
                 same = self.inertia.mass[i][j] == self.inertia.mass[j][i]
                 for rates, gap in self.lost(i, j):
-                    other = [] if same else [(1, self.rate(j, i, k)) for k in rates]
-                    other += [] if same else [(-1, self.rate(i, j, k)) for k in rates]
+                    other = [] if same else [(1, _rate(self, j, i, k)) for k in rates]
+                    other += [] if same else [(-1, _rate(self, i, j, k)) for k in rates]
                     yield f"entry {i + 1}{j + 1}", rates, mixed([(2, gap), *other]) if gap or other else gap
 
     def text(self) -> str:
@@ -228,6 +200,11 @@ def _lost_by_symbols(inertia: Inertia, i: int, j: int) -> Lost:
 
 def _christoffel(inertia: Inertia, i: int, j: int, k: int) -> Uncertain:
     return inertia.symbols.get((i, max(j, k), min(j, k)), {})
+
+
+def _rate(of: OfArm, i: int, j: int, k: int) -> Uncertain:
+    """∂M_ij/∂q_k."""
+    return _slope(of.inertia.mass[i][j], k)
 
 
 def _slope(entry: Uncertain, k: int) -> Uncertain:

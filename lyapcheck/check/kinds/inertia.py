@@ -5,6 +5,7 @@ References: ``reyes2019family``, Properties 2.1, 2.2 and 2.6.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,6 +17,7 @@ from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import to_arb
@@ -103,79 +105,10 @@ def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
 
 
 @dataclass(frozen=True)
-class OfArm(Total):
-    """What the kinds below share: ``mass`` is M(q), kg·m²; ``parameters`` the range of each one in it."""
-
-    mass: Mass
-    parameters: tuple[Ends, ...]
-
-    def require_well_formed(self) -> None:
-        """A matrix of polynomials."""
-        require_mass(self.mass, self.parameters)
-
-    @property
-    def inertia(self) -> Inertia:
-        """M(q)."""
-        return inertia_of(self.mass, self.parameters)
-
-    @property
-    def over(self) -> str:
-        """``for all q …``."""
-        return f"for all q, {mass_text(self.mass, self.parameters)}"
-
-
-@dataclass(frozen=True)
-class MassAbove(OfArm):
-    """M(q) is symmetric and M(q) − low·I positive definite, for all q and parameters; kg·m²."""
-
-    low: Fraction
-
-    def require_well_formed(self) -> None:
-        """A matrix of polynomials, and a bound that is not negative."""
-        super().require_well_formed()
-        require(self.low >= 0, "low", self.low, "must not be negative")
-
-    def text(self) -> str:
-        """``M(q) = M(q)ᵀ ≻ low·I …``."""
-        return f"M(q) = M(q)ᵀ ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
-
-
-@dataclass(frozen=True)
-class MassBelow(OfArm):
-    """‖M(q)‖ <= high, for all q and parameters; kg·m²."""
-
-    high: Fraction
-
-    def text(self) -> str:
-        """``‖M(q)‖ ≤ high …``."""
-        return f"‖M(q)‖ ≤ {number_text(self.high)} {self.over}"
-
-
-@dataclass(frozen=True)
-class CoriolisBelow(OfArm):
-    """‖C(q, x)y‖ <= high ‖x‖ ‖y‖ for the C of Christoffel symbols, all q, x, y and parameters; kg·m²."""
-
-    high: Fraction
-
-    def text(self) -> str:
-        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
-        bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
-        return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
-
-
-@dataclass(frozen=True)
 class Bisection(Proof):
     """The checker cuts the angles and parameters into boxes until each shows it."""
 
     rule = "bisection"
-
-
-@dataclass(frozen=True)
-class Links(Proof):
-    """The links of the arm: M ≻ 0, because the first that moves has a positive energy."""
-
-    rule = "links"
-    links: tuple[RigidLink, ...]
 
 
 @dataclass(frozen=True)
@@ -196,117 +129,57 @@ class PostureWitness(Proof):
     y: tuple[Fraction, ...] = ()
 
 
-@rule(MassAbove, Bisection)
-def by_bisection(statement: MassAbove, proof: Bisection) -> Accepted:
-    """Soundness: see :meth:`Inertia.above`; the boxes show it for all matrices that they enclose."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    require(statement.inertia.above(statement.low), "M", "", "is not shown to exceed the bound by boxes")
+class Bounded(Total):
+    """A bound for all postures and parameters of one arm."""
+
+    parameters: tuple[Ends, ...]
+
+    @property
+    @abstractmethod
+    def joints(self) -> int:
+        """How many there are."""
+
+    @abstractmethod
+    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
+        """Whether it is shown by boxes that are cut until they show it."""
+
+    @abstractmethod
+    def excess(self, at: PostureWitness) -> arb:
+        """What is positive only where the bound fails, at one posture."""
+
+
+class BoundedAbove(Bounded):
+    """A bound ``high`` of a norm."""
+
+    high: Fraction
+
+    @abstractmethod
+    def square_by_sizes(self) -> Fraction:
+        """A bound of the square of the norm, from the sizes of harmonics."""
+
+
+@rule(Bounded, Bisection)
+def by_boxes(statement: Bounded, proof: Bisection) -> Accepted:
+    """Soundness: see :meth:`Field.throughout`; each box shows the bound for all that it encloses."""
+    require(statement.shown_by_boxes(), "bound", "", "is not shown by boxes")
     return Accepted("proved", "enclosure")
 
 
-@rule(MassAbove, Links)
-def by_links(statement: MassAbove, proof: Links) -> Accepted:
-    """Soundness: xᵀMx is the sum of energies none of which is negative; the first that moves is positive."""
-    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
-    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
-    same = len(proof.links) == len(statement.mass) and all(link.fits for link in proof.links)
-    require(same, "links", len(proof.links), "must be one joint and real body for each row")
-    require(makes(proof.links, statement.mass), "links", "", "do not make this M(q)")
-    moves = all(link.about_axis > 0 for link in proof.links)
-    require(moves, "links", "", "have one without energy about its own axis")
-    return Accepted("proved", "exact")
-
-
-@rule(MassBelow, HarmonicSizes)
-def by_rows(statement: MassBelow, proof: HarmonicSizes) -> Accepted:
-    """Soundness: a symmetric matrix is nowhere larger than its largest row sum of absolute values."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    reached = statement.inertia.largest_row()
-    require(reached <= statement.high, "largest row", reached, f"is above {statement.high}")
-    return Accepted("proved", "exact")
-
-
-@rule(MassBelow, Bisection)
-def by_boxes_of_both_signs(statement: MassBelow, proof: Bisection) -> Accepted:
-    """Soundness: see :meth:`Inertia.below`; a symmetric matrix is as large as its eigenvalues."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    require(statement.inertia.below(statement.high), "M", "", "is not shown to keep the bound by boxes")
-    return Accepted("proved", "enclosure")
-
-
-@rule(CoriolisBelow, Bisection)
-def by_boxes_of_symbols(statement: CoriolisBelow, proof: Bisection) -> Accepted:
-    """Soundness: see :meth:`Inertia.turning_below`."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    require(statement.high > 0, "high", statement.high, "must be positive")
-    shown = statement.inertia.turning_below(statement.high)
-    require(shown, "C", "", "is not shown to keep the bound by boxes")
-    return Accepted("proved", "enclosure")
-
-
-@rule(CoriolisBelow, HarmonicSizes)
-def by_symbols(statement: CoriolisBelow, proof: HarmonicSizes) -> Accepted:
-    """Soundness: see :meth:`Inertia.squares_of_symbols`."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    reached = statement.inertia.squares_of_symbols()
+@rule(BoundedAbove, HarmonicSizes)
+def by_sizes(statement: BoundedAbove, proof: HarmonicSizes) -> Accepted:
+    """Soundness: no polynomial is larger than the sizes of its harmonics together."""
     require(statement.high >= 0, "high", statement.high, "must not be negative")
+    reached = statement.square_by_sizes()
     require(reached <= statement.high**2, "squares", reached, f"are above {statement.high}²")
     return Accepted("proved", "exact")
 
 
-@rule(MassAbove, PostureWitness)
-def by_small_direction(statement: MassAbove, proof: PostureWitness) -> Accepted:
-    """Soundness: xᵀM(q)x < low xᵀx at one posture, by balls."""
-    found = _at(statement, proof)
-    form = sum((x * y for x, y in zip(found.x, found.inertia_times_x, strict=True)), arb(0))
-    require(form < to_arb(statement.low) * _square(found.x), "posture", "", "does not show xᵀMx < low xᵀx")
+@rule(Bounded, PostureWitness)
+def by_posture(statement: Bounded, proof: PostureWitness) -> Accepted:
+    """Soundness: the bound fails at one posture, by balls."""
+    require_posture(proof, statement.joints, statement.parameters)
+    require(statement.excess(proof) > 0, "posture", "", "does not show that the bound fails")
     return Accepted("refuted", "enclosure")
-
-
-@rule(MassBelow, PostureWitness)
-def by_large_direction(statement: MassBelow, proof: PostureWitness) -> Accepted:
-    """Soundness: ‖M(q)x‖ > high ‖x‖ at one posture, by balls."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    found = _at(statement, proof)
-    bound = to_arb(max(statement.high, Fraction(0))) ** 2 * _square(found.x)
-    require(_square(found.inertia_times_x) > bound, "posture", "", "does not show ‖Mx‖ > high ‖x‖")
-    return Accepted("refuted", "enclosure")
-
-
-@rule(CoriolisBelow, PostureWitness)
-def by_turning(statement: CoriolisBelow, proof: PostureWitness) -> Accepted:
-    """Soundness: ‖C(q, x)y‖ > high ‖x‖ ‖y‖ at one posture, by balls."""
-    require(statement.inertia.symmetric, "M", "", "is not symmetric")
-    found = _at(statement, proof)
-    require(len(proof.y) == len(proof.x), "y", len(proof.y), f"must have {len(proof.x)} entries")
-    y = [to_arb(value) for value in proof.y]
-    turned = statement.inertia.coriolis(proof.q, proof.parameters, found.x, y)
-    bound = to_arb(max(statement.high, Fraction(0))) ** 2 * _square(found.x) * _square(y)
-    require(_square(turned) > bound, "posture", "", "does not show ‖C(q, x)y‖ > high ‖x‖ ‖y‖")
-    return Accepted("refuted", "enclosure")
-
-
-@dataclass(frozen=True)
-class _Posture:
-    """x and M(q)x in balls."""
-
-    x: list[arb]
-    inertia_times_x: list[arb]
-
-
-def _at(statement: OfArm, proof: PostureWitness) -> _Posture:
-    """The posture of a witness, if it is one of this arm.
-
-    Raises:
-        Refused: sizes do not fit, a parameter is out of its range, or x = 0.
-    """
-    n = len(statement.mass)
-    require_posture(proof, n, statement.parameters)
-    require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
-    require(any(proof.x), "x", "0", "must not be the zero vector")
-    x = [to_arb(value) for value in proof.x]
-    rows = statement.inertia.at(proof.q, proof.parameters)
-    return _Posture(x, [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows])
 
 
 def require_posture(proof: PostureWitness, n: int, parameters: tuple[Ends, ...]) -> None:
@@ -322,5 +195,143 @@ def require_posture(proof: PostureWitness, n: int, parameters: tuple[Ends, ...])
         require(low <= value <= high, "parameter", value, f"must be between {low} and {high}")
 
 
-def _square(x: list[arb]) -> arb:
-    return sum((value * value for value in x), arb(0))
+@dataclass(frozen=True)
+class OfArm(Total):
+    """What statements on M(q) share: M, kg·m², and the range of each parameter in it."""
+
+    mass: Mass
+    parameters: tuple[Ends, ...]
+
+    def require_well_formed(self) -> None:
+        """A matrix of polynomials."""
+        require_mass(self.mass, self.parameters)
+
+    @property
+    def joints(self) -> int:
+        """The rows of M."""
+        return len(self.mass)
+
+    @property
+    def inertia(self) -> Inertia:
+        """M(q)."""
+        return inertia_of(self.mass, self.parameters)
+
+    @property
+    def symmetric(self) -> Inertia:
+        """M(q), refused where it is not symmetric."""
+        require(self.inertia.symmetric, "M", "", "is not symmetric")
+        return self.inertia
+
+    @property
+    def over(self) -> str:
+        """``for all q …``."""
+        return f"for all q, {mass_text(self.mass, self.parameters)}"
+
+    def vector(self, name: str, entries: tuple[Fraction, ...]) -> list[arb]:
+        """A vector of a witness in balls, refused where it does not fit."""
+        n = self.joints
+        require(len(entries) == n, name, len(entries), f"must have {n} entries")
+        require(any(entries), name, "0", "must not be the zero vector")
+        return [to_arb(value) for value in entries]
+
+
+@dataclass(frozen=True)
+class MassAbove(OfArm, Bounded):
+    """M(q) is symmetric and M(q) − low·I positive definite, for all q and parameters; kg·m²."""
+
+    low: Fraction
+
+    def require_well_formed(self) -> None:
+        """A matrix of polynomials, and a bound that is not negative."""
+        super().require_well_formed()
+        require(self.low >= 0, "low", self.low, "must not be negative")
+
+    def text(self) -> str:
+        """``M(q) = M(q)ᵀ ≻ low·I …``."""
+        return f"M(q) = M(q)ᵀ ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
+
+    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
+        """See :meth:`Inertia.above`."""
+        return self.symmetric.above(self.low, most)
+
+    def excess(self, at: PostureWitness) -> arb:
+        """low xᵀx − xᵀMx."""
+        x = self.vector("x", at.x)
+        return to_arb(self.low) * dot(x, x) - dot(x, self.inertia.times(at.q, at.parameters, x))
+
+
+@dataclass(frozen=True)
+class MassBelow(OfArm, BoundedAbove):
+    """‖M(q)‖ <= high, for all q and parameters; kg·m²."""
+
+    high: Fraction
+
+    def text(self) -> str:
+        """``‖M(q)‖ ≤ high …``."""
+        return f"‖M(q)‖ ≤ {number_text(self.high)} {self.over}"
+
+    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
+        """See :meth:`Inertia.below`; a symmetric matrix is as large as its eigenvalues."""
+        return self.symmetric.below(self.high, most)
+
+    def square_by_sizes(self) -> Fraction:
+        """A symmetric matrix is nowhere larger than its largest row sum of absolute values."""
+        return self.symmetric.largest_row() ** 2
+
+    def excess(self, at: PostureWitness) -> arb:
+        """‖Mx‖² − high² ‖x‖²; no norm is negative."""
+        x = self.vector("x", at.x)
+        moved = self.symmetric.times(at.q, at.parameters, x)
+        return dot(moved, moved) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x)
+
+
+@dataclass(frozen=True)
+class CoriolisBelow(OfArm, BoundedAbove):
+    """‖C(q, x)y‖ <= high ‖x‖ ‖y‖ for the C of Christoffel symbols, all q, x, y and parameters; kg·m²."""
+
+    high: Fraction
+
+    def text(self) -> str:
+        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
+        bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
+        return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
+
+    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
+        """See :meth:`Inertia.turning_below`, for a positive bound."""
+        return self.high > 0 and self.symmetric.turning_below(self.high, most)
+
+    def square_by_sizes(self) -> Fraction:
+        """See :meth:`Inertia.squares_of_symbols`."""
+        return self.symmetric.squares_of_symbols()
+
+    def excess(self, at: PostureWitness) -> arb:
+        """‖C(q, x)y‖² − high² ‖x‖² ‖y‖²; no norm is negative."""
+        x, y = self.vector("x", at.x), self.vector("y", at.y)
+        turned = self.symmetric.coriolis(at.q, at.parameters, x, y)
+        return dot(turned, turned) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x) * dot(y, y)
+
+
+@dataclass(frozen=True)
+class Links(Proof):
+    """The links of the arm: M ≻ 0, because the first that moves has a positive energy."""
+
+    rule = "links"
+    links: tuple[RigidLink, ...]
+
+
+@rule(MassAbove, Links)
+def by_links(statement: MassAbove, proof: Links) -> Accepted:
+    """Soundness: xᵀMx is the sum of energies none of which is negative; the first that moves is positive."""
+    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
+    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
+    same = len(proof.links) == len(statement.mass) and all(link.fits for link in proof.links)
+    require(same, "links", len(proof.links), "must be one joint and real body for each row")
+    require(makes(proof.links, statement.mass), "links", "", "do not make this M(q)")
+    moves = all(link.about_axis > 0 for link in proof.links)
+    require(moves, "links", "", "have one without energy about its own axis")
+    return Accepted("proved", "exact")
+
+
+def dot(x: Sequence[arb], y: Sequence[arb]) -> arb:
+    """xᵀy."""
+    return sum((a * b for a, b in zip(x, y, strict=True)), arb(0))
