@@ -19,6 +19,7 @@ from lyapcheck.check.kinds.inertia import (
     dot,
     polynomial_text,
     require_polynomials,
+    require_posture,
     variable_names,
     written_out,
 )
@@ -72,6 +73,7 @@ class GravityBelow(BoundedAbove):
 
     def excess(self, at: PostureWitness) -> arb:
         """Σ g_i² − high²."""
+        require_posture(at, self.joints, self.parameters)
         values = self.at(at.q, at.parameters)
         return dot(values, values) - to_arb(self.high**2)
 

@@ -134,18 +134,17 @@ class Bounded(Total):
 
     parameters: tuple[Ends, ...]
 
-    @property
-    @abstractmethod
-    def joints(self) -> int:
-        """How many there are."""
-
     @abstractmethod
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
         """Whether it is shown by boxes that are cut until they show it."""
 
     @abstractmethod
     def excess(self, at: PostureWitness) -> arb:
-        """What is positive only where the bound fails, at one posture."""
+        """What is positive only where the bound fails, at one posture.
+
+        Raises:
+            Refused: the posture does not fit.
+        """
 
 
 class BoundedAbove(Bounded):
@@ -177,7 +176,6 @@ def by_sizes(statement: BoundedAbove, proof: HarmonicSizes) -> Accepted:
 @rule(Bounded, PostureWitness)
 def by_posture(statement: Bounded, proof: PostureWitness) -> Accepted:
     """Soundness: the bound fails at one posture, by balls."""
-    require_posture(proof, statement.joints, statement.parameters)
     require(statement.excess(proof) > 0, "posture", "", "does not show that the bound fails")
     return Accepted("refuted", "enclosure")
 
@@ -256,6 +254,7 @@ class MassAbove(OfArm, Bounded):
 
     def excess(self, at: PostureWitness) -> arb:
         """low xᵀx − xᵀMx."""
+        require_posture(at, self.joints, self.parameters)
         x = self.vector("x", at.x)
         return to_arb(self.low) * dot(x, x) - dot(x, self.inertia.times(at.q, at.parameters, x))
 
@@ -280,6 +279,7 @@ class MassBelow(OfArm, BoundedAbove):
 
     def excess(self, at: PostureWitness) -> arb:
         """‖Mx‖² − high² ‖x‖²; no norm is negative."""
+        require_posture(at, self.joints, self.parameters)
         x = self.vector("x", at.x)
         moved = self.symmetric.times(at.q, at.parameters, x)
         return dot(moved, moved) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x)
@@ -306,6 +306,7 @@ class CoriolisBelow(OfArm, BoundedAbove):
 
     def excess(self, at: PostureWitness) -> arb:
         """‖C(q, x)y‖² − high² ‖x‖² ‖y‖²; no norm is negative."""
+        require_posture(at, self.joints, self.parameters)
         x, y = self.vector("x", at.x), self.vector("y", at.y)
         turned = self.symmetric.coriolis(at.q, at.parameters, x, y)
         return dot(turned, turned) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x) * dot(y, y)
