@@ -74,7 +74,7 @@ class TrackingForm:
 def tracking_form(setting: Setting, speed: Fraction) -> TrackingForm | None:
     """Θ' of a controller on an arm at a bound v_d of ‖q̇_d‖ in rad/s; none where h is unbounded.
 
-    Soundness: β_M and k_c are certified bounds at the arm's nominal numbers, v_d is what it is given.
+    Soundness: β_M and k_c are outside bounds at the arm's nominal numbers, v_d is what it is given.
     """
     still = scalar_form(setting.gains, setting.family.constants(), robot_bounds(setting.model))
     return None if still is None else TrackingForm(still, robot_constants(setting.model).k_c.upper * speed)

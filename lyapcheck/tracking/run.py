@@ -17,7 +17,7 @@ from lyapcheck.tracking.torque import TorqueBounds
 
 @dataclass(frozen=True)
 class Promise:
-    """What theory says of a run before it begins; exact numbers, certified at the arm's nominal numbers."""
+    """What theory says of a run before it begins, at nominal numbers, by bounds without certificates."""
 
     suprema: Suprema
     eps0: float

@@ -86,6 +86,14 @@ def test_an_eps0_by_boxes_rests_on_few_lines():
         assert code <= MOST_CODE_OF_EPS0
 
 
+def test_the_page_on_trust_says_these_sizes():
+    page = (Path(__file__).parents[2] / "docs" / "trusted.md").read_text(encoding="utf-8")
+    for line in GOLDEN.read_text(encoding="utf-8").splitlines():
+        if found := SIZES.search(line):
+            code, lines = (f"{int(size):,}" for size in found.groups())
+            assert f"| {line.partition(': ')[0]} | {code} | {lines} |" in page
+
+
 def smallest():
     """For each kind by each rule the smallest certificate among the good ones of the arena."""
     found = {}

@@ -18,8 +18,8 @@ from lyapcheck.tracking.run import TrackingRun
 
 OVERVIEW = ("gains", "L2 [°]", "ε₀", "Θ′ ≻ 0 up to", "V must fall", "V(0) [J]", "V at end [J]", "promises")
 PROMISED = (
-    "Promised: certified at the arm's nominal numbers, for every time and every motion from this start; "
-    "seen: in one run."
+    "Promised: by theory at the arm's nominal numbers, for every time and every motion from this start, "
+    "with bounds of M, C and q̇_d that no certificate shows; seen: in one run."
 )
 PER_JOINT = ("start", "rms", "peak_error", "entered", "final_error", "peak_torque", "torque_limit")
 PER_RUN = ("L2", "band", "V_start", "V_end", "accuracy", "work_balance", "seen")
