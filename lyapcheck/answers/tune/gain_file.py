@@ -29,9 +29,7 @@ def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
         tuning: what ``tune`` returned.
         folder: where the file will stand, as a path of an arm file is meant relative to the gain file.
     """
-    blocks = [
-        HEAD.format(targets=tuning.targets.text()) + f"robot = {_quoted(_beside(tuning.robot, folder))}"
-    ]
+    blocks = [HEAD.format(targets=tuning.targets.text()) + f"robot = {quoted(beside(tuning.robot, folder))}"]
     blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
     if tuning.bounds != Bounds():
         blocks.append(_bounds(tuning.bounds))
@@ -40,13 +38,13 @@ def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
 
 def _set(item: TunedSet, digits: int) -> str:
     kp_bounds, kv_bounds = ((j.kp_bound for j in item.joints), (j.kv_bound for j in item.joints))
-    kp = _list([joint.kp for joint in item.joints], digits)
-    kv = _list([joint.kv for joint in item.joints], digits)
+    kp = list_text([joint.kp for joint in item.joints], digits)
+    kv = list_text([joint.kv for joint in item.joints], digits)
     width = max(len(kp), len(kv)) + len("kp = ") + 2
     return "\n".join(
         [
             "[[gains]]",
-            f"name = {_quoted(item.name)}",
+            f"name = {quoted(item.name)}",
             f"m = {item.m}",
             f"kp = {kp}".ljust(width) + f"# N·m; {_bound_words(kp_bounds)}",
             f"kv = {kv}".ljust(width) + f"# N·m; {_bound_words(kv_bounds)}",
@@ -61,7 +59,7 @@ def _bounds(bounds: Bounds) -> str:
     for key in ("torque", "gravity"):
         values = getattr(bounds, key)
         if values is not None:
-            lines.append(f"{key} = {_list(values, 0)}  # N·m")
+            lines.append(f"{key} = {list_text(values, 0)}  # N·m")
     return "\n".join(lines)
 
 
@@ -70,16 +68,18 @@ def _bound_words(bounds: Iterable[str]) -> str:
     return ", ".join(names[bound] for bound in bounds)
 
 
-def _list(values: Sequence[Fraction], digits: int) -> str:
+def list_text(values: Sequence[Fraction], digits: int) -> str:
+    """Gains as a TOML array."""
     return f"[{', '.join(decimal_text(value, digits) for value in values)}]"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
     """A TOML basic string; JSON escapes the same characters the same way."""
     return json.dumps(text, ensure_ascii=False)
 
 
-def _beside(robot: str, folder: Path | None) -> str:
+def beside(robot: str, folder: Path | None) -> str:
+    """The path of an arm file from the folder of a gain file; the name of a built-in arm as it is."""
     if folder is None or not robot.endswith((".toml", ".urdf")):
         return robot
     return Path(os.path.relpath(robot, folder)).as_posix()

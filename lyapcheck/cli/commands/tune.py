@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.tune.wishes import WAYS
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_format, add_members
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.show import show
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lyapcheck.answers.tune import Targets
+    from lyapcheck.answers.tune.wishes import Bench
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
 
@@ -37,8 +42,17 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
     add_members(parser, "1:3")
     parser.add_whole("--digits", "Decimal places of the gains.", default=3)
-    about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1."
+    parser.add_real("--overshoot", "Target: most overshoot, per cent of a joint's step.")
+    parser.add_real("--settle", "Target: seconds until each joint stays within 2 % of its step.")
+    parser.add_real("--rest-error", "Target: degrees from the goal that dry friction may leave.")
+    about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1; with targets: in any motion."
     parser.add_argument("--peak-share", metavar="SHARES", default="1", help=about)
+    about = "With targets: where motions start, degrees. At home if missing."
+    parser.add_argument("--start", metavar="ANGLES", help=about)
+    about = "With targets: where a motion ends, degrees; may be repeated. The paper's, or 45 for each joint."
+    parser.add_argument("--goal", metavar="ANGLES", action="append", help=about)
+    about = "With targets: how stability is to be shown."
+    parser.add_choice("--stability", ("both", *WAYS), about, default="both")
     about = "Share that k_v takes, at least, of the largest that (19) admits; 1 if missing."
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
     about = "Lower bound of k_v, N·m, instead of a share."
@@ -58,7 +72,13 @@ def run(
     robot: str,
     m: str,
     digits: int,
+    overshoot: float | None,
+    settle: float | None,
+    rest_error: float | None,
     peak_share: str,
+    start: str | None,
+    goal: list[str] | None,
+    stability: str,
     kv_share: str | None,
     kv_min: str | None,
     damping: str | None,
@@ -69,15 +89,20 @@ def run(
     out: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
-    """The largest gains that an arm's limits admit, as a gain file that the gate accepts.
+    """Gains for an arm, as a gain file that the gate accepts: the largest, or those that meet targets best.
 
-    For each m the largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets, exact to
-    the last digit: no gain can be one unit larger.
+    For each m the largest k_p, and beside it the largest k_v, that meet (10p) and (19), exact to the last
+    digit: no gain can be one unit larger.
 
-    Exit code 0: every m has gains, 2: unusable input or no gains exist, 3: the arm's limits are not known.
+    With --overshoot, --settle or --rest-error: gains that meet these best in motions from rest to rest, tried
+    on the whole arm, once with (19) and once with stability by a proof that does without it.
+
+    Exit code 0: every m has gains, or the targets are met, 2: unusable input or no gains exist, 3: the arm's
+    limits are not known, or the targets were not reached.
 
     Examples:
       lyapcheck tune buap3 --m 1:5
+      lyapcheck tune buap3 --overshoot 5 --settle 1.5 --rest-error 20 --out gains.toml
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
     from lyapcheck.answers.tune import tune
@@ -90,7 +115,20 @@ def run(
     targets = _targets(wrong, digits, peak_share, kv_share, kv_min, damping)
     bounds = _bounds(wrong, robot, targets, torque, gravity, viscous_min)
     against = wrong.reading(_against, robot, compare)
+    asked = {"overshoot": overshoot, "settle": settle, "rest_error": rest_error}
+    wishes = {name: value for name, value in asked.items() if value is not None}
+    others = {"--kv-share": kv_share, "--kv-min": kv_min, "--damping": damping}
+    if wishes:
+        wrong.reading(_refuse, others, "cannot go with targets", "leave one of them out")
+        ways = WAYS if stability == "both" else (stability,)
+        bench = wrong.reading(_bench, robot, wishes, peak_share, (start, goal), ways, digits)
+    else:
+        motion = {"--start": start, "--goal": goal}
+        repair = "add --overshoot, --settle or --rest-error"
+        wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
     wrong.tell()
+    if wishes and bench is not None:
+        return _tune_for(robot, bench, members or (), bounds, against, out, format)
     tuning = tune(robot, members or (), targets, bounds, against)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
@@ -102,6 +140,77 @@ def run(
             for reason in item.reasons:
                 print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
     return tuning.exit
+
+
+def _tune_for(
+    robot: str,
+    bench: Bench,
+    members: Sequence[int],
+    bounds: Bounds,
+    against: GainFile | None,
+    out: Path | None,
+    format: str,  # noqa: A002
+) -> Exit:
+    """Gains for targets."""
+    from lyapcheck.answers.tune.bench_file import bench_file_text
+    from lyapcheck.answers.tune.bench_tuning import tune_for
+    from lyapcheck.cli.progress import progress
+
+    with progress("tune") as advance:
+        tuning = tune_for(robot, bench, members, bounds, against, on_progress=advance)
+    if out is not None and tuning.own:
+        write_whole(out, bench_file_text(tuning, out.parent))
+    if format == "toml":
+        sys.stdout.write(document_text(bench_file_text(tuning)))
+    else:
+        show(tuning, format)
+    return tuning.exit
+
+
+def _bench(
+    robot: str,
+    wishes: dict[str, float],
+    peak_share: str,
+    motion: tuple[str | None, list[str] | None],
+    ways: tuple[str, ...],
+    digits: int,
+) -> Bench:
+    """What is asked, and of which motions.
+
+    Raises:
+        InputError: a target or an angle that cannot be used.
+    """
+    from lyapcheck.answers.tune.wishes import Bench, Wishes
+    from lyapcheck.cli.task import task_of
+    from lyapcheck.robots import load
+
+    model = load(robot)
+    start, goals = motion
+    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
+    try:
+        tasks = tuple(task_of(model, goal, start, 5.0) for goal in goals or [default])
+    except InputError as error:
+        raise InputError(
+            [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
+        ) from None
+    shares = parse_decimals("--peak-share", peak_share) or ONE
+    if len(set(shares)) > 1:
+        raise argument_error(
+            "--peak-share", peak_share, "is one share with targets", "write --peak-share 0.8"
+        )
+    share = None if shares[0] == 1 else float(shares[0])
+    return Bench(Wishes(**wishes, peak_share=share), tasks, ways, digits)
+
+
+def _refuse(given: dict[str, object], rule: str, repair: str) -> None:
+    """Refuse options that have no meaning here.
+
+    Raises:
+        InputError: the first of them.
+    """
+    for option, value in given.items():
+        if value is not None:
+            raise argument_error(option, str(value), rule, repair)
 
 
 def _targets(
@@ -170,8 +279,6 @@ def _written(values: tuple[Fraction, ...]) -> str:
 
 def _against(robot: str, compare: Path | None) -> GainFile | None:
     """The gains to compare with."""
-    from dataclasses import replace
-
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.control.paper import paper_gain_file
 

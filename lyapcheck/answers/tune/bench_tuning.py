@@ -1,0 +1,130 @@
+"""Gains for what is asked at the bench: searched, tried on the whole arm, confirmed by the gate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
+from lyapcheck.answers.tune.arm import arm_limits
+from lyapcheck.answers.tune.bench_answer import STABLE, BenchTuning, Candidate
+from lyapcheck.answers.tune.bench_search import Search
+from lyapcheck.answers.tune.obstacles import impossible, unknown
+from lyapcheck.answers.tune.trial import tried
+from lyapcheck.answers.tune.wishes import BY_19, BY_PROOF, Bench
+from lyapcheck.control.gains import Bounds, GainFile
+from lyapcheck.control.judgement import ACCEPTED
+from lyapcheck.robots import load
+
+if TYPE_CHECKING:
+    from lyapcheck._types import Progress
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.limits import Limits
+    from lyapcheck.robots import RobotModel
+
+
+def tune_for(
+    robot: str,
+    bench: Bench,
+    members: Sequence[int] = (1,),
+    bounds: Bounds | None = None,
+    against: GainFile | None = None,
+    models: Sequence[RobotModel] = (),
+    on_progress: Progress | None = None,
+) -> BenchTuning:
+    """The gains that meet what is asked best, for each member and way to show stability.
+
+    Args:
+        robot: a built-in arm, or the path of an arm file.
+        bench: what is asked, of which motions, and how stability may be shown.
+        members: m of each gain set.
+        bounds: limits to take instead of the arm's.
+        against: gains to try beside them.
+        models: the arm at other values of what is uncertain; the worst of all counts.
+        on_progress: told the fraction done.
+
+    Raises:
+        InputError: the arm cannot be used.
+
+    Soundness: each set is accepted by the gate, with (10p) and the condition it names. What motions show is
+        floating point, and that no better gains exist is not proved.
+
+    References: (6), (10), (11), (19) of reyes2019family.
+    """
+    model = load(robot)
+    arms = (model, *models)
+    limits = arm_limits(robot, model.n, bounds)
+    jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
+    sets: list[Candidate] = []
+    reasons = [*unknown(limits), *_overloaded(limits)]
+    for done, (m, way) in enumerate([] if reasons else jobs):
+        share = _share(on_progress, done, len(jobs), f"m = {m}, {STABLE[way]}")
+        search = Search(bench, arms, limits, m, way)
+        if not search.possible:
+            reasons.append(_none(m, way))
+            continue
+        found = search.run(share)
+        stable = _stable(found.gains, way, limits, robot)
+        sets.append(Candidate(found.gains, found.trial, way, stable, tuple(_held(found.gains, search))))
+    beside = [one for one in ([] if against is None else against.gains) if one.m in members]
+    sets = [*(_other(one, arms, bench, against) for one in beside), *sets]
+    return BenchTuning(
+        robot, model.joints, bench, tuple(sets), tuple(dict.fromkeys(reasons)), limits.assumptions, len(arms)
+    )
+
+
+def _share(told: Progress | None, done: int, jobs: int, note: str) -> Callable[[float], None]:
+    return lambda share: None if told is None else told((done + share) / jobs, note)
+
+
+def _overloaded(limits: Limits) -> list[str]:
+    return [text for text in impossible(limits) if "gravity" in text]
+
+
+def _none(m: int, way: str) -> str:
+    if way == BY_19:
+        return (
+            f"m = {m}: (19) admits no k_v with so few decimal places, or none at all without friction; "
+            "stability by proof does without it"
+        )
+    return f"m = {m}: (10p) leaves no room for gains with so few decimal places"
+
+
+def _stable(gains: GainSet, way: str, limits: Limits, robot: str) -> str:
+    """The condition beside (10p) by which the gate accepts a set; empty where it does not."""
+    torque = tuple(limit for limit in limits.torque if limit is not None)
+    other = limits.viscous_min if way == BY_19 or limits.viscous_min != _own_friction(limits) else None
+    file = GainFile("tuned gains", robot, (gains,), Bounds(other, torque, limits.gravity))
+    for condition in ("19",) if way == BY_19 else (SCALAR, LASALLE):
+        (result,) = gate(file, robot, ("10p", condition))
+        if result.verdict == ACCEPTED:
+            return STABLE[way] if condition in ("19", SCALAR) else "LaSalle"
+    return ""
+
+
+def _own_friction(limits: Limits) -> object:
+    return None if limits.model is None else min(number.bounds[0] for number in limits.model.viscous)
+
+
+def _held(gains: GainSet, search: Search) -> Iterator[str]:
+    rows = zip(gains.kp, gains.kv, search.most_sum, search.most_kv, strict=True)
+    for kp, kv, most, most_kv in rows:
+        rules = ["(10p)"] if kp + kv == most * search.unit else []
+        if search.way == BY_19 and kv == most_kv * search.unit:
+            rules.append("(19)")
+        yield ", ".join(rules)
+
+
+def _other(gains: GainSet, arms: Sequence[RobotModel], bench: Bench, file: GainFile | None) -> Candidate:
+    """A set from elsewhere, tried as ours are."""
+    trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
+    assert file is not None
+    file_of = GainFile(file.path, file.robot, (gains,), file.bounds)
+    stable = ""
+    for condition, way in (("19", BY_19), (SCALAR, BY_PROOF)):
+        (result,) = gate(file_of, None, ("10p", condition))
+        if result.verdict == ACCEPTED:
+            stable = STABLE[way]
+            break
+    return Candidate(gains, trial, "", stable, ("",) * len(gains.kp), file.path)

@@ -1,0 +1,122 @@
+"""Gains tried on the whole arm: each motion of the closed loop (11), held against what was asked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.answers.tune.wishes import Wishes
+from lyapcheck.simulate import indices
+from lyapcheck.simulate.dynamics import closed_loop
+from lyapcheck.simulate.extremes import with_extremes
+from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.integrate import Trajectory, integrate
+from lyapcheck.simulate.monitor import torque_limits
+
+if TYPE_CHECKING:
+    from lyapcheck._types import Array
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.task import Task
+
+TOLERANCE = 1e-7
+POINTS = 401
+LONGER = 4.0
+"""Times the settling time that is asked for: how long a motion is watched."""
+SHORTEST = 3.0
+"""s"""
+NEVER = 1e3
+"""The ratio of what no time or gain reaches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """The worst of some motions, (n,) each: per cent, s, share of the motor's limit, degrees.
+
+    NaN where there is no such number: ``settled`` of a joint that does not settle in the ``T`` seconds of the
+    motion. ``late`` is the largest error of the last quarter, as a share of the step.
+    """
+
+    overshoot: Array
+    settled: Array
+    share: Array
+    rest: Array
+    late: Array
+    T: float
+
+    def ratios(self, wishes: Wishes) -> dict[str, Array]:
+        """What was seen over what was asked, by wish, (n,); 1 where it is just met."""
+        seen = {
+            "overshoot": np.nan_to_num(self.overshoot, nan=0.0),
+            "settle": np.where(np.isnan(self.settled), self.T * (1.0 + self.late), self.settled),
+            "peak_share": np.nan_to_num(self.share, nan=0.0),
+            "rest_error": self.rest,
+        }
+        return {name: np.minimum(seen[name] / asked, NEVER) for name, asked in wishes.given.items()}
+
+    def worst(self, wishes: Wishes) -> float:
+        """The largest ratio: at most 1 where all is met."""
+        return max(float(np.max(x)) for x in self.ratios(wishes).values())
+
+
+def tried(
+    gains: GainSet,
+    models: Sequence[RobotModel],
+    tasks: Sequence[Task],
+    wishes: Wishes,
+    *,
+    exact: bool = False,
+) -> Trial:
+    """The worst of all motions on all arms.
+
+    Args:
+        gains: the controller.
+        models: the arm at one or several values of what is uncertain.
+        tasks: motions from rest; each is watched for `LONGER` than the settling time that is asked for.
+        wishes: what is asked.
+        exact: look for extremes between the integrator's steps too.
+
+    Soundness: floating point; of the motions and arms that are given, and no others.
+    """
+    T = max(LONGER * (wishes.settle or 0.0), SHORTEST)
+    runs = [_one(gains, model, task, T, exact) for model in models for task in tasks]
+    with np.errstate(invalid="ignore"):
+        overshoot, share, late = (np.fmax.reduce([run[k] for run in runs]) for k in (0, 2, 3))
+        settled = np.maximum.reduce([run[1] for run in runs])  # NaN where one of them does not settle
+    rest = np.max([_rest(gains, model) for model in models], axis=0)
+    return Trial(overshoot, settled, share, rest, late, T)
+
+
+def _rest(gains: GainSet, model: RobotModel) -> Array:
+    return np.array([math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model)])
+
+
+def _one(gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool) -> tuple[Array, ...]:
+    n, goal = model.n, np.array(task.q_d)
+    loop = closed_loop(gains_for(gain_set, n), model)
+    rate, slope = loop.compiled_rate(), loop.compiled_jacobian()
+    y0 = np.array([*task.q0, *task.w0, 0.0, 0.0])
+    path = integrate(
+        lambda _, y: rate(y, goal), lambda _, y: slope(y, goal), y0, np.linspace(0.0, T, POINTS), TOLERANCE
+    )
+    signals = loop.signals()
+
+    def torques(some: Trajectory) -> Array:
+        return np.array(signals.map(some.t.size)(some.y.T, goal)[0]).T
+
+    if exact:
+        path = with_extremes(path, lambda some: np.hstack((torques(some), some.y[:, :n])))
+    else:
+        path = path.at(np.unique(np.concatenate((path.t, path.steps))))
+    e = goal - path.y[:, :n]
+    settled = indices.settling_times(path.t, e) if path.failure is None else np.full(n, np.nan)
+    still = np.abs(e[0]) < indices.LEAST_STEP
+    settled[still] = 0.0
+    late = np.max(np.abs(e[path.t >= 0.75 * path.t[-1]]), axis=0) / np.where(still, 1.0, np.abs(e[0]))
+    limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
+    return indices.overshoots(e), settled, np.max(np.abs(torques(path)), axis=0) / limits, late

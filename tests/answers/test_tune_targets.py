@@ -1,0 +1,144 @@
+"""Gains for targets: proposed for one joint, tried on the whole arm, accepted by the gate."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Bench, BenchTuning, Wishes, tune_for
+from lyapcheck.answers.tune.one_joint import Joint, proposal
+from lyapcheck.answers.tune.trial import tried
+from lyapcheck.cli import main as cli
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.family import named
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.verdicts import Exit
+
+WISHES = Wishes(overshoot=5, settle=1.5, rest_error=20)
+
+
+@pytest.fixture(scope="module")
+def tuned() -> BenchTuning:
+    """Both ways for m = 1 on the paper's arm, beside Table 2."""
+    paper = replace(read_gain_file(paper_gain_file()), path="Table 2")
+    return tune_for("buap3", Bench(WISHES, (PAPER_TASK,)), [1], against=paper)
+
+
+def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
+    theirs, by_19, by_proof = tuned.sets
+    assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
+    assert tuned.met(by_proof)
+    assert not tuned.met(by_19)
+    assert theirs.trial.worst(WISHES) > 10
+    assert tuned.exit == Exit.PROVED
+    assert tuned.document().title == "✓ buap3: tau_m1_proof meets what was asked"
+    assert "(19) keeps k_v of base, shoulder, elbow from being larger" in str(tuned)
+    assert "m = 1: (19) costs a factor of" in str(tuned)
+
+
+def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> None:
+    found = tuned.sets[-1]
+    run = simulate(found.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
+    np.testing.assert_allclose(found.trial.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
+    np.testing.assert_allclose(found.trial.settled, run.settling, rtol=1e-2)
+    limits = [float(most) for most in run.torque_limit if most is not None]
+    np.testing.assert_allclose(found.trial.share, run.peak_torque / limits, rtol=1e-4)
+    assert np.all(run.overshoot <= 5)
+    assert np.all(run.settling <= 1.5)
+    for kp, f, rest in zip(found.gains.kp, (1.734, 7.17, 1.734), found.trial.rest, strict=True):
+        assert float(kp) * math.tanh(math.radians(rest)) == pytest.approx(f, rel=1e-6)
+
+
+def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
+    from lyapcheck.answers.tune.bench_file import bench_file_text
+
+    (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
+    by_19, by_proof = gate(read_gain_file(tmp_path / "g.toml"))
+    assert (by_19.standing, by_proof.standing) == ("accepted", "breaks (19), stability proved otherwise")
+    assert gate(read_gain_file(tmp_path / "g.toml"), None, ("10p", "scalar"))[1].verdict == "accepted"
+
+
+def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
+    bench = Bench(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
+    tuning = tune_for("buap3", bench, [2])
+    assert tuning.exit == Exit.UNDECIDED
+    assert "is not reached" in tuning.document().title
+    assert "settling time beyond what was asked" in str(tuning)
+
+
+def test_the_worst_of_all_arms_and_motions_counts() -> None:
+    model, gains = robots.load("buap3"), read_gain_file(paper_gain_file()).gains[0]
+    heavy = model.fixed(base_inertia=2)
+    near = replace(PAPER_TASK, q_d=(0.1, 0.1, 0.1))
+    alone = [tried(gains, [arm], [task], WISHES) for arm in (model, heavy) for task in (PAPER_TASK, near)]
+    together = tried(gains, [model, heavy], [PAPER_TASK, near], WISHES)
+    np.testing.assert_array_equal(together.overshoot, np.max([one.overshoot for one in alone], axis=0))
+    np.testing.assert_array_equal(together.share, np.max([one.share for one in alone], axis=0))
+
+
+def test_one_joint_alone_is_tuned_to_its_targets() -> None:
+    """A pendulum without gravity: the program's gains keep what was asked of it."""
+    joint = Joint(0.5, 0.1, 0.0, 0.0, 0.8, math.inf, 50.0, 50.0)
+    kp, kv = proposal(joint, named("hyperbolic", 1), Wishes(overshoot=2, settle=1.0))
+    assert kp + kv <= 50.001
+    from scipy.integrate import solve_ivp
+
+    def rate(_: float, y: np.ndarray) -> list[float]:
+        return [-y[1], (kp * math.tanh(y[0]) - kv * math.tanh(y[1]) - 0.1 * y[1]) / 0.5]
+
+    t = np.linspace(0, 4, 4001)
+    e = solve_ivp(rate, (0, 4), [0.8, 0.0], t_eval=t, rtol=1e-8, atol=1e-10).y[0]
+    assert -e.min() / 0.8 < 0.025
+    assert np.all(np.abs(e[t > 1.05]) < 0.0205 * 0.8)
+
+
+def test_arms_without_limits_or_friction_are_told(tmp_path: Path) -> None:
+    bench = Bench(Wishes(overshoot=5), (replace(PAPER_TASK, q_d=(0.5, 0.5), q0=(0.0, 0.0), w0=(0.0, 0.0)),))
+    tuning = tune_for("pelican2", bench, [1])
+    assert tuning.exit == Exit.UNDECIDED
+    assert "no torque limit" in str(tuning)
+
+
+@pytest.mark.parametrize(
+    ("wishes", "option"), [({"overshoot": 0}, "--overshoot"), ({"peak_share": 2}, "--peak-share")]
+)
+def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option: str) -> None:
+    with pytest.raises(InputError, match=option):
+        Wishes(**wishes)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--overshoot", "5", "--damping", "1"], "--damping = 1: cannot go with targets"),
+        (["--goal", "1,2,3"], "has a meaning with targets only"),
+        (["--settle", "-1"], "--settle = -1: must be positive"),
+        (["--settle", "1", "--goal", "1,2"], "--goal"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["lyapcheck", "tune", "buap3", *words])
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    assert left.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
+    for one in tuned.own:
+        assert isinstance(one.gains, GainSet)
+        assert all((k * 1000).denominator == 1 and k > 0 for k in (*one.gains.kp, *one.gains.kv))
+        assert Fraction(1, 1000) <= min(one.gains.kp)
