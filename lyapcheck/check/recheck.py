@@ -74,11 +74,6 @@ class Outcome:
     limited: tuple[str, ...] = ()
 
     @property
-    def all_accepted(self) -> bool:
-        """Whether every document was accepted, and nothing contradicts itself."""
-        return self.code == 0
-
-    @property
     def code(self) -> int:
         """0: all accepted, 1: some refused, 3: some undecided and none refused, 4: an alarm."""
         found = {one.status for one in self.checked}

@@ -7,6 +7,9 @@ from fractions import Fraction
 
 from lyapcheck.check.kinds.settling import Envelope
 from lyapcheck.check.loop.decay import Estimate
+from lyapcheck.check.loop.decay.estimate import BITS
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.search.decay_digits import short_above, short_below, tick_after
 from lyapcheck.search.decay_input import Start
@@ -56,13 +59,20 @@ def descent(
     first = max(short_above(estimate.start_level(*start)), SMALLEST)
     if goal is None:
         return _lowest(estimate, family, first, ratio)
-    last = short_below(estimate.level_within(goal))
+    last = short_below(level_within(estimate, goal))
     if last >= first:
         return Descent(((Fraction(0), first),), ())
     if last == 0:
         return None
     found = _descend(estimate, family, first, last, ratio)
     return found if found.level == last else None
+
+
+def level_within(estimate: Estimate, e: Fraction) -> Fraction:
+    """A level, J: V ≤ that is enough for every |e_i| ≤ e. It is min k_pi U(e), from below."""
+    with precision(BITS):
+        least = estimate.member.potential(to_arb(e)) * to_arb(min(estimate.margin.closure.kp))
+        return max(Enclosure.from_arb(least).lower, Fraction(0))
 
 
 def _lowest(estimate: Estimate, family: Family, first: Fraction, ratio: float) -> Descent | None:

@@ -15,14 +15,13 @@ from lyapcheck.check.loop.states import (
     Controller,
     State,
     confirms_positive,
-    hyperbolic,
     polynomial,
     rate,
     slope,
     value,
 )
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.members import Functions
+from lyapcheck.check.numbers.members import Functions, member
 
 F = Fraction
 LINEAR = Functions(lambda x: x, lambda x: arb(1), lambda x: x * x / 2)
@@ -41,13 +40,13 @@ states = st.builds(State, pairs, pairs, pairs)
 
 
 def controller(m: int) -> Controller:
-    return Controller(hyperbolic(m), *GAINS)
+    return Controller(member("hyperbolic", m).functions, *GAINS)
 
 
 def printed_acceleration(m: int, state: State) -> list[arb]:
     """ẇ of (11) with C as the source prints it, and M inverted by hand."""
     q2, (e, w) = to_arb(state.q[1]), ([to_arb(x) for x in part] for part in (state.e, state.w))
-    f, (kp, kv) = hyperbolic(m), ([to_arb(k) for k in gains] for gains in GAINS)
+    f, (kp, kv) = member("hyperbolic", m).functions, ([to_arb(k) for k in gains] for gains in GAINS)
     s = to_arb(F("0.084")) * q2.sin()
     coriolis = [-2 * s * w[1] * w[0] - s * w[1] * w[1], s * w[0] * w[0]]
     force = [

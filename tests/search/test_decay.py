@@ -29,6 +29,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.search.decay import disturbance_bound, settling_bound
+from lyapcheck.search.decay_levels import level_within
 from lyapcheck.search.margins import Attempt, attempts, margin_at, reduced_radial
 from lyapcheck.search.radial import radial_data
 from lyapcheck.search.setting import Setting
@@ -170,7 +171,7 @@ def test_a_smaller_angle_or_a_farther_start_takes_longer() -> None:
     estimate = Estimate(found.margin, Disturbance.none(2))
     near, far = ((F(1, 2), F(1, 2)), (F(0),) * 2), ((F(1), F(1)), (F(1),) * 2)
     assert estimate.start_level(*near) < estimate.start_level(*far)
-    assert estimate.level_within(F(1, 10)) < estimate.level_within(F(1, 5))
+    assert level_within(estimate, F(1, 10)) < level_within(estimate, F(1, 5))
 
 
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 2), ("buap3", 0)]))

@@ -18,7 +18,6 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.members import Functions
 
@@ -65,11 +64,6 @@ class State:
     def at_origin(self) -> bool:
         """Whether e and w are both zero."""
         return not any(self.e) and not any(self.w)
-
-
-def hyperbolic(m: int) -> Functions:
-    """h_m, h_m' and U_m."""
-    return Functions(lambda x: balls.h(m, x), lambda x: balls.dh(m, x), lambda x: balls.potential(m, x))
 
 
 def value(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: int = 128) -> arb:

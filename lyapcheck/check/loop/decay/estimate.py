@@ -106,12 +106,6 @@ class Estimate:
             rows = zip(self.margin.closure.kp, errors, strict=True)
             return all(to_arb(k) * self.member.potential(to_arb(x)) >= to_arb(level) for k, x in rows)
 
-    def level_within(self, e: Fraction) -> Fraction:
-        """A level, J: V ≤ that is enough for every |e_i| ≤ e. It is min k_pi U(e), from below."""
-        with precision(BITS):
-            least = self.member.potential(to_arb(e)) * to_arb(min(self.margin.closure.kp))
-            return max(Enclosure.from_arb(least).lower, Fraction(0))
-
     def reach(self, level: Fraction) -> tuple[float, ...]:
         """Bounds of |e_i|, rad, wherever V ≤ level: U⁻¹(level/k_pi) from above.
 
