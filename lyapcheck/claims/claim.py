@@ -7,6 +7,10 @@ from dataclasses import dataclass, field, replace
 from inspect import Parameter, signature
 from typing import Any
 
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stable_arm import StableArm
+from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.order import needed
 from lyapcheck.claims.statements import Statement
@@ -102,6 +106,38 @@ class Proof:
         """Add a claim in one line: a statement that is the same in every case, or a function as above."""
         self.claim(claim_id, says, place, **about)(statement if callable(statement) else lambda: statement)
 
+    def add_theorem(
+        self,
+        claim_id: str,
+        says: str,
+        theorem: Stable | StableArm,
+        place: str = "",
+        *,
+        uses: Iterable[str] = (),
+    ) -> None:
+        """Add a theorem about a system, and before it a claim for each group of its obligations.
+
+        They are called ``<id>.origin``, ``.above``, ``.rate`` and so on, and show where an argument breaks; the
+        certificate of the theorem itself has the proofs of them all.
+        """
+        about = theorem.argument if isinstance(theorem, Stable) else theorem
+        groups: dict[str, list[tuple[str, Statement]]] = {}
+        try:
+            theorem.require_well_formed()
+            for name, obligation in about.obligations():
+                groups.setdefault(_group(name), []).append((name, obligation))
+        except Refused:
+            groups.clear()  # the claim itself says what is wrong with it
+        names = [f"{claim_id}.{group}" for group in groups]
+        for name, (group, parts) in zip(names, groups.items(), strict=True):
+            self.add(
+                name,
+                f"{claim_id}: {OBLIGATIONS.get(group, f'{group} is one of its class')}",
+                _all(parts),
+                place,
+            )
+        self.add(claim_id, says, theorem, place, uses=[*names, *uses])
+
     def adopt(self, script: str, *ids: str, section: str = "") -> None:
         """Take claims from another proof script, with all that they use, under the ids they have there.
 
@@ -121,6 +157,28 @@ class Proof:
         for name, claim in other.claims.items():
             if name in wanted:
                 self.claims.setdefault(name, replace(claim, section=section or claim.section))
+
+
+OBLIGATIONS = {
+    "origin": "nothing moves at the origin, and V = 0 there",
+    "above": "V is at least a form that is positive definite and grows without end",
+    "below": "V is at most a form without time",
+    "rate": "dV/dt is at most a negative form",
+    "rest": "nothing but the origin stays where dV/dt may vanish",
+    "arm": "the arm has the constants, and they meet the conditions",
+}
+
+
+def _group(obligation: str) -> str:
+    """The group of an obligation by its name: what stands before a comma or colon."""
+    name = obligation.split(",", maxsplit=1)[0].split(":", maxsplit=1)[0]
+    if name.startswith(("origin", "V at")):
+        return "origin"
+    return "arm" if name in ("M", "beta", "kc", "kg") or name.startswith("condition") else name
+
+
+def _all(parts: list[tuple[str, Statement]]) -> Statement:
+    return parts[0][1] if len(parts) == 1 else AllOf(tuple(parts))
 
 
 def _of_case(claim_id: str, statement: Callable[..., Statement]) -> StatementOf:

@@ -35,7 +35,7 @@ class AnyVector(Multiplied):
         return self.times(factor)
 
     def __matmul__(self, other: Any) -> Any:
-        return Row(self, other) if isinstance(other, AnyMatrix) else _dot(self.tree, other.tree)
+        return Row(self, (other,)) if isinstance(other, AnyMatrix) else _dot(self.tree, other.tree)
 
     def dot(self, other: AnyVector) -> Expr:
         """The dot product."""
@@ -72,13 +72,17 @@ class AnyMatrix(Multiplied):
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """xᵀA, which waits for the vector on its right."""
+    """xᵀA B …, which waits for the vector on its right."""
 
     left: AnyVector
-    matrix: AnyMatrix
+    matrices: tuple[AnyMatrix, ...]
 
-    def __matmul__(self, right: AnyVector) -> Expr:
-        return _dot(self.left.tree, (self.matrix @ right).tree)
+    def __matmul__(self, other: Any) -> Any:
+        if isinstance(other, AnyMatrix):
+            return Row(self.left, (*self.matrices, other))
+        for matrix in reversed(self.matrices):
+            other = matrix @ other
+        return _dot(self.left.tree, other.tree)
 
 
 def _dot(left: Tree, right: Tree) -> Expr:

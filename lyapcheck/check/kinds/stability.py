@@ -1,0 +1,117 @@
+"""Stability of a closed loop that is data, by a theorem whose obligations are each proved.
+
+The checker derives the obligations from the system (``check.systems``); a certificate has their proofs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.parts import relation_text
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.systems.system import Entrywise, System
+from lyapcheck.check.systems.theorems import THEOREMS, Argument
+from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+
+FRICTION = {
+    "none": "without friction",
+    "any": "with or without viscous friction",
+    "positive": "with viscous friction at every joint",
+}
+
+
+@dataclass(frozen=True)
+class Stable(Statement):
+    """The origin of a system is stable, as an argument by a theorem says."""
+
+    argument: Argument
+
+    def require_well_formed(self) -> None:
+        """Refuse an argument that is not of the form of its theorem."""
+        self.argument.require_well_formed()
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None of its own: those of the obligations are theirs."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What holds of the arm and of the letters."""
+        return tuple(_granted(self.argument.system))
+
+    def text(self) -> str:
+        """The theorem in one sentence."""
+        argument, known = self.argument, THEOREMS[self.argument.theorem]
+        system = argument.system
+        where = " and ".join(relation_text(one) for one in argument.where)
+        about = [f"τ = {expression_text(system.torque)}"]
+        about += [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
+        about += [_function_text(f) for f in system.functions]
+        origin = ", ".join(f"{name} = 0" for name in system.moving)
+        conclusion = known.conclusion
+        if argument.local:
+            conclusion = "asymptotically stable, with every motion from where V is less than φ on ‖e‖ = R"
+        energy = expression_text(argument.energy)
+        energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
+        return (
+            f"for {', '.join(_over(system))}{f' with {where}' if where else ''}: {'; '.join(about)} makes "
+            f"{origin} {conclusion}, by {known.name} ({known.reference}) with V = {energy}"
+            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ {expression_text(argument.lower.tree)}, "
+            f"dV/dt ≤ −({expression_text(argument.rate.tree)})"
+        )
+
+
+def _over(system: System) -> Iterator[str]:
+    """Over what a conclusion runs."""
+    yield "every n"
+    yield f"every arm {FRICTION[system.friction]}"
+    if system.gains:
+        yield f"all diagonal {', '.join(system.gains)} > 0"
+    if system.constants:
+        yield f"all {', '.join(system.constants)} > 0"
+    if system.desired:
+        yield "every q_d(t) with bounded dq_d/dt"
+
+
+def _function_text(f: Entrywise) -> str:
+    by = f"{f.name} = {f.name}({f.of}) by entries"
+    if f.member is not None:
+        return f"{by}, {f.name}(x) = {expression_text(f.member.value)}"
+    bounded = "bounded, " if f.bounded else ""
+    return f"{by}, {bounded}odd and C¹, positive for x > 0, of bounded slope, its integral without end"
+
+
+def _granted(system: System) -> Iterator[str]:
+    """The properties of the arm that the letters have."""
+    yield (
+        "the robot is (1): 0 < mu ≤ λmin(M(q)), ‖M(q)‖ ≤ beta and ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with "
+        "Ṁ = C + Cᵀ; the torque is applied as it is, and all in it is known exactly"
+    )
+    if system.friction != "none":
+        yield f"B is diagonal with λmin(B) = B_min {'>' if system.friction == 'positive' else '≥'} 0"
+    if system.desired:
+        yield "q_d(t) is twice continuously differentiable with ‖q̇_d‖ ≤ vd"
+    else:
+        yield "g is the gradient of U_g, and ‖∂g/∂q‖ ≤ kg for all q"
+
+
+@dataclass(frozen=True)
+class ByObligations(Proof):
+    """A proof of each obligation of the theorem, in its order."""
+
+    rule = "obligations"
+    proofs: tuple[Proof, ...]
+
+
+@rule(Stable, ByObligations)
+def by_obligations(statement: Stable, proof: ByObligations) -> Accepted:
+    """Soundness: see ``check.systems.theorems``; each obligation by its own proof."""
+    wanted = list(statement.argument.obligations())
+    require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
+    pairs = zip(wanted, proof.proofs, strict=True)
+    return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))

@@ -1,0 +1,167 @@
+"""Stability of one arm under given gains: an argument for all of them, at numbers that bound this one.
+
+Only constants in the conditions of the argument need numbers; of the others it is enough that they exist, as
+they do where M ≻ 0: entries are polynomials in sines and cosines, and angles lie on a torus.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.check.expressions.domain import Domain
+from lyapcheck.check.expressions.expression import Tree, substitute, variables
+from lyapcheck.check.expressions.text import diagonal_text, number_text
+from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import (
+    CoriolisBelow,
+    MassAbove,
+    MassBelow,
+    mass_text,
+    polynomial_text,
+    require_mass,
+    require_polynomials,
+    variable_names,
+    written_out,
+)
+from lyapcheck.check.kinds.parts import require_distinct
+from lyapcheck.check.kinds.stability import ByObligations, Stable
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Monomials, Relation, Statement
+from lyapcheck.check.systems.theorems import Argument
+from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+
+Numbers = tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class Arm:
+    """M(q), kg·m², the diagonal of B, N·m·s/rad, and the energy of gravity, J, in sines and cosines of q."""
+
+    mass: tuple[tuple[Monomials, ...], ...]
+    viscous: Numbers
+    potential: Monomials
+
+
+@dataclass(frozen=True)
+class StableArm(Statement):
+    """The origin of a system is stable for this arm and these gains.
+
+    ``numbers`` are those of constants in the conditions of the argument.
+    """
+
+    argument: Argument
+    arm: Arm
+    gains: tuple[tuple[str, Numbers], ...]
+    numbers: tuple[tuple[str, Fraction], ...]
+
+    def require_well_formed(self) -> None:
+        """Refuse other sizes, gains and numbers than those of the system."""
+        self.argument.require_well_formed()
+        system, arm = self.argument.system, self.arm
+        n = len(arm.mass)
+        require_mass(arm.mass, ())
+        require_polynomials([arm.potential], n, ())
+        names = [name for name, _ in self.gains]
+        require(names == list(system.gains), "gains", ", ".join(names), "must be those of the system")
+        rows = {"B": arm.viscous} | dict(self.gains)
+        for name, values in rows.items():
+            least = name == "B" and system.friction != "positive"
+            fits = len(values) == n and all(value > 0 or (least and value == 0) for value in values)
+            require(fits, name, diagonal_text(values), f"must be {n} numbers, positive where they have to be")
+        require(system.friction != "none" or not any(arm.viscous), "B", "", "is none in this system")
+        require_distinct("numbers", [name for name, _ in self.numbers])
+        wanted = set().union(*(variables(one.gap) for one in self.argument.where))
+        given = {name for name, _ in self.numbers}
+        require(given == wanted, "numbers", ", ".join(sorted(given)), "must be those of the conditions")
+        for name, value in self.numbers:
+            require(self._bounds(name, value, rows), name, number_text(value), "is no such bound")
+
+    def _bounds(self, name: str, value: Fraction, rows: dict[str, Numbers]) -> bool:
+        """Whether a number is a bound of what is given; those of M, C and g are obligations."""
+        stem, _, end = name.partition("_")
+        if stem in rows and end:
+            values = rows[stem]
+            squares = sum((x * x for x in values), Fraction(0))
+            fits = {"min": value <= min(values), "max": value >= max(values)}
+            return fits.get(end, value >= 0 and value * value >= squares) and value >= 0
+        for f in self.argument.system.functions:
+            if stem == f.name and f.member is not None:
+                gamma, count = f.member.gamma or Fraction(0), len(self.arm.mass)
+                return {
+                    "reach": f.bounded and value > 0 and value**2 >= count * gamma**2,
+                    "slope": value >= f.member.rho,
+                    "secant": value >= f.member.secant,
+                    "sector": 0 < value * f.member.secant <= 1,
+                }[end]
+        known = {"mu", "beta", "kc", "kg", "vd", "R", "eps0", *self.argument.system.constants}
+        return name in known and value >= 0 and (value > 0 or name in ("kc", "kg", "vd"))
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        """None of its own."""
+        return []
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        """What the argument takes for granted, and that the data are those of the robot."""
+        own = "M(q), B and the energy of gravity are those of the robot; its C is by Christoffel symbols"
+        return (own, *Stable(self.argument).granted)
+
+    def text(self) -> str:
+        """For which arm and gains; then the theorem."""
+        n = len(self.arm.mass)
+        energy = polynomial_text(self.arm.potential, variable_names(n, 0))
+        gains = ", ".join(f"{name} = {diagonal_text(values)}" for name, values in self.gains)
+        numbers = ", ".join(f"{name} = {number_text(value)}" for name, value in self.numbers)
+        return (
+            f"with {gains}{f' and {numbers}' if numbers else ''} on the arm with "
+            f"{mass_text(self.arm.mass, ())}, B = {diagonal_text(self.arm.viscous)}, "
+            f"{written_out([f'U_g = {energy}'], 'energy of gravity', self.arm.potential, ())}: "
+            f"{Stable(self.argument).text()}"
+        )
+
+    def obligations(self) -> Iterator[tuple[str, Statement]]:
+        """Those of the argument, then that this arm has its constants and they meet its conditions."""
+        yield from self.argument.obligations()
+        mass, numbers = self.arm.mass, dict(self.numbers)
+        yield "M", MassAbove(mass, (), numbers.get("mu", Fraction(0)))
+        if "beta" in numbers:
+            yield "beta", MassBelow(mass, (), numbers["beta"])
+        if "kc" in numbers:
+            yield "kc", CoriolisBelow(mass, (), numbers["kc"])
+        if "kg" in numbers:
+            yield "kg", GravityBelow(len(mass), hessian(self.arm.potential, len(mass)), (), numbers["kg"])
+        by: dict[str, Tree] = {name: ("num", str(value)) for name, value in numbers.items()}
+        for k, one in enumerate(self.argument.where, 1):
+            here = Relation(substitute(one.left, by), one.operator, substitute(one.right, by))
+            yield f"condition {k}", Constant(here)
+
+
+def hessian(energy: Monomials, n: int) -> tuple[Monomials, ...]:
+    """∂g/∂q row by row, g the gradient of the energy; its norm is at most the root of the sum of squares."""
+    return tuple(slope(slope(energy, i, n), j, n) for i in range(n) for j in range(n))
+
+
+def slope(polynomial: Monomials, i: int, n: int) -> Monomials:
+    """∂/∂q_i: sᵃcᵇ becomes a sᵃ⁻¹cᵇ⁺¹ − b sᵃ⁺¹cᵇ⁻¹."""
+    found: dict[tuple[int, ...], Fraction] = {}
+    for powers, c in polynomial:
+        for old, new, sign in ((i, n + i, 1), (n + i, i, -1)):
+            if powers[old]:
+                moved = list(powers)
+                moved[old] -= 1
+                moved[new] += 1
+                key = tuple(moved)
+                found[key] = found.get(key, Fraction(0)) + sign * powers[old] * c
+    return tuple((powers, c) for powers, c in sorted(found.items()) if c)
+
+
+@rule(StableArm, ByObligations)
+def by_obligations(statement: StableArm, proof: ByObligations) -> Accepted:
+    """Soundness: the argument holds for all arms with such constants, and this is one of them."""
+    wanted = list(statement.obligations())
+    require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
+    pairs = zip(wanted, proof.proofs, strict=True)
+    return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))

@@ -1,0 +1,166 @@
+"""How large the letters of a system are, from the properties of the arm, of gains and of functions.
+
+For a letter x, norm_x is its size. M has mu <= λmin(M), ‖M‖ <= beta; ‖C(q,x)y‖ <= kc ‖x‖ ‖y‖ and ‖q̇_d‖ <= vd;
+a gain K has K_min, K_max and the norm K_norm of its diagonal; ‖∂g/∂q‖ <= kg, so ‖dg‖ <= kg ‖e‖, and the
+energy of gravity U_g(q) − U_g(q_d) + g(q_d)ᵀe is eᵀP with ‖P‖ <= ½kg ‖e‖ (Taylor). A function f has
+|f(x)| <= f_secant |x|, |f'| <= f_slope, ‖f(x)‖ <= f_reach if it is bounded, and x f(x) >= f_sector f(x)² with
+f_sector = 1/f_secant; sum_Uf is Σ U(x_i), which is above the norm of the vector, as no U(x_i) is negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from fractions import Fraction
+from itertools import chain
+
+from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.letters.words import Word, Words
+from lyapcheck.check.statement import Variable
+from lyapcheck.check.systems.system import DG, DQD, C, D, E, M, S, System, U
+
+Norm = tuple[tuple[Tree, ...], Tree]
+Least = tuple[Tree, Tree]
+ONE: Tree = ("num", "1")
+P: Tree = ("vec", "P")
+"""The energy of gravity is eᵀP."""
+
+
+def size(name: str) -> Tree:
+    """The size of a vector letter."""
+    return ("var", f"norm_{name}")
+
+
+def product(*factors: Tree) -> Tree:
+    """The product of some numbers."""
+    return ("mul", ONE, *factors)
+
+
+def constant(name: str) -> Tree:
+    """A constant by name."""
+    return ("var", name)
+
+
+def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]:
+    """What is known of the norms of letters; ``changed`` are new letters, ``local`` is for ‖e‖ <= R."""
+    kc = constant("kc")
+    for name in (*system.moving, *changed):
+        yield (("vec", name),), size(name)
+    yield (S, E), ONE
+    yield (S,), ONE
+    yield (U,), ONE
+    if local:
+        yield (E,), constant("R")
+    for f in system.functions:
+        value, secant = ("vec", f.name), constant(f"{f.name}_secant")
+        yield (value,), size(f.name)
+        yield (value,), product(secant, size(f.of))
+        if f.bounded:
+            yield (value,), constant(f"{f.name}_reach")
+        if f.of == "e":
+            yield (S, value), secant
+        yield (("diag", f"d{f.name}"),), constant(f"{f.name}_slope")
+        yield (("vec", f"U{f.name}"),), constant(f"sum_U{f.name}")
+    for name in system.diagonal:
+        yield (("diag", name),), constant(f"{name}_max")
+        yield (("vec", name),), constant(f"{name}_norm")
+    yield (M,), constant("beta")
+    yield (C,), product(kc, size("w"))
+    yield (D,), product(kc, constant("vd"))
+    yield (DQD,), constant("vd")
+    yield (DG,), product(constant("kg"), size("e"))
+    yield (P,), product(("num", "1/2"), constant("kg"), size("e"))
+
+
+def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Least]:
+    """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx and kᵀU."""
+    sized = {*system.moving, *changed, *(f.name for f in system.functions)}
+    for word in sorted(chain.from_iterable(words.seen.values())):
+        found = _least_of(system, word, sized)
+        if found is not None:
+            yield _number(word), found
+
+
+def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None:
+    """The lower bound of a word, if it has one."""
+    (_, first), *middle, (_, last) = word
+    if middle == [("mat", "M")]:
+        same = first == last and first in sized
+        return product(constant("mu"), size(first), size(first)) if same else None
+    if any(kind not in ("vec", "diag") for kind, _ in word):
+        return None
+    names = sorted(name for _, name in word)
+    gains = [constant(f"{name}_min") for name in names if name in system.diagonal]
+    rest = [name for name in names if name not in system.diagonal]
+    if len(rest) == 2 and rest[0] == rest[1] and rest[0] in sized:
+        return product(*gains, size(rest[0]), size(rest[0]))
+    for f in system.functions:
+        if rest == sorted((f.name, f.of)):
+            return product(*gains, constant(f"{f.name}_sector"), size(f.name), size(f.name))
+        if rest == [f"U{f.name}"] and gains:
+            return product(*gains, constant(f"sum_U{f.name}"))
+    return None
+
+
+def _number(word: Word) -> Tree:
+    """A word as an expression."""
+    (_, first), *middle, last = word
+    value: Tree = last
+    for kind, name in reversed(middle):
+        matrix: Tree = ("transpose", ("mat", name)) if kind == "transposed" else (kind, name)
+        value = ("apply", matrix, value)
+    return ("dot", ("vec", first), value)
+
+
+def at_most(
+    system: System,
+    left: Tree,
+    right: Tree,
+    rates: Mapping[Tree, Tree] | None = None,
+    changed: Collection[str] = (),
+    local: bool = False,
+) -> BoundEveryN:
+    """``left <= right`` for every n, with all that is known of the letters in it.
+
+    Args:
+        system: the closed loop.
+        left: a number made of its letters.
+        right: an expression in sizes and constants.
+        rates: the derivatives of its letters, where it is one; M ẇ is then that of the system.
+        changed: letters that stand for others.
+        local: whether ‖e‖ <= R.
+    """
+    moved = dict(rates or {})
+    given = (system.given,) if moved else ()
+    solved = {(one.matrix, one.vector): one.equals for one in given}
+    words = Words(("M",), moved, solved)
+    number = words.number(left)
+    used = {_plain(letter) for word in chain.from_iterable(words.seen.values()) for letter in word}
+    used |= {("var", name) for name in variables(number) if name not in words.seen}
+    known = [(own, bound) for own, bound in norms(system, changed, local) if set(own) <= used]
+    inertia = M in used or bool(given)
+    return BoundEveryN(
+        left,
+        right,
+        ("M",) if inertia else (),
+        tuple(moved.items()),
+        given,
+        tuple(known),
+        tuple(least(system, words, changed)),
+    )
+
+
+def _plain(letter: tuple[str, str]) -> Tree:
+    kind, name = letter
+    return ("mat", name) if kind == "transposed" else (kind, name)
+
+
+def constants_of(system: System) -> dict[str, Variable]:
+    """The constants with their ranges; positive, but for upper bounds that may be 0."""
+    positive = ["mu", "beta", "R", "eps0", *system.constants, *(f"{name}_min" for name in system.gains)]
+    for f in system.functions:
+        positive += [f"{f.name}_{bound}" for bound in ("reach", "slope", "secant", "sector")]
+    upper = ["kc", "kg", "vd", *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm"))]
+    (positive if system.friction == "positive" else upper).append("B_min")
+    found = {name: Variable(name, Fraction(0)) for name in positive}
+    return found | {name: Variable(name, Fraction(0), strict=False) for name in upper}

@@ -1,0 +1,245 @@
+"""An arm under a torque that is data, for every n: which letters there are and how they move.
+
+    M(q)q̈ + C(q,q̇)q̇ + Bq̇ + g(q) = τ,   e = q_d − q,   w = q̇ − q̇_d,   ė = −w
+
+M ẇ is derived from the torque. The letters: vectors e, w and further states; f, df and Uf for the values of
+an entrywise function, its slopes and its potential; gains, whose diagonal matrices multiply; s = 1/(1 + ‖e‖)
+and u = e/‖e‖. For a constant q_d, g(q) = gd + dg with gd = g(q_d). For q_d(t), dqd and ddqd are its
+derivatives, and C(q, q̇) = C + D with C = C(q, w), D = C(q, q̇_d).
+
+References: ``reyes2019family`` (1), (11), Properties 2.1 to 2.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from fractions import Fraction
+
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.every_n import Given
+from lyapcheck.check.letters.grammar import letters, require_sort
+from lyapcheck.check.refusal import require
+
+E, W, DW, G, GD, DG, U = (("vec", name) for name in ("e", "w", "dw", "g", "gd", "dg", "u"))
+DQD, DDQD = ("vec", "dqd"), ("vec", "ddqd")
+M, C, D = (("mat", name) for name in "MCD")
+S: Tree = ("var", "s")
+B: Tree = ("diag", "B")
+NOTHING: Tree = ("sum",)
+OWN_NAMES = frozenset(
+    (
+        "e",
+        "w",
+        "dw",
+        "g",
+        "gd",
+        "dg",
+        "u",
+        "x",
+        "dqd",
+        "ddqd",
+        "P",
+        "M",
+        "C",
+        "D",
+        "B",
+        "s",
+        "n",
+        "R",
+        "eps0",
+        "mu",
+        "beta",
+        "kc",
+        "kg",
+        "vd",
+    )
+)
+"""What an author can name nothing else."""
+FRICTION = ("none", "any", "positive")
+
+
+@dataclass(frozen=True)
+class Member:
+    """One function of the class, in x: its value, slope and potential, and numbers that show it to be one.
+
+    |f| <= gamma, where it is bounded; |f'| <= rho; |f(x)| <= secant |x|; f(x) >= low for x >= start.
+    """
+
+    value: Tree
+    slope: Tree
+    potential: Tree
+    gamma: Fraction | None
+    rho: Fraction
+    secant: Fraction
+    low: Fraction
+    start: Fraction
+
+
+@dataclass(frozen=True)
+class Entrywise:
+    """f(x_i) for each entry of a state: f odd, C¹, positive right of 0, with bounded slope, U → ∞.
+
+    Without a ``member`` the conclusion is for every such function, bounded ones alone if ``bounded``.
+    """
+
+    name: str
+    of: str
+    bounded: bool
+    member: Member | None
+
+
+@dataclass(frozen=True)
+class State:
+    """A further vector with its derivative, such as an integral of the error."""
+
+    name: str
+    rate: Tree
+
+
+@dataclass(frozen=True)
+class System:
+    """The arm (1) under a torque.
+
+    Attributes:
+        torque: τ, a vector in the letters.
+        gains: names of diagonal positive matrices.
+        functions: entrywise functions of states.
+        states: what the controller has of its own.
+        constants: names of positive numbers of the author.
+        desired: whether q_d depends on time; it is constant otherwise.
+        friction: what the arm has: ``positive`` for a diagonal positive B, ``any`` for one that may vanish,
+            ``none`` for B = 0.
+    """
+
+    torque: Tree
+    gains: tuple[str, ...]
+    functions: tuple[Entrywise, ...]
+    states: tuple[State, ...]
+    constants: tuple[str, ...]
+    desired: bool
+    friction: str
+
+    def require_well_formed(self) -> None:
+        """Refuse names given twice, letters that nothing is known of, and functions of what is no state."""
+        names = [*self.gains, *self.constants, *(state.name for state in self.states)]
+        names += [f"{prefix}{f.name}" for f in self.functions for prefix in ("", "d", "U")]
+        for name in names:
+            require(names.count(name) == 1 and name not in OWN_NAMES, "name", name, "is taken")
+            require("_" not in name, "name", name, "must have no underscore: sizes and bounds have one")
+        require(self.friction in FRICTION, "friction", self.friction, f"must be one of {', '.join(FRICTION)}")
+        for f in self.functions:
+            require(f.of in self.moving, "function", f.name, f"is of {f.of!r}, which is no state")
+            fits = f.member is None or f.bounded == (f.member.gamma is not None)
+            require(fits, "function", f.name, "is said to be bounded, or not, against its numbers")
+        for tree in (self.torque, *(state.rate for state in self.states)):
+            require_sort(tree, "vector")
+            self.require_letters(tree, self.known, "the torque and the states")
+
+    def require_letters(self, tree: Tree, known: Collection[Tree], where: str) -> None:
+        """Refuse a letter that is not known.
+
+        Raises:
+            Refused: it is there.
+        """
+        for letter in sorted(letters(tree)):
+            require(letter in known, "letter", letter[1], f"has no meaning in {where} of this system")
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The names of the states."""
+        return ("e", "w", *(state.name for state in self.states))
+
+    @property
+    def diagonal(self) -> tuple[str, ...]:
+        """The names of the diagonal positive matrices."""
+        return self.gains if self.friction == "none" else (*self.gains, "B")
+
+    @property
+    def known(self) -> frozenset[Tree]:
+        """The letters that a controller may have."""
+        vectors = {*self.moving, *self.diagonal, *(f.name for f in self.functions)}
+        vectors |= {"g", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
+        matrices = {"M", "C", "D"} if self.desired else {"M", "C"}
+        found = {("vec", name) for name in vectors} | {("mat", name) for name in matrices}
+        return frozenset(found | {("var", name) for name in self.constants})
+
+    @property
+    def energies(self) -> frozenset[Tree]:
+        """The letters that V may have: those that have a derivative, and no time in them."""
+        vectors = {*self.moving, *self.diagonal} | {
+            name for f in self.functions if f.of != "w" for name in (f.name, f"U{f.name}")
+        }
+        found = {("vec", name) for name in vectors} | {M, S, ("var", "eps0")}
+        return frozenset(found | {("var", name) for name in self.constants})
+
+    @property
+    def force(self) -> Tree:
+        """What M ẇ equals: τ less the left side of (1) at ẇ = 0."""
+        speed: Tree = W
+        needed: list[Tree] = []
+        if self.desired:
+            speed = ("sum", DQD, W)
+            needed.append(("apply", M, DDQD))
+        needed += [("apply", self.coriolis, speed), self.gravity]
+        needed += [] if self.friction == "none" else [("apply", B, speed)]
+        return ("sum", self.torque, *(minus(part) for part in needed))
+
+    @property
+    def coriolis(self) -> Tree:
+        """C(q, q̇)."""
+        return ("sum", C, D) if self.desired else C
+
+    @property
+    def gravity(self) -> Tree:
+        """g(q)."""
+        return G if self.desired else ("sum", GD, DG)
+
+    @property
+    def given(self) -> Given:
+        """M ẇ = force."""
+        return Given("M", "dw", self.force)
+
+    def rates(self) -> dict[Tree, Tree]:
+        """The derivative of each letter that may stand in V.
+
+        s = 1/(1 + ‖e‖) has ṡ = s² uᵀw; where e = 0 it has none, see ``theorems`` on why that does no harm.
+        """
+        moved: dict[str, Tree] = {"e": minus(W), "w": DW} | {state.name: state.rate for state in self.states}
+        found = {("vec", name): rate for name, rate in moved.items()}
+        found |= {("vec", name): NOTHING for name in self.diagonal}
+        found |= {("var", name): ("num", "0") for name in (*self.constants, "eps0")}
+        found[M] = ("sum", self.coriolis, ("transpose", self.coriolis))
+        found[S] = ("mul", S, S, ("dot", U, W))
+        for f in self.functions:
+            if f.of != "w":
+                found[("vec", f.name)] = ("apply", ("diag", f"d{f.name}"), moved[f.of])
+                found[("vec", f"U{f.name}")] = ("apply", ("diag", f.name), moved[f.of])
+        return found
+
+    def at_zero(self, tree: Tree, states: Collection[str]) -> Tree:
+        """An expression where some states are 0: functions of them are, C(q, w) is with w, dg with e."""
+        gone = {("vec", name) for name in states}
+        gone |= {("vec", n) for f in self.functions if f.of in states for n in (f.name, f"U{f.name}")}
+        gone |= ({C} if "w" in states else set()) | ({DG} if "e" in states else set())
+        return replaced(tree, dict.fromkeys(gone, NOTHING))
+
+
+def minus(x: Tree) -> Tree:
+    """The opposite of a vector or matrix."""
+    return ("scale", ("num", "-1"), x)
+
+
+def replaced(tree: Tree, by: dict[Tree, Tree]) -> Tree:
+    """An expression with others for some letters; the diagonal matrix of one that is 0 is 0.
+
+    Raises:
+        Refused: the diagonal matrix of one that becomes something else.
+    """
+    if tree[0] == "diag":
+        new = by.get(("vec", tree[1]))
+        require(new in (None, NOTHING), "diag", tree[1], "stands for another vector here")
+        return tree if new is None else NOTHING
+    if tree in by:
+        return by[tree]
+    return tuple(replaced(part, by) if isinstance(part, tuple) else part for part in tree)
