@@ -117,8 +117,8 @@ class Proof:
     ) -> None:
         """Add a theorem about a system, and before it a claim for each group of its obligations.
 
-        They are called ``<id>.origin``, ``.above``, ``.rate`` and so on, and show where an argument breaks; the
-        certificate of the theorem itself has the proofs of them all.
+        They are called ``<id>.origin``, ``.above``, ``.rate`` and so on, and show where an argument breaks;
+        the certificate of the theorem itself has the proofs of them all.
         """
         about = theorem.argument if isinstance(theorem, Stable) else theorem
         groups: dict[str, list[tuple[str, Statement]]] = {}

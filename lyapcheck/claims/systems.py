@@ -22,11 +22,13 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree, derivative, substitute, variables
 from lyapcheck.check.kinds.bound_every_n import terms_of
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian
+from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
-from lyapcheck.check.statement import Monomials, Relation
+from lyapcheck.check.statement import Monomials, Relation, Statement
 from lyapcheck.check.systems.forms import Form
 from lyapcheck.check.systems.system import Entrywise, Member, State, System
 from lyapcheck.check.systems.theorems import Argument, Change, Rest
@@ -298,6 +300,28 @@ def _argued(
             local,
         )
     )
+
+
+def along(loop: System, V: Expr, equals: Expr, gravity: bool = False) -> EveryN:
+    """dV/dt along the loop equals an expression in its letters, for every n.
+
+    Args:
+        loop: the closed loop.
+        V: in its letters, without the energy of gravity.
+        equals: in its letters too.
+        gravity: whether U_g(q) − U_g(q_d) + g(q_d)ᵀe is added to V.
+    """
+    left: Tree = ("rate", V.tree)
+    if gravity:
+        left = ("add", left, ("dot", ("vec", "dg"), ("vec", "w")))
+    used = letters(V.tree)
+    rates = tuple((letter, value) for letter, value in loop.rates().items() if letter in used)
+    return EveryN(left, equals.tree, ("M",), rates, (loop.given,))
+
+
+def rate_at_most(stable: Stable) -> Statement:
+    """The bound dV/dt <= −rate of a theorem as a claim of its own."""
+    return stable.argument.rate_bound()
 
 
 def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:

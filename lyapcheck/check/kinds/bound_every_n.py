@@ -234,7 +234,7 @@ def drawn_entries(statement: BoundEveryN, tries: int) -> Iterator[tuple[int, Dra
     for _ in range(tries):
         for n, ((sides, equations), norms, names) in at.items():
             try:
-                point = norms.shrunk(drawn(names, statement.numbers, random))
+                point = norms.shrunk(norms.upright(drawn(names, statement.numbers, random)))
                 point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
                 given = all(compared(*pair, point) == 0 for pair in equations)
                 sign = compared(*sides, point) if given and norms.hold(point) else None

@@ -21,6 +21,8 @@ from lyapcheck.check.numbers.polynomials import rational
 
 Point = dict[str, Fraction]
 BITS = 256
+NEARLY = 1 - Fraction(1, 2**32)
+"""What a number is lowered by beside its share, as the room that it has is rounded."""
 MOST = 12
 """Entries are quotients of whole numbers up to this."""
 
@@ -127,6 +129,17 @@ class Norms:
         squares = [point[entry] ** 2 for entry in self.entries.names(letter)]
         return max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
 
+    def upright(self, point: Point) -> Point:
+        """The point with matrices that make numbers large, as diag(k) in xᵀdiag(k)x, made positive definite."""
+        for letter in {letter for number, _ in self.least for letter in _matrices(number)}:
+            entries = {entry: abs(point[entry]) for entry in self.entries.names(letter)}
+            if letter[0] == "mat":
+                whole = sum(entries.values(), Fraction(0))
+                rows = self.entries.matrix(letter)
+                entries = {rows[i][i][1]: whole for i in self.entries.joints}
+            point = point | entries
+        return point
+
     def shrunk(self, point: Point) -> Point:
         """The point with letters made smaller until bounds by plain numbers hold."""
         for letters, size in self.norms:
@@ -156,9 +169,16 @@ class Norms:
             free, room = sorted((_names(size) & names) - raised), _value(size, point)
             value = exact(self.entries.number(number), point)
             if room is not None and free and rational(room) > value:
-                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / room
+                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / room * NEARLY
                 point = point | {free[-1]: share * point[free[-1]]}
         return point
+
+
+def _matrices(tree: Tree) -> set[Tree]:
+    """The matrices of an expression."""
+    if tree[0] in ("diag", "mat"):
+        return {tree}
+    return set().union(*(_matrices(part) for part in tree[1:] if isinstance(part, tuple)))
 
 
 def _names(tree: Tree) -> frozenset[str]:
