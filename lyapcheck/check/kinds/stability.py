@@ -49,19 +49,19 @@ class Stable(Statement):
         argument, known = self.argument, THEOREMS[self.argument.theorem]
         system = argument.system
         where = " and ".join(relation_text(one) for one in argument.where)
-        about = [f"τ = {expression_text(system.torque)}"]
-        about += [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
+        about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
         about += [_function_text(f) for f in system.functions]
         origin = ", ".join(f"{name} = 0" for name in system.moving)
         conclusion = known.conclusion
         if argument.local:
-            conclusion = "asymptotically stable, with every motion from where V is less than φ on ‖e‖ = R"
+            conclusion = "asymptotically stable, and attracts what has V below the least φ on ‖e‖ = R,"
         energy = expression_text(argument.energy)
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
+        under = "; ".join([expression_text(system.torque), *about])
         return (
-            f"for {', '.join(_over(system))}{f' with {where}' if where else ''}: {'; '.join(about)} makes "
-            f"{origin} {conclusion}, by {known.name} ({known.reference}) with V = {energy}"
-            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ {expression_text(argument.lower.tree)}, "
+            f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(system))}"
+            f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
+            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {expression_text(argument.lower.tree)}, "
             f"dV/dt ≤ −({expression_text(argument.rate.tree)})"
         )
 

@@ -130,7 +130,7 @@ class Norms:
         return max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
 
     def upright(self, point: Point) -> Point:
-        """The point with matrices that make numbers large, as diag(k) in xᵀdiag(k)x, made positive definite."""
+        """The point with matrices in lower bounds, as diag(k) in xᵀdiag(k)x >= …, made positive definite."""
         for letter in {letter for number, _ in self.least for letter in _matrices(number)}:
             entries = {entry: abs(point[entry]) for entry in self.entries.names(letter)}
             if letter[0] == "mat":

@@ -192,7 +192,7 @@ class Argument:
             own: Tree = ("vec", change.letter)
             system.require_letters(change.equals, {*kept, own}, f"what {change.state} is changed to")
             words = Words((), {}, {}).expand(change.equals)
-            with_own = [word for word in words if word[-1] == own or own in word]
+            with_own = [word for word in words if any(name == change.letter for _, name in word)]
             factor = words.get((own,))
             plain = factor is not None and with_own == [(own,)] and _is_sign(factor)
             require(plain, "change", change.state, f"must be ±{change.letter} and what does not contain it")

@@ -33,7 +33,7 @@ from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
 
 METHOD = "norms for every n"
-TRIES = 100
+TRIES = 40
 """How often entries are drawn for each n."""
 Sizes = dict[tuple[int, ...], arb]
 """A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""

@@ -1,0 +1,385 @@
+"""Closed loops as data: what is derived from them, and arguments of an attacker, which must be refused."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.stability import ByObligations, Stable
+from lyapcheck.check.kinds.stable_arm import StableArm, hessian
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Statement
+from lyapcheck.check.systems.theorems import THEOREMS
+from lyapcheck.check.verify import verify
+from lyapcheck.claims import any_matrix, any_vector, cosh, diagonal, expr, log, sqrt, tanh, var
+from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.systems import (
+    at_arm,
+    constant_goal,
+    exponential,
+    form_of,
+    lasalle,
+    moving_goal,
+    norm,
+    strict,
+    uniform,
+)
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.trig import to_terms
+
+x = var("x")
+TANH = {"gamma": 1, "rho": 1, "secant": 1, "low": "1/2"}
+
+
+class PD:
+    """PD control with gravity compensation, and what shows it to be stable."""
+
+    def __init__(self, goal=None, torque=None, **constants):
+        self.goal = goal = goal or constant_goal()
+        self.e, self.w, self.M = goal.e, goal.w, goal.M
+        self.K, self.D = goal.gains("Kp Kv")
+        self.r, self.b = norm(self.e), norm(self.w)
+        self.pd = self.K @ self.e - self.D @ self.w
+        self.V = self.w @ self.M @ self.w / 2 + self.e @ self.K @ self.e / 2
+        self.above = goal.mu / 2 * self.b**2 + self.K.min / 2 * self.r**2
+        self.rate, self.rest = self.D.min * self.b**2, (self.e, self.K.min * self.r**2)
+        self.torque = self.pd + goal.gravity if torque is None else torque(self)
+
+    def argued(self, theorem=lasalle, **changed):
+        own = {"above": self.above, "rate": self.rate}
+        own |= {"rest": self.rest} if theorem is lasalle else {}
+        V = changed.pop("V", self.V)
+        return theorem(self.goal.under(changed.pop("torque", self.torque)), V, **(own | changed))
+
+
+def why(statement):
+    found = propose(statement)
+    assert found.verdict.value != "proved"
+    return found.reason
+
+
+def test_the_proof_that_faults_are_planted_in():
+    statement = PD().argued()
+    found = propose(statement)
+    assert found.verdict.value == "proved"
+    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
+    assert again == statement
+    assert verify(again, found.proof).grade == "exact"
+
+
+# What is derived ------------------------------------------------------------------------------------------
+
+
+def equal(left, right):
+    """Whether two vectors are equal for every n."""
+    test = ("vec", "x")
+    return propose(EveryN(("dot", test, left), ("dot", test, right.tree))).verdict.value
+
+
+def test_the_force_of_a_regulator_is_that_of_11():
+    pd = PD(constant_goal())
+    C, B = any_matrix("C"), diagonal(any_vector("B"))
+    assert equal(pd.goal.under(pd.torque).force, pd.pd - C @ pd.w - B @ pd.w) == "proved"
+    assert equal(pd.goal.under(pd.torque).force, pd.pd - C @ pd.w) == "refuted"
+    soft = pd.goal.under(pd.pd + pd.goal.gravity_at_goal).force
+    assert equal(soft, pd.pd - C @ pd.w - B @ pd.w - any_vector("dg")) == "proved"
+
+
+def test_the_force_of_a_tracking_scheme_is_that_of_21():
+    pd = PD(moving_goal())
+    goal, C = pd.goal, any_matrix("C") + any_matrix("D")
+    torque = pd.torque + pd.M @ goal.acceleration + goal.C @ goal.velocity + goal.B @ goal.velocity
+    assert equal(goal.under(torque).force, pd.pd - C @ pd.w - goal.B @ pd.w) == "proved"
+    frictionless = replace(goal.under(torque), friction="none").force
+    assert equal(frictionless, pd.pd - C @ pd.w + goal.B @ goal.velocity) == "proved"
+
+
+def test_the_slopes_of_gravity_are_those_of_the_robot():
+    robot = load("pelican2").fixed()
+    entries = hessian(tuple(to_terms(robot.potential)), 2)
+    model, q, step = NumericModel(robot), np.array([0.3, -1.1]), 1e-6
+
+    def at(entry, q):
+        waves = [*np.sin(q), *np.cos(q)]
+        return sum(
+            float(c) * np.prod([v**p for v, p in zip(waves, powers, strict=True)]) for powers, c in entry
+        )
+
+    for j in range(2):
+        ahead, behind = q.copy(), q.copy()
+        ahead[j] += step
+        behind[j] -= step
+        slope = (model.gravity(ahead[None]) - model.gravity(behind[None]))[0] / (2 * step)
+        assert [at(entries[2 * i + j], q) for i in range(2)] == pytest.approx(list(slope), abs=1e-6)
+
+
+# Systems --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("torque", "reason"),
+    [
+        (lambda pd: pd.pd + any_vector("dw"), "dw: has no meaning"),
+        (lambda pd: pd.pd + any_vector("P"), "P: has no meaning"),
+        (lambda pd: pd.pd + any_vector("magic"), "magic: has no meaning"),
+        (lambda pd: pd.pd + any_matrix("A") @ pd.e, "A: has no meaning"),
+        (lambda pd: pd.pd + pd.goal.gravity + pd.goal.velocity, "dqd: has no meaning"),
+        (lambda pd: pd.pd + pd.goal.gravity + var("norm_e") * pd.e, "norm_e: has no meaning"),
+        (lambda pd: pd.pd, "origin: it is refuted"),
+        (lambda pd: pd.pd + pd.goal.gravity + pd.goal.gravity_at_goal, "origin: it is refuted"),
+        (lambda pd: -pd.pd + pd.goal.gravity, "rate: it is refuted"),
+    ],
+)
+def test_a_torque_that_is_another_one(torque, reason):
+    assert reason in why(PD(torque=torque).argued())
+
+
+@pytest.mark.parametrize("name", ["x", "mu", "kc", "e", "dw", "s", "eps0", "K_min", "Kp", "n", "B"])
+def test_a_name_that_is_taken_or_could_be_mistaken(name):
+    pd = PD()
+    pd.goal.gains(name)
+    assert "is taken" in why(pd.argued()) or "underscore" in why(pd.argued())
+
+
+def test_a_function_of_what_is_no_state():
+    pd = PD()
+    pd.goal.entrywise("h", any_vector("g"))
+    assert "which is no state" in why(pd.argued())
+
+
+def test_nothing_can_be_typed_beside_the_system():
+    data = to_json(PD().argued())
+    for key in ("rates", "norms", "least", "given"):
+        for where in (data, data["argument"], data["argument"]["system"]):
+            with pytest.raises(Refused):
+                from_json(
+                    Statement,
+                    json.loads(
+                        json.dumps(
+                            {**data, key: []}
+                            if where is data
+                            else data | {"argument": {**data["argument"], key: []}}
+                        )
+                    ),
+                    "statement",
+                )
+
+
+# Theorems -------------------------------------------------------------------------------------------------
+
+
+def test_lasalles_theorem_is_not_for_what_depends_on_time():
+    pd = PD(moving_goal())
+    torque = (
+        pd.torque + pd.M @ pd.goal.acceleration + pd.goal.C @ pd.goal.velocity + pd.goal.B @ pd.goal.velocity
+    )
+    assert "is not for q_d(t)" in why(pd.argued(torque=torque))
+    assert "is not for q_d(t)" in why(pd.argued(strict, torque=torque, rate=pd.rate + pd.r**2))
+
+
+def test_what_a_form_does_not_see():
+    pd = PD()
+    assert "e: must be seen by sizes that grow" in why(pd.argued(above=pd.goal.mu / 2 * pd.b**2))
+    assert "rest = e: must be seen" in why(pd.argued(rest=None))
+    assert "rate = e: must be seen" in why(pd.argued(strict))
+    assert "rate = w: must be seen" in why(pd.argued(rate=pd.K.min * pd.r**2))
+    assert "rest: it is refuted" in why(pd.argued(rest=(pd.e, 2 * pd.K.min * pd.r**2)))
+    assert "rest: it is refuted" in why(pd.argued(rest=(-pd.e, pd.K.min * pd.r**2)))
+
+
+def test_a_form_that_is_not_positive():
+    pd = PD()
+    assert "above, minor 1" in why(pd.argued(above=pd.goal.mu / 2 * pd.b**2 - pd.K.min * pd.r**2))
+    assert "rate, minor 1" in why(pd.argued(rate=0 * pd.b**2 - pd.D.min * pd.b**2))
+    assert "rest, minor 1" in why(pd.argued(rest=(pd.e, -pd.K.min * pd.r**2)))
+
+
+def test_coefficients_are_constants():
+    pd = PD()
+    assert "goes to 0 far away" in why(
+        pd.argued(above=pd.goal.mu / 2 * pd.b**2 + pd.goal.s * pd.K.min / 2 * pd.r**2)
+    )
+    assert "are no constants" in why(pd.argued(rate=var("free") * pd.b**2))
+    assert "must be about constants" in why(pd.argued(where=[pd.r < 1]))
+    assert "must be about constants" in why(pd.argued(small=True, where=[pd.goal.eps0 > 1]))
+    assert "is not one of a state" in why(pd.argued(above=pd.above + var("norm_magic") ** 2))
+
+
+def test_a_bounded_size_does_not_grow():
+    goal = constant_goal()
+    K, D = goal.gains("Kp Kv")
+    h = goal.entrywise("h", goal.e)
+    loop = goal.under(K @ h - D @ goal.w + goal.gravity)
+    V = goal.w @ goal.M @ goal.w / 2 + K.entries @ h.U
+    kinetic = goal.mu / 2 * norm(goal.w) ** 2
+    rest = {"rate": D.min * norm(goal.w) ** 2, "rest": (h, K.min * norm(h) ** 2)}
+    assert propose(lasalle(loop, V, above=kinetic + K.min * h.sum_U, **rest)).verdict.value == "proved"
+    assert "e: must be seen by sizes that grow" in why(
+        lasalle(loop, V, above=kinetic + K.min * norm(h) ** 2, **rest)
+    )
+
+
+def test_where_v_has_a_corner():
+    pd = PD()
+    eps = pd.goal.eps0 * pd.goal.s
+    for corner in (eps, eps * pd.w @ pd.M @ pd.w, eps * pd.w @ pd.w, pd.goal.s):
+        assert "V is not C¹" in why(pd.argued(V=pd.V + corner)) or "V at the origin" in why(
+            pd.argued(V=pd.V + corner)
+        )
+    assert "not a polynomial" in why(pd.argued(V=sqrt(pd.V)))
+    assert "no meaning in V" in why(pd.argued(V=pd.V + pd.e @ any_vector("dg")))
+    assert "no meaning in V" in why(pd.argued(V=pd.V + pd.r**2))
+    assert "V at the origin" in why(pd.argued(V=pd.V + 1))
+
+
+def test_letters_are_changed_one_to_one():
+    pd = PD()
+    y, z = any_vector("y_w"), any_vector("y_e")
+    for state, equals, reason in (
+        ("w", 2 * y, "must be ±y_w"),
+        ("w", y + y, "must be ±y_w"),
+        ("w", pd.e, "must be ±y_w"),
+        ("w", y + pd.w, "w: has no meaning"),
+        ("w", pd.M @ y, "M: has no meaning"),
+        ("w", y + pd.goal.mu * pd.e, "mu: has no meaning"),
+        ("w", y + diagonal(y) @ pd.e, "must be ±y_w"),
+        ("e", z + pd.w, "is a size of its own"),
+        ("q", y, "is no state"),
+    ):
+        assert reason in why(pd.argued(changes={state: equals}))
+
+
+def test_exponential_needs_norms():
+    pd = PD()
+    below = pd.goal.beta / 2 * pd.b**2 + pd.K.max / 2 * pd.r**2
+    assert "e: must be seen" in why(pd.argued(exponential, below=below))
+    eps = pd.goal.eps0 * pd.goal.s
+    varying = pd.rate + eps * pd.K.min * pd.r**2
+    assert "s: varies" in why(pd.argued(exponential, below=below, rate=varying))
+
+
+def test_a_bound_that_holds_nearby_concludes_nothing_far_away():
+    pd = PD()
+    below = pd.goal.beta / 2 * pd.b**2 + pd.K.max / 2 * pd.r**2
+    assert "is for constant q_d" in why(pd.argued(uniform, below=below, rate=pd.rate + pd.r**2, local=True))
+    assert "attracts what has V below" in pd.argued(local=True).text()
+    assert "globally" not in pd.argued(local=True).text()
+
+
+def test_a_theorem_that_the_checker_does_not_know():
+    argument = replace(PD().argued().argument, theorem="magic")
+    assert "is not one that the checker knows" in why(Stable(argument))
+    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential"}
+
+
+def test_proofs_of_other_obligations_show_nothing():
+    statement = PD().argued()
+    proof = propose(statement).proof
+    for proofs in (proof.proofs[:-1], proof.proofs[::-1], (*proof.proofs, proof.proofs[0]), ()):
+        with pytest.raises(Refused):
+            verify(statement, ByObligations(proofs))
+    stronger = PD().argued(rate=2 * var("Kv_min") * var("norm_w") ** 2)
+    with pytest.raises(Refused):
+        verify(stronger, proof)
+
+
+# Functions ------------------------------------------------------------------------------------------------
+
+
+def regulator(value, potential, **numbers):
+    goal = constant_goal("none")
+    K, D = goal.gains("Kp Kv")
+    h = goal.function("h", goal.e, value, potential, **(TANH | numbers))
+    loop = goal.under(K @ h - D @ goal.w + goal.gravity)
+    V = goal.w @ goal.M @ goal.w / 2 + K.entries @ h.U
+    above = goal.mu / 2 * norm(goal.w) ** 2 + K.min * h.sum_U
+    return lasalle(loop, V, above=above, rate=D.min * norm(goal.w) ** 2, rest=(h, K.min * norm(h) ** 2))
+
+
+U = log(cosh(x))
+
+
+def test_members_of_the_class():
+    assert propose(regulator(tanh(x), U)).verdict.value == "proved"
+    root = sqrt(1 + x**2)
+    assert propose(regulator(x / root, root - 1)).verdict.value == "proved"
+
+
+@pytest.mark.parametrize(
+    ("value", "potential", "numbers"),
+    [
+        (-tanh(x), -U, {}),
+        (tanh(x), 2 * U, {}),
+        (tanh(x), U + 1, {}),
+        (tanh(x), U, {"rho": "1/2"}),
+        (tanh(x), U, {"secant": "1/2"}),
+        (tanh(x), U, {"gamma": "1/2"}),
+        (tanh(x), U, {"low": 2}),
+        (tanh(x), U, {"low": -1}),
+        (tanh(x), U, {"low": "1/2", "start": -1}),
+        (x**3, x**4 / 4, {"gamma": None}),
+        (x, x**2 / 2, {}),
+        (x - tanh(2 * x), x**2 / 2 - log(cosh(2 * x)) / 2, {"gamma": None, "rho": 2, "secant": 2}),
+        (tanh(x) + 1, U + x, {"gamma": 2}),
+        (x / (1 + x**2), log(1 + x**2) / 2, {}),
+    ],
+)
+def test_what_is_no_member_of_the_class(value, potential, numbers):
+    assert propose(regulator(value, potential, **numbers)).verdict.value != "proved"
+
+
+# One arm --------------------------------------------------------------------------------------------------
+
+
+def tomei():
+    pd = PD(torque=lambda pd: pd.pd + pd.goal.gravity_at_goal)
+    kg = pd.goal.kg
+    above = pd.goal.mu / 2 * pd.b**2 + (pd.K.min - kg) / 2 * pd.r**2
+    rest = (pd.e, (pd.K.min - kg) * pd.r**2)
+    return pd.argued(gravity=True, where=[kg < pd.K.min], above=above, rest=rest)
+
+
+def test_one_arm_with_its_numbers():
+    robot = load("pelican2")
+    stable = at_arm(tomei(), robot, Kp="30 30", Kv="7 3")
+    assert propose(stable).verdict.value == "proved"
+    assert "condition 1: it is refuted" in why(at_arm(tomei(), robot, Kp="10 30", Kv="7 3"))
+    numbers = dict(stable.numbers)
+
+    def altered(**changed):
+        return replace(stable, numbers=tuple(sorted((numbers | changed).items())))
+
+    assert "kg: it is refuted" in why(altered(kg=numbers["kg"] / 2))
+    assert "Kp_min" in why(altered(Kp_min=Fraction(31)))
+    assert "must be those of the conditions" in why(altered(beta=Fraction(1)))
+    assert "must be those of the conditions" in why(replace(stable, numbers=()))
+    for gains in (
+        (("Kp", (Fraction(30), Fraction(-30))), ("Kv", (Fraction(7), Fraction(3)))),
+        (("Kp", (Fraction(30),)), ("Kv", (Fraction(7), Fraction(3)))),
+        (("Kv", (Fraction(7), Fraction(3))), ("Kp", (Fraction(30), Fraction(30)))),
+    ):
+        assert "must be" in why(replace(stable, gains=gains))
+    indefinite = replace(stable.arm, mass=((stable.arm.mass[1][1], ()), ((), ())))
+    assert "M:" in why(replace(stable, arm=indefinite))
+
+
+def test_friction_that_a_system_does_not_have():
+    arm = load("pelican2")
+    goal = constant_goal("none")
+    stable = at_arm(PD(goal).argued(), arm, Kp="30 30", Kv="7 3")
+    assert any(stable.arm.viscous)
+    assert "is none in this system" in why(stable)
+    assert isinstance(stable, StableArm)
+
+
+def test_a_form_is_quadratic():
+    r, b = var("norm_e"), var("norm_w")
+    assert form_of(r**2 + 2 * r * b).sizes == ("norm_e", "norm_w")
+    for wrong in (r**3, r * b * b, expr(1) + r**2):
+        with pytest.raises(ValueError, match="a form is quadratic"):
+            form_of(wrong)
