@@ -37,7 +37,7 @@ def test_each_concludes_and_refuses_what_is_wrong(name):
     found = {row.id: row.verdict.value for row in rows}
     assert found == dict.fromkeys(found, "proved") | REFUSED[name]
     conclusion = next(row for row in rows if row.id == "P")
-    assert "stable" in conclusion.statement
+    assert "stable" in conclusion.statement[:200]
     for (script, claim), reason in REASONS.items():
         if script == name:
             assert reason in next(row for row in rows if row.id == claim).decision.reason

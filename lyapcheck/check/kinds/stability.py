@@ -8,12 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import relation_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.systems.system import Entrywise, System
 from lyapcheck.check.systems.theorems import THEOREMS, Argument
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
@@ -26,7 +24,7 @@ FRICTION = {
 
 
 @dataclass(frozen=True)
-class Stable(Statement):
+class Stable(Total):
     """The origin of a system is stable, as an argument by a theorem says."""
 
     argument: Argument
@@ -35,9 +33,11 @@ class Stable(Statement):
         """Refuse an argument that is not of the form of its theorem."""
         self.argument.require_well_formed()
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None of its own: those of the obligations are theirs."""
-        return []
+    @property
+    def theorems(self) -> tuple[tuple[str, str], ...]:
+        """Its own."""
+        known = THEOREMS[self.argument.theorem]
+        return ((known.name, known.reference),)
 
     @property
     def granted(self) -> tuple[str, ...]:
@@ -58,11 +58,11 @@ class Stable(Statement):
         energy = expression_text(argument.energy)
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
         under = "; ".join([expression_text(system.torque), *about])
+        lower, rate = (expression_text(form.tree) for form in (argument.lower, argument.rate))
         return (
             f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(system))}"
             f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
-            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {expression_text(argument.lower.tree)}, "
-            f"dV/dt ≤ −({expression_text(argument.rate.tree)})"
+            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate})"
         )
 
 

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.kinds.constant import Constant
@@ -29,7 +28,7 @@ from lyapcheck.check.kinds.inertia import (
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Monomials, Relation, Statement
+from lyapcheck.check.statement import Monomials, Relation, Statement, Total
 from lyapcheck.check.systems.theorems import Argument
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
@@ -46,7 +45,7 @@ class Arm:
 
 
 @dataclass(frozen=True)
-class StableArm(Statement):
+class StableArm(Total):
     """The origin of a system is stable for this arm and these gains.
 
     ``numbers`` are those of constants in the conditions of the argument.
@@ -99,9 +98,10 @@ class StableArm(Statement):
         known = {"mu", "beta", "kc", "kg", "vd", "R", "eps0", *self.argument.system.constants}
         return name in known and value >= 0 and (value > 0 or name in ("kc", "kg", "vd"))
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        """None of its own."""
-        return []
+    @property
+    def theorems(self) -> tuple[tuple[str, str], ...]:
+        """That of the argument."""
+        return Stable(self.argument).theorems
 
     @property
     def granted(self) -> tuple[str, ...]:
