@@ -15,16 +15,19 @@ from collections.abc import Callable, Sequence
 
 from lyapcheck._types import Progress
 from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.chain import chain_constant
 from lyapcheck.constants.constant import Constant, Task
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
-from lyapcheck.constants.outside import FEW, outside
+from lyapcheck.constants.outside import FEW, from_distances
 from lyapcheck.robots.plant import Plant
 
 GAP = 1e-3
 GAP_OF_MANY = 2e-2
 MAX_BOXES = 60_000
+THOROUGH = 150_000
+"""Boxes times the square of the joints from which k_c of a chain may take a minute."""
 
 
 def arm_constants(
@@ -52,7 +55,9 @@ def arm_constants(
         `lyapcheck.constants.torus` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
         and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
     """
-    arm, makers = ArmWaves(model), _makers(model.n)
+    fixed, makers = model.fixed(), _makers(model.n)
+    along = model.n > FEW and fixed.chain is not None
+    arm = None if along else ArmWaves(fixed)
     enough = (GAP if model.n <= FEW else GAP_OF_MANY) if gap is None else gap
     wanted = [name for name in makers if names is None or name in names]
     found = []
@@ -63,7 +68,10 @@ def arm_constants(
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
         tell(0.0, "sampling")
-        found.append(makers[name](arm).solve(max_boxes, enough, tell, outside(model, name, max_boxes)))
+        if arm is None:
+            found.append(chain_constant(fixed, name, max_boxes * model.n**2 >= THOROUGH))
+        else:
+            found.append(makers[name](arm).solve(max_boxes, enough, tell, from_distances(fixed, name)))
     return tuple(found)
 
 

@@ -12,6 +12,7 @@ from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.outside import ceiling
+from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.constants.torus import PI_ABOVE, Reach, Torus
 
 _SAMPLES = 1024
@@ -29,6 +30,7 @@ class Constant:
         enclosure: both sides.
         state: angles in rad; for k_c followed by the components of x.
         boxes: looked at.
+        shown: a bound from outside that the checker has accepted, where there is one.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Constant:
     enclosure: Enclosure
     state: tuple[float, ...]
     boxes: int
+    shown: Shown | None = None
 
     @property
     def gap(self) -> float:

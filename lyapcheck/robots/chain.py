@@ -82,12 +82,7 @@ class MovingPosture(Posture):
 
     def gravity(self) -> Values:
         """g(q), (n,), N·m."""
-        of, fall = self.of, self.fall
-        found = []
-        for k, link in enumerate(self.links):
-            fall = of.apply(transposed(self.turns[k]), fall)
-            found.append(of.value(of.dot(of.cross(link.axis, fall), self.bodies[k].moment)))
-        return found
+        return self.torques(self.fall)
 
     def potential(self) -> Any:
         """The potential energy −Σ m_k γᵀp_k, J."""

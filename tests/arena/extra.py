@@ -17,6 +17,13 @@ from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.agrees import Agrees, Corners
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.chain import (
+    ChainAbove,
+    ChainBelow,
+    ChainGravityBelow,
+    NoTorque,
+    OwnMoments,
+)
 from lyapcheck.check.kinds.compared import MovingPosture
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
@@ -55,6 +62,8 @@ from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
+from lyapcheck.constants.storage.bounds import storage_proof
+from lyapcheck.robots.dynamics import Chain
 
 Row = tuple[str, Statement, Proof | None]
 
@@ -130,6 +139,29 @@ def of_the_arm() -> Iterator[Row]:
         yield f"{kind.__name__}.friction", kind(MASS, (), STILL), MovingPosture(AT, (), RATES)
     yield "halves", RateOfMass(MASS, (), SPLIT), MovingPosture(AT, (), RATES)
     yield "halves-less", RateLessTwiceCoriolis(MASS, (), SPLIT), MovingPosture(AT, (), RATES)
+
+
+def of_chains() -> Iterator[Row]:
+    """Bounds of M and g along the two links: λmax = 3 + 2√2, g1 = 2 sin q1 + sin(q1 + q2)."""
+    fall = vector(1, 0, 0)
+    chain = Chain(LINKS, fall)
+    for name in ("lambda_max", "k_g", "k_g2"):
+        shown = storage_proof(chain, name)
+        assert shown is not None
+        yield f"chain-{name}", shown.statement, shown.proof
+    yield "chain-moments", ChainAbove(LINKS, F(0)), OwnMoments()
+    rods = tuple(replace(link, inertia=TURN) for link in LINKS)
+    shown = storage_proof(Chain(rods, fall), "lambda_min")
+    assert shown is not None
+    yield "chain-lambda_min", shown.statement, shown.proof
+    yield "chain-no-torque", ChainGravityBelow(LINKS, AXIS, (1, 2), F(0)), NoTorque()
+    yield "chain-small", ChainAbove(LINKS, F(1)), PostureWitness(AT, (), (F(-2), F(5)))
+    yield "chain-large", ChainBelow(LINKS, F(5)), PostureWitness((F(0), F(0)), (), (F(5), F(2)))
+    yield (
+        "chain-torque",
+        ChainGravityBelow(LINKS, fall, (1,), F(29, 10)),
+        PostureWitness((F(8, 5), F(0)), (), ()),
+    )
 
 
 def decreasing(mass: Monomials, eps0: F, kp: F = F(1), viscous: F = F(1)) -> Decreasing:
@@ -221,7 +253,7 @@ def certificate(name: str, statement: Statement, proof: Proof | None) -> Certifi
 
 def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    for rows in (of_the_arm(), of_the_loop(), of_letters_and_numbers()):
+    for rows in (of_the_arm(), of_chains(), of_the_loop(), of_letters_and_numbers()):
         for name, statement, proof in rows:
             text = certificate(name, statement, proof).text()
             (folder / f"{name}.json").write_text(text, encoding="utf-8")

@@ -9,14 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, NoTorque, OwnMoments, StorageForms
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.loop.storage import hinges, turning_form
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.verify import verify
 from lyapcheck.constants import arm_constants
+from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage import storage_bounds
-from lyapcheck.constants.storage.bounds import holds, proved
-from lyapcheck.constants.storage.exact import rounded
-from lyapcheck.constants.storage.hinges import hinges
-from lyapcheck.constants.storage.kinetic import kinetic
-from lyapcheck.constants.storage.problem import turning_forms
-from lyapcheck.constants.storage.program import propose
+from lyapcheck.constants.storage.bounds import storage_proof
+from lyapcheck.constants.storage.problem import doubles, unit_rows
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.shares import but
@@ -67,17 +70,18 @@ def arm_of(name: str, folder: Path) -> RobotModel:
 
 def walked(arm: RobotModel, q: np.ndarray, x: np.ndarray) -> tuple[float, float]:
     """q̇ᵀMq̇ and q̇ᵀg, link by link in the frames of the hinges."""
-    bodies, fall = hinges(arm.chain)
-    twist, free, energy, power = np.zeros(6), rounded(fall), 0.0, 0.0
-    for hinge, angle, rate in zip(bodies, q, x, strict=True):
+    free, twist = np.array([float(g) for g in arm.chain.fall]), np.zeros(6)
+    energy = power = 0.0
+    for hinge, angle, rate in zip(hinges(arm.chain.links), q, x, strict=True):
+        turn, carry, body = (np.array(m, dtype=float) for m in (hinge.turn, hinge.carry, hinge.body))
         c, s = np.cos(angle), np.sin(angle)
         back = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        twist = np.kron(np.eye(2), back) @ rounded(hinge.carry) @ twist
+        twist = np.kron(np.eye(2), back) @ carry @ twist
         twist[2] += rate
-        free = back @ rounded(hinge.turn) @ free
-        energy += twist @ rounded(hinge.body) @ twist
-        moved = float(hinge.mass) * twist[3:] + np.cross(twist[:3], rounded(hinge.moment))
-        power -= free @ moved
+        free = back @ turn @ free
+        energy += twist @ body @ twist
+        moment = np.array([float(entry) for entry in hinge.moment])
+        power -= free @ (float(hinge.mass) * twist[3:] + np.cross(twist[:3], moment))
     return energy, power
 
 
@@ -97,7 +101,7 @@ def test_turning_forms_are_all_that_turns_leave_alone(vectors: int) -> None:
     """They span the kernel of P ↦ KᵀP + PK on symmetric matrices, K being the rate of turning."""
     n = 3 * vectors
     rate = np.kron(np.eye(vectors), np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]]))
-    forms = turning_forms(vectors)
+    forms = [doubles(turning_form(row, vectors)) for row in unit_rows(vectors * (3 * vectors + 1) // 2)]
     assert all(not np.any(rate.T @ form + form @ rate) for form in forms)
     assert np.linalg.matrix_rank([form.ravel() for form in forms]) == len(forms)
     symmetric = [np.eye(n)[[i]].T @ np.eye(n)[[j]] for i in range(n) for j in range(i + 1)]
@@ -139,27 +143,93 @@ def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
 # What must not be accepted -----
 
 
-def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
-    for sign in (1, -1):
-        problem = kinetic(hinges(arm_of("ur5", tmp_path).chain)[0], sign)
-        proposal = proved(problem)
-        assert not holds(problem, replace(proposal, kappa=proposal.kappa - 0.01 * abs(proposal.kappa)))
+def refused(statement: Statement, proof: Proof) -> bool:
+    try:
+        return verify(statement, proof).verdict != "proved"
+    except Refused:
+        return True
 
 
-def test_forms_of_other_joints_do_not_hold(tmp_path: Path) -> None:
-    problem = kinetic(hinges(arm_of("ur5", tmp_path).chain)[0], 1)
-    proposal = proved(problem)
-    assert not holds(problem, replace(proposal, coefficients=np.roll(proposal.coefficients, 1, axis=0)))
-    assert not holds(problem, replace(proposal, coefficients=0 * proposal.coefficients))
+NAMES = ("lambda_min", "lambda_max", "k_g")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_sharper_bound_does_not_hold(name: str, tmp_path: Path) -> None:
+    shown = storage_proof(arm_of("ur5", tmp_path).chain, name)
+    assert not refused(shown.statement, shown.proof)
+    sharper = shown.bound * (F(101, 100) if name == "lambda_min" else F(99, 100))
+    assert refused(shown.at_end(sharper), shown.proof)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_forms_of_other_joints_or_another_arm_do_not_hold(name: str, tmp_path: Path) -> None:
+    shown = storage_proof(arm_of("ur5", tmp_path).chain, name)
+    forms = shown.proof.forms
+    for wrong in ((*forms[1:], forms[0]), tuple((F(0),) * len(row) for row in forms), forms[1:], ()):
+        assert refused(shown.statement, StorageForms(wrong))
+    links = shown.statement.links
+    heavier = (*links[:-1], replace(links[-1], mass=links[-1].mass * 5))
+    if name == "lambda_min":
+        heavier = (*links[:-1], replace(links[-1], mass=F(0), inertia=((F(0),) * 3,) * 3))
+    assert refused(replace(shown.statement, links=heavier), shown.proof)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name: str, tmp_path: Path) -> None:
+    arm = arm_of("leaning", tmp_path)
+    shown, inner = storage_proof(arm.chain, name), extreme(arm, name)
+    witness = PostureWitness(inner.q, (), inner.x)
+    assert refused(shown.statement, witness)
+    more = F(1001, 1000) if name == "lambda_min" else F(999, 1000)
+    found = verify(shown.at_end(inner.value * more), witness)
+    assert (found.verdict, found.grade) == ("refuted", "enclosure")
+
+
+def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
+    arm = arm_of("ur5", tmp_path)
+    found = storage_proof(arm.chain, "k_g5", still=True)
+    assert found.bound == 0
+    assert verify(found.statement, found.proof).grade == "exact"
+    assert storage_proof(arm.chain, "k_g4", still=True) is None
+    leaning = replace(found.statement, fall=(F(0), F(1), F(-9)), joints=(1,))
+    assert refused(leaning, NoTorque())
+
+
+def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
+    chain = arm_of("ur5", tmp_path).chain
+    assert verify(ChainAbove(chain.links, F(0)), OwnMoments()).grade == "exact"
+    assert refused(ChainAbove(chain.links, F(1, 1000)), OwnMoments())
+    still = replace(chain.links[0], mass=F(0), com=(F(0),) * 3, inertia=((F(0),) * 3,) * 3)
+    assert refused(ChainAbove((still, *chain.links[1:]), F(0)), OwnMoments())
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mass": F(-1)},
+        {"axis": (F(1), F(1), F(0))},
+        {"axis": (F(0), F(1))},
+        {"turn": ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(-1)))},
+        {"turn": ((F(2), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
+        {"inertia": ((F(1), F(1), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
+        {"inertia": ((F(-1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
+        {"com": (F(1, 10**401), F(0), F(0))},
+    ],
+)
+def test_what_is_no_link_is_no_statement(changes: dict[str, object], tmp_path: Path) -> None:
+    links = arm_of("leaning", tmp_path).chain.links
+    wrong = (replace(links[0], **changes), *links[1:])  # type: ignore[arg-type]
+    with pytest.raises(Refused):
+        ChainBelow(wrong, F(10**9)).require_well_formed()
 
 
 def test_forms_that_turns_change_would_prove_something_false(tmp_path: Path) -> None:
-    """With any form allowed the program bounds M at q = 0 only; turning forms are what holds for all q."""
-    arm = arm_of("leaning", tmp_path)
-    problem = kinetic(hinges(arm.chain)[0], 1)
-    every = [e + e.T for e in (np.outer(a, b) for a in np.eye(6) for b in np.eye(6))]
-    kappa = propose(replace(problem, forms=every), 0.0).kappa
-    model = NumericModel(arm)
-    assert kappa == pytest.approx(np.linalg.eigvalsh(model.mass(np.zeros(3)))[-1], rel=1e-4)
-    q = np.random.default_rng(0).uniform(-3, 3, (500, 3))
-    assert np.linalg.eigvalsh(model.mass(q)).max() > 1.05 * kappa
+    """ω_x² is no form of the list: a chain of it would bound M at q = 0 only."""
+    coefficients = [F(k, 7) for k in range(1, 8)]
+    form = doubles(turning_form(coefficients, 2))
+    for angle in (0.3, 2.0):
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        np.testing.assert_allclose(turn.T @ form @ turn, form, atol=1e-14)
+    with pytest.raises(ValueError, match="another number of coefficients"):
+        turning_form(coefficients[1:], 2)

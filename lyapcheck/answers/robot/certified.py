@@ -1,7 +1,7 @@
 """Ends of the constants of an arm that certificates show, beside the sharper ones of floating point.
 
-The end that a state shows is a bound refuted at a posture; the other one is shown for all angles by boxes,
-which are for few joints, or by the sizes of harmonics, which are coarse.
+The end that a state shows is a bound refuted at a posture; the other is shown for all angles: for few joints
+by boxes, for more by storage forms along the links, and else by the sizes of harmonics, which are coarse.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck.answers.robot.judged import Answered, Question
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
@@ -30,8 +31,10 @@ from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.finding import Finding, broken, shown
 from lyapcheck.constants import SEED, Constant
 from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel
+from lyapcheck.robots.dynamics import TooLong
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade
 
@@ -84,21 +87,53 @@ def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Ques
     """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
     arm = ArmBounds(model)
     for constant in constants:
-        with precision(BITS):
-            bound = _bound(arm, constant)
+        if constant.shown is not None:
+            yield from _along_links(constant, constant.shown)
+            continue
+        try:
+            with precision(BITS):
+                bound = _bound(arm, constant)
+        except TooLong:
+            continue
         sign = -1 if constant.name == "lambda_min" else 1
         sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
         outer = _outer(arm.robot.n, bound, sign)
         if outer is not None:
-            yield _question(constant.name, sides[0], sign, bound, *outer)
-        inner = max(_rounded(bound.seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
+            yield _question(constant.name, sides[0], sign, bound.state(outer[0]), *outer)
+        inner = _inner(bound.seen, sign)
         if inner > 0 or sign < 0:
-            point = {f"q{i + 1}": str(angle) for i, angle in enumerate(bound.witness.q)}
-            point |= {f"x{i + 1}": str(x) for i, x in enumerate(bound.witness.x)}
-            ends = [list(Enclosure.exact(value).decimals(12)) for value in (bound.seen, inner)]
-            told = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
-            found = broken(bound.witness, "a posture", told)
-            yield _question(constant.name, sides[1], sign, bound, inner, found)
+            found = _at_posture(bound.witness, bound.seen, inner, sign)
+            yield _question(constant.name, sides[1], sign, bound.state(inner), inner, found)
+
+
+def _along_links(constant: Constant, outside: Shown) -> Iterator[Question]:
+    """Both ends of a constant of a chain: its storage forms, and the posture."""
+    sign = -1 if constant.name == "lambda_min" else 1
+    sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
+    found = shown(outside.proof, outside.proof.rule)
+    yield _question(constant.name, sides[0], sign, outside.statement, outside.bound, found)
+    seen = constant.enclosure.lower if sign > 0 else constant.enclosure.upper
+    inner, n = _inner(seen, sign), len(outside.statement.links)
+    if inner > 0 or sign < 0:
+        q, x = (
+            tuple(Fraction(v).limit_denominator(10**7) for v in part)
+            for part in (constant.state[:n], constant.state[n:])
+        )
+        witness = _at_posture(PostureWitness(q, (), x), seen, inner, sign)
+        yield _question(constant.name, sides[1], sign, outside.at_end(inner), inner, witness)
+
+
+def _inner(seen: Fraction, sign: int) -> Fraction:
+    """A little to the safe side of what a posture shows."""
+    return max(_rounded(seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
+
+
+def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> Finding:
+    point = {f"q{i + 1}": str(angle) for i, angle in enumerate(witness.q)}
+    point |= {f"x{i + 1}": str(x) for i, x in enumerate(witness.x)}
+    ends = [list(Enclosure.exact(value).decimals(12)) for value in (seen, inner)]
+    told = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
+    return broken(witness, "a posture", told)
 
 
 def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certified]:
@@ -121,17 +156,19 @@ def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certifie
 
 
 def _value(statement: Statement) -> Fraction:
-    if isinstance(statement, MassAbove):
+    if isinstance(statement, (MassAbove, ChainAbove)):
         return statement.low
-    if isinstance(statement, (MassBelow, CoriolisBelow, GravityBelow)):
+    if isinstance(statement, (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow)):
         return statement.high
     raise TypeError(f"{type(statement).__name__} is no bound of a constant")
 
 
-def _question(name: str, side: str, sign: int, bound: _Bound, value: Fraction, finding: Finding) -> Question:
-    grade = Grade.EXACT if isinstance(finding.proof, HarmonicSizes) else Grade.ENCLOSURE
+def _question(
+    name: str, side: str, sign: int, statement: Statement, value: Fraction, finding: Finding
+) -> Question:
+    grade = Grade.EXACT if isinstance(finding.proof, (HarmonicSizes, NoTorque)) else Grade.ENCLOSURE
     words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {decimal_text(value)}"
-    return Question(f"{name}.{side}", words, bound.state(value), replace(finding, grade=grade))
+    return Question(f"{name}.{side}", words, statement, replace(finding, grade=grade))
 
 
 def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, Finding] | None:

@@ -132,8 +132,6 @@ class PostureWitness(Proof):
 class Bounded(Total):
     """A bound for all postures and parameters of one arm."""
 
-    parameters: tuple[Ends, ...]
-
     @abstractmethod
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
         """Whether it is shown by boxes that are cut until they show it."""

@@ -1,8 +1,8 @@
-"""M(q) of a chain of links in any arithmetic, in O(n²) steps.
+"""M(q) and g(q) of a chain of links in any arithmetic, in O(n²) steps.
 
 Bodies are composed from the tip to the base. With J = ∫ p̂p̂ᵀ dm, p̂ = (p, 1), of all bodies that joint m moves,
 and X_i the twist of joint i as a 4 × 4 matrix, M_im = tr(X_i J X_mᵀ). All is in the frame of a joint: what
-joints before it do never enters M. C(q, x), g(q) and the potential are in ``lyapcheck.robots.chain``.
+joints before it do never enters M. C(q, x) and the potential are in ``lyapcheck.robots.chain``.
 
 References: composite rigid bodies, ``featherstone2008rigid`` chapter 6.
 """
@@ -106,6 +106,14 @@ class Posture:
                 rows[i][m] = rows[m][i] = of.value(of.dot(self.links[i].axis, momentum.torque))
                 momentum = momentum if i == 0 else self.carried(i, momentum)
         return rows
+
+    def torques(self, fall: Vector) -> Values:
+        """g(q), (n,), N·m, for an acceleration of free fall in the base frame, (3,), m/s²."""
+        of, found = self.of, []
+        for k, link in enumerate(self.links):
+            fall = of.apply(transposed(self.turns[k]), fall)
+            found.append(of.value(of.dot(of.cross(link.axis, fall), self.bodies[k].moment)))
+        return found
 
     @cached_property
     def bodies(self) -> list[Body]:

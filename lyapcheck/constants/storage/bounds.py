@@ -1,27 +1,42 @@
-"""From a problem to a certified bound: doubles propose the storage forms, balls decide."""
+"""From a chain to certified bounds: doubles propose the storage forms, the checker decides."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
-import numpy as np
-from flint import arb, ctx, fmpq
-
-from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.constants.storage.exact import Exact, exact
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.constants.storage.hinges import hinges
-from lyapcheck.constants.storage.kinetic import kinetic
-from lyapcheck.constants.storage.problem import Problem
-from lyapcheck.constants.storage.program import Proposal, propose
-from lyapcheck.constants.storage.weight import weight
+from lyapcheck.constants.storage.problem import Problem, energy_problem, weight_problem
+from lyapcheck.constants.storage.program import propose
 from lyapcheck.constants.storage.whirl import whirl_bound
 from lyapcheck.robots.dynamics import Chain
 
+Bound = ChainAbove | ChainBelow | ChainGravityBelow
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
-_BITS = 256
+_DIGITS = 7
+"""Significant digits of a bound; coefficients are kept as the doubles that they are."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A bound as a statement, and its proof."""
+
+    statement: Bound
+    proof: StorageForms | NoTorque
+
+    @property
+    def bound(self) -> Fraction:
+        """λmin(M) from below, the others from above."""
+        return self.statement.low if isinstance(self.statement, ChainAbove) else self.statement.high
+
+    def at_end(self, value: Fraction) -> Bound:
+        """The statement with another bound."""
+        return with_end(self.statement, value)
 
 
 def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
@@ -30,63 +45,66 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
     Returns:
         By the name of the constant a function that gives the bound, or ``None`` where none was certified.
 
-    Soundness: the forms are rational, the slacks are exact, and `lyapcheck.check.loop.arithmetic` shows in
-        balls that they are positive definite; what the solver of semidefinite programs says is not relied on.
+    Soundness: what the solver of semidefinite programs says is not relied on; see `storage_proof`, and for
+        k_c `lyapcheck.constants.storage.whirl`.
     """
-    bodies, fall = hinges(chain)
-    makers: dict[str, Callable[[], Problem]] = {
-        "lambda_min": partial(kinetic, bodies, -1),
-        "lambda_max": partial(kinetic, bodies, 1),
-        "k_g": partial(weight, bodies, fall, range(len(bodies))),
-    }
-    for i in range(len(bodies)):
-        makers[f"k_g{i + 1}"] = partial(weight, bodies, fall, [i])
-    found: dict[str, Callable[[], Fraction | None]] = {
-        name: partial(_bound, make) for name, make in makers.items()
-    }
-    return found | {"k_c": partial(whirl_bound, bodies)}
+    names = ["lambda_min", "lambda_max", "k_g", *(f"k_g{i + 1}" for i in range(chain.n))]
+    found: dict[str, Callable[[], Fraction | None]] = {name: partial(_bound, chain, name) for name in names}
+    return found | {"k_c": lambda: whirl_bound(hinges(chain)[0])}
 
 
-def _bound(make: Callable[[], Problem]) -> Fraction | None:
-    problem = make()
-    proposal = proved(problem)
-    return None if proposal is None else problem.sign * Fraction(proposal.kappa)
+def _bound(chain: Chain, name: str) -> Fraction | None:
+    shown = storage_proof(chain, name)
+    return None if shown is None else shown.bound
 
 
-def proved(problem: Problem) -> Proposal | None:
-    """A proposal that holds, with the smallest margin that suffices; ``None`` where none does."""
-    proposals = (propose(problem, margin) for margin in _MARGINS)
-    return next((found for found in proposals if found is not None and holds(problem, found)), None)
+def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
+    """The best bound of λmin(M), λmax(M), ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
+
+    ``still`` says that no torque was seen: then it is shown to be 0.
+    """
+    problem, statement = _question(chain, name)
+    if still:
+        return _accepted(Shown(statement, NoTorque()))
+    for margin in _MARGINS:
+        found = propose(problem, margin)
+        if found is None:
+            continue
+        # a little to the safe side, so that rounding takes nothing from what was proposed
+        kappa = _above(Fraction(found.kappa) * (1 + Fraction(problem.sign if found.kappa > 0 else -1, 10**8)))
+        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in found.coefficients)
+        shown = _accepted(Shown(with_end(statement, problem.sign * kappa), StorageForms(forms)))
+        if shown is not None:
+            return shown
+    return None
 
 
-def holds(problem: Problem, proposal: Proposal) -> bool:
-    """Whether the forms of the proposal prove its κ."""
-    kappa, forms = _number(proposal.kappa), [_form(problem, row) for row in proposal.coefficients]
-    first = problem.steps[0].carry @ problem.start
-    if any(first) and not kappa >= first @ forms[0] @ first:
-        return False
-    following = [*forms[1:], None]
-    slacks = (problem.slack(k, forms[k], after, kappa) for k, after in enumerate(following))
-    return all(map(_definite, slacks))
-
-
-def _form(problem: Problem, coefficients: Any) -> Exact:
-    """Σ_i c_i form_i, exactly."""
-    total = exact(problem.forms[0] * 0)
-    for coefficient, form in zip(coefficients, problem.forms, strict=True):
-        total = total + exact(form) * _number(coefficient)
-    return total
-
-
-def _number(value: float) -> fmpq:
-    numerator, denominator = float(value).as_integer_ratio()
-    return fmpq(numerator, denominator)
-
-
-def _definite(slack: Exact) -> bool:
-    previous = ctx.prec
-    ctx.prec = _BITS
+def _accepted(shown: Shown) -> Shown | None:
     try:
-        return BALLS.positive_definite([[arb(x) for x in row] for row in np.asarray(slack)])
-    finally:
-        ctx.prec = previous
+        return shown if verify(shown.statement, shown.proof).verdict == "proved" else None
+    except Refused:
+        return None
+
+
+def _question(chain: Chain, name: str) -> tuple[Problem, Bound]:
+    zero = Fraction(0)
+    if name == "lambda_min":
+        return energy_problem(chain, -1), ChainAbove(chain.links, zero)
+    if name == "lambda_max":
+        return energy_problem(chain, 1), ChainBelow(chain.links, zero)
+    joints = range(chain.n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
+    counted = tuple(i + 1 for i in joints)
+    return weight_problem(chain, joints), ChainGravityBelow(chain.links, chain.fall, counted, zero)
+
+
+def with_end(statement: Bound, value: Fraction) -> Bound:
+    """The statement with another bound."""
+    if isinstance(statement, ChainAbove):
+        return replace(statement, low=value)
+    return replace(statement, high=value)
+
+
+def _above(kappa: Fraction) -> Fraction:
+    """The nearest decimal of a few digits that is not below."""
+    scale = Fraction(10) ** (_DIGITS - len(str(int(abs(kappa) * 10**6))) + 6)
+    return Fraction(-((-kappa * scale) // 1)) / scale

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
-from lyapcheck.constants.storage.exact import rounded
-from lyapcheck.constants.storage.problem import Problem
+from lyapcheck.check.loop.storage import slack, stored_at_base, turning_form
+from lyapcheck.constants.storage.problem import Problem, doubles, unit_rows
 
 
 @dataclass
@@ -28,7 +29,7 @@ class Blocks:
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """κ and the coefficients of s_1, …, s_n by the forms of the problem, (n, forms)."""
+    """κ and for each joint the coefficients of its form, (n, forms)."""
 
     kappa: float
     coefficients: Array
@@ -39,37 +40,36 @@ def propose(problem: Problem, margin: float) -> Proposal | None:
 
     The first unknown is κ, then come the coefficients of each s_k.
     """
-    count = len(problem.forms)
-    unknowns = 1 + count * len(problem.steps)
-    blocks = _blocks(problem, margin * max(float(np.abs(rounded(s.cost)).max()) for s in problem.steps))
-    x = solve(blocks, unknowns)
+    count = problem.count
+    unknowns = 1 + count * len(problem.stages)
+    least = margin * max(float(np.abs(doubles(stage.cost)).max()) for stage in problem.stages)
+    x = solve(_blocks(problem, least), unknowns)
     return None if x is None else Proposal(float(x[0]), x[1:].reshape(-1, count))
 
 
 def _blocks(problem: Problem, least: float) -> Blocks:
-    blocks, count = Blocks(), len(problem.forms)
-    first = rounded(problem.steps[0].carry @ problem.start)
-    if first.any():
-        slopes = {0: np.eye(1)} | {1 + i: -_at(form, first) for i, form in enumerate(problem.forms)}
+    """The conditions of `lyapcheck.check.loop.storage`, which are affine in the unknowns."""
+    blocks, count, stages = Blocks(), problem.count, problem.stages
+    units = [turning_form(row, problem.vectors) for row in unit_rows(count)]
+    nothing = units[0] * fmpq(0)
+    if any(problem.fall):
+        at_base = [float(stored_at_base(stages, [form], problem.fall)) for form in units]
+        slopes = {0: np.eye(1)} | {1 + i: np.array([[-x]]) for i, x in enumerate(at_base)}
         blocks.add(np.array([[-least]]), slopes)
-    for k, step in enumerate(problem.steps):
-        push, met = rounded(step.push), np.array(step.met)
-        place = np.ix_(met, met)
-        slopes = {0: rounded(step.price)[place]}
-        for i, form in enumerate(problem.forms):
-            own = np.zeros((push.shape[1],) * 2)
-            own[: len(form), : len(form)] = form
-            slopes[1 + k * count + i] = own[place]
-            if k + 1 < len(problem.steps):
-                moved = rounded(problem.steps[k + 1].carry) @ push
-                slopes[1 + (k + 1) * count + i] = -(moved.T @ form @ moved)[place]
-        cost = push.T @ rounded(step.cost) @ push
-        blocks.add(-cost[place] - least * np.eye(len(met)), slopes)
+    for k in range(len(stages)):
+
+        def part(own: fmpq_mat, after: fmpq_mat, kappa: int, k: int = k) -> Array:
+            following = after if k + 1 < len(stages) else None
+            return doubles(slack(stages, k, own, following, fmpq(kappa)))
+
+        constant = part(nothing, nothing, 0)
+        slopes = {0: part(nothing, nothing, 1) - constant}
+        for i, form in enumerate(units):
+            slopes[1 + k * count + i] = part(form, nothing, 0) - constant
+            if k + 1 < len(stages):
+                slopes[1 + (k + 1) * count + i] = part(nothing, form, 0) - constant
+        blocks.add(constant - least * np.eye(len(constant)), slopes)
     return blocks
-
-
-def _at(form: Array, w: Array) -> Array:
-    return np.array([[w @ form @ w]])
 
 
 def _stacked(matrix: Array) -> Array:

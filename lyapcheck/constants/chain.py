@@ -1,0 +1,43 @@
+"""Constants of a chain of links of any length: a posture from one side, storage forms from the other."""
+
+from __future__ import annotations
+
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.constants.constant import Constant
+from lyapcheck.constants.extreme import extreme
+from lyapcheck.constants.outside import from_distances
+from lyapcheck.constants.storage.bounds import storage_proof
+from lyapcheck.constants.storage.hinges import hinges
+from lyapcheck.constants.storage.whirl import whirl_bound
+from lyapcheck.errors import argument_error
+from lyapcheck.robots.plant import Plant
+
+
+def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
+    """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
+
+    Args:
+        plant: the arm.
+        name: of the constant.
+        thorough: whether k_c may take a minute; else masses and distances alone bound it.
+
+    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, and
+        for k_c see `lyapcheck.constants.storage.whirl`.
+    """
+    inner, chain = extreme(plant, name), plant.chain
+    assert chain is not None
+    still = name.startswith("k_g") and inner.value == 0
+    shown = storage_proof(chain, name, still=True) if still else None
+    if shown is None and name != "k_c":
+        shown = storage_proof(chain, name)
+    outer = from_distances(plant, name) if shown is None else shown.bound
+    if name == "k_c" and (thorough or outer is None):
+        forms = whirl_bound(hinges(chain)[0])
+        outer = min((x for x in (outer, forms) if x is not None), default=None)
+    if outer is None:
+        raise argument_error(
+            name, "", "has no bound: no body has the inertia of some link", "correct the inertias"
+        )
+    low, high = sorted((inner.value, outer))
+    unit = "N·m" if name.startswith("k_g") else "kg·m²"
+    return Constant(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)

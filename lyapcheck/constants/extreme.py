@@ -1,0 +1,120 @@
+"""The posture at which a constant of a chain is reached, as local searches find it; its value in balls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb, ctx
+
+from lyapcheck._types import SEED, Array
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.robots.chain import MovingPosture
+from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.plant import Plant
+
+STARTS = 24
+STEPS = 300
+DIGITS = 10**7
+BITS = 128
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A posture q, rad, a direction x (none for gravity), and what the constant is there, rounded safely."""
+
+    q: tuple[Fraction, ...]
+    x: tuple[Fraction, ...]
+    value: Fraction
+
+
+def extreme(plant: Plant, name: str) -> Extreme:
+    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached: quasi-Newton steps, many starts.
+
+    Soundness: the value is taken in balls at the rational posture; that it is the extreme one is not.
+    """
+    from scipy.optimize import minimize
+
+    chain = plant.dynamics
+    assert isinstance(chain, Chain)
+    n, directed = plant.n, not name.startswith("k_g")
+    sign, merit = _merit(plant, name)
+    rng = np.random.default_rng(SEED)
+    best, least = np.zeros(2 * n), np.inf
+    for start in range(STARTS):
+        q = rng.uniform(-np.pi, np.pi, n) * (start > 0)
+        found = minimize(merit, np.concatenate([q, rng.normal(size=n)]), jac=True, options={"maxiter": STEPS})
+        if found.fun < least:
+            best, least = found.x, float(found.fun)
+    q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
+    x = best[n:] / np.linalg.norm(best[n:])
+    q_exact, x_exact = _short(q), _short(x) if directed else ()
+    return Extreme(q_exact, x_exact, _in_balls(chain, name, q_exact, x_exact, sign))
+
+
+def _merit(plant: Plant, name: str) -> tuple[int, Callable[[Array], tuple[float, Array]]]:
+    """1 for a supremum, −1 for an infimum; what is to be made small, with its gradient, at (q, x)."""
+    import casadi as ca
+
+    from lyapcheck.robots import graph
+
+    n = plant.n
+    z = ca.SX.sym("z", 2 * n)
+    q, x = z[:n], z[n:]
+    square, sign = ca.dot(x, x), -1 if name == "lambda_min" else 1
+    if name in ("lambda_min", "lambda_max"):
+        value = ca.dot(x, graph.mass(plant, q) @ x) / square
+    elif name == "k_c":
+        turned = graph.coriolis(plant, q, x) @ x
+        value = ca.dot(turned, turned) / square**2
+    else:
+        torque = graph.gravity(plant, q)
+        counted = torque if name == "k_g" else torque[int(name.removeprefix("k_g")) - 1]
+        value = ca.dot(counted, counted)
+    aim = -sign * value
+    function = ca.Function("merit", [z], [aim, ca.densify(ca.gradient(aim, z))])
+
+    def merit(point: Array) -> tuple[float, Array]:
+        found: Any = function(point)
+        return float(found[0]), np.array(found[1])[:, 0]
+
+    return sign, merit
+
+
+def _in_balls(
+    chain: Chain, name: str, q: tuple[Fraction, ...], x: tuple[Fraction, ...], sign: int
+) -> Fraction:
+    """The constant there, on the safe side."""
+    with ctx.workprec(BITS):
+        angles, direction = [to_arb(a) for a in q], [to_arb(a) for a in x]
+        sines, cosines = [a.sin() for a in angles], [a.cos() for a in angles]
+        posture = MovingPosture(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
+        if name.startswith("k_g"):
+            torque = posture.gravity()
+            counted = torque if name == "k_g" else [torque[int(name.removeprefix("k_g")) - 1]]
+            return Enclosure.from_arb(_norm(counted)).lower
+        if name == "k_c":
+            turned = _times(posture.coriolis(direction), direction)
+            return Enclosure.from_arb(_norm(turned) / _norm(direction) ** 2).lower
+        moved, size = _times(posture.mass(), direction), _norm(direction)
+        if sign > 0:
+            return Enclosure.from_arb(_norm(moved) / size).lower
+        form = sum((a * b for a, b in zip(direction, moved, strict=True)), arb(0))
+        return Enclosure.from_arb(form / size**2).upper
+
+
+def _times(rows: list[list[arb]], x: list[arb]) -> list[arb]:
+    return [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows]
+
+
+def _norm(x: list[arb]) -> arb:
+    return sum((a * a for a in x), arb(0)).sqrt()
+
+
+def _short(values: Array) -> tuple[Fraction, ...]:
+    return tuple(Fraction(round(float(x) * DIGITS), DIGITS) for x in values)
