@@ -23,6 +23,7 @@ HEADLINES = {
     "a verdict of the gate": ("Constant", "separate balls"),
     "M(q) positive by links": ("MassAbove", "links"),
     "a bound of M(q) by boxes": ("MassBelow", "bisection"),
+    "a bound of M(q) along links": ("ChainBelow", "storage forms"),
     "ε₀ by boxes": ("Decreasing", "M positive and V decreasing", "links", "tree of boxes"),
     "ε₀ by boxes, M(q) positive by boxes": (
         "Decreasing",
