@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -63,15 +63,22 @@ class Job:
     output: Output
     advance: Advance
     unfinished: list[Unfinished] = field(default_factory=list)
+    varied: tuple[tuple[str, RobotModel], ...] = ()
+    """The arm at other values of its numbers, each with what was changed."""
+
+    @property
+    def cases(self) -> list[tuple[GainSet, RobotModel]]:
+        """Each gain set on the arm, and on the arm at other values, then named after them."""
+        found = []
+        for gain_set in self.file.gains:
+            found.append((gain_set, self.model))
+            found += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
+        return found
 
     def each(self) -> list[tuple[GainSet, Advance]]:
         """Each gain set with what tells its share of the progress of all."""
         gains = self.file.gains
-
-        def telling(done: int, name: str) -> Advance:
-            return lambda fraction, note: self.advance((done + fraction) / len(gains), note or name)
-
-        return [(gain_set, telling(done, gain_set.name)) for done, gain_set in enumerate(gains)]
+        return [(one, _telling(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
 
     def fail(self, gain_set: GainSet, reason: str) -> None:
         """Keep why not all that was asked of a gain set could be found out."""
@@ -88,6 +95,10 @@ class Job:
         return number or 0.0
 
 
+def _telling(advance: Advance, done: int, cases: int, name: str) -> Advance:
+    return lambda fraction, note: advance((done + fraction) / cases, note or name)
+
+
 def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
     """The set-point task, by the equations or on the bench."""
     from lyapcheck.answers.simulate.runs import SetPointRuns
@@ -98,11 +109,12 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
 
     runs: list[Run] = []
     mover = experiment if bench else partial(simulate, stop=stop)
-    for gain_set, tell in job.each():
+    for done, (gain_set, arm) in enumerate(job.cases):
+        tell = _telling(job.advance, done, len(job.cases), gain_set.name)
         number = job.watching(eps0, gain_set, tell)
         way = (task.q_d, task.q0, task.w0, task.T)
         try:
-            runs.append(mover(gain_set, job.model, *way, eps0=number, on_progress=tell))
+            runs.append(mover(gain_set, arm, *way, eps0=number, on_progress=tell))
         except SimulationFailed as failure:
             if not isinstance(failure, PromiseBroken):
                 job.fail(gain_set, failure.reason)

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from lyapcheck.cli.parser import Parser
+    from lyapcheck.robots.vary import Vary
 
 
 def add_gain_file(parser: Parser) -> None:
@@ -32,6 +33,32 @@ def add_members(parser: Parser, default: str) -> None:
 def add_certificates(parser: Parser, what: str = "Write the certificates of each gain set there") -> None:
     """``--certificates``, a folder."""
     parser.add_argument("--certificates", metavar="DIR", type=Path, help=f"{what}; see recheck.")
+
+
+def add_vary(parser: Parser) -> None:
+    """``--vary``, as `lyapcheck.robots.vary.Vary.parsed` reads it."""
+    about = (
+        "A range for a number of the arm, in percent of its value or in its unit: viscous=-30%%..+0%%, "
+        "mass=-5%%..+5%%, payload=0..3, base_inertia=0.4..0.6; may be repeated."
+    )
+    parser.add_argument("--vary", metavar="NAME=LO..HI", action="append", help=about)
+
+
+def varies(texts: list[str] | None) -> tuple[Vary, ...]:
+    """What ``--vary`` says.
+
+    Raises:
+        InputError: every text that says nothing.
+    """
+    if not texts:
+        return ()
+    from lyapcheck.cli.complaints import Complaints
+    from lyapcheck.robots.vary import Vary
+
+    wrong = Complaints()
+    found = [wrong.reading(Vary.parsed, text) for text in texts]
+    wrong.tell()
+    return tuple(one for one in found if one is not None)
 
 
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat, default: str = "text") -> None:

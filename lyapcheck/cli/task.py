@@ -45,6 +45,8 @@ _CLASHES = (
     ("--runs", "--experiment"),
     ("--runs", "--keep-going"),
     ("--runs", "--plot"),
+    ("--runs", "--vary"),
+    ("--reference", "--vary"),
     ("--experiment", "--keep-going"),
 )
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from flint import fmpq_mpoly
 
 from lyapcheck.robots import Number, RobotModel, load
+
+if TYPE_CHECKING:
+    from lyapcheck.robots.vary import Vary
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class ArmLimits:
         torque_notes: which torque limits are assumed, and why.
         viscous_notes: which friction is assumed, and why.
         model: the arm itself.
+        varied: whether the limits, and proofs about the arm, are to hold for all of its ranges.
     """
 
     name: str
@@ -33,6 +38,7 @@ class ArmLimits:
     torque_notes: tuple[str, ...] = ()
     viscous_notes: tuple[str, ...] = ()
     model: RobotModel | None = field(default=None, compare=False, repr=False)
+    varied: bool = False
 
     @property
     def n(self) -> int:
@@ -47,6 +53,33 @@ def arm_limits(name: str) -> ArmLimits:
         InputError: no such arm, or a file that describes none.
     """
     return model_limits(load(name))
+
+
+def varied_limits(name: str, varies: tuple[Vary, ...]) -> ArmLimits:
+    """The limits of an arm for all values in some ranges, with what these cost in its notes.
+
+    Raises:
+        InputError: no such arm, or a range of nothing that it has.
+    """
+    nominal, found = arm_limits(name), model_limits(load(name, vary=varies))
+    asked = ", ".join(one.text for one in varies)
+    pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, found.viscous_min)]
+    pairs += [
+        (f"{what} of {joint}", "N·m", before, after)
+        for what, key in (("torque limit", "torque"), ("gravity bound", "gravity"))
+        for joint, before, after in zip(found.joints, getattr(nominal, key), getattr(found, key), strict=True)
+    ]
+    cost = [
+        f"{what} {_shown(after)} instead of {_shown(before)} {unit}"
+        for what, unit, before, after in pairs
+        if before != after and before is not None and after is not None
+    ]
+    note = f"--vary {asked}: {'; '.join(cost) or 'no limit changes'}"
+    return replace(found, viscous_notes=(note, *found.viscous_notes), varied=True)
+
+
+def _shown(value: Fraction) -> str:
+    return f"{float(value):.6g}"
 
 
 def model_limits(model: RobotModel) -> ArmLimits:

@@ -27,6 +27,7 @@ class Limits:
         assumptions: what the numbers rest on that no source prints.
         robot: the arm as it was named; empty where the gain file gives all numbers itself.
         model: the arm; ``None`` where the gain file gives all numbers itself.
+        varied: whether proofs about the arm are to hold for all of its ranges, not at its nominal numbers.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -38,6 +39,7 @@ class Limits:
     assumptions: tuple[str, ...] = ()
     robot: str = ""
     model: RobotModel | None = field(default=None, compare=False, repr=False)
+    varied: bool = False
 
     @property
     def n(self) -> int:
@@ -83,6 +85,7 @@ def limits_for(
         assumptions=notes,
         robot=name,
         model=arm.model,
+        varied=arm.varied,
     )
 
 

@@ -79,17 +79,22 @@ from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
+from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, varied, varied_numbers
 
 EXACT = Fraction(0)
 
 
-def read_arm(path: Path, shown: str | None = None, spread: Fraction = EXACT) -> RobotModel:
+def read_arm(
+    path: Path, shown: str | None = None, spread: Fraction = EXACT, vary: tuple[Vary, ...] = ()
+) -> RobotModel:
     """The arm that a file describes; ``shown`` is the name of the file in messages.
 
     Args:
         path: of the file.
         shown: its name in messages.
-        spread: numbers of M, of the potential and of friction get value·(1 ± spread) if they have no range.
+        spread: numbers of M, of the potential and of friction get value·(1 ± spread) if they have no range;
+            of an arm that names a URDF file masses and friction.
+        vary: ranges in place of those of the file.
 
     Raises:
         InputError: the file cannot be read or describes no arm; carries every problem found.
@@ -100,26 +105,41 @@ def read_arm(path: Path, shown: str | None = None, spread: Fraction = EXACT) -> 
     top = ArmFields(document.data, (), notes)
     title, _ = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
-    if "urdf" in top.data and spread:
-        top.fail("urdf", "has exact numbers only", "leave out the spread, or write the links in the arm file")
     if "urdf" in top.data and not notes.problems:
         from lyapcheck.robots.overlay import read_overlay
 
-        return read_overlay(path, title, remarks, top)
+        return with_ranges(read_overlay(path, title, remarks, top), spread, vary)
     plan = read_plan(top)
     top.close()
     if notes.problems or plan is None:
         raise InputError(notes.problems)
-    model = _model(printable(path.stem), title, remarks, plan, spread)
+    model = _model(printable(path.stem), title, remarks, plan, spread, vary)
+    model = varied(model, vary, (*MOTOR, PAYLOAD))
     check_positive_definite(model, plan.place, notes)
     if notes.problems:
         raise InputError(notes.problems)
     return model
 
 
-def _model(name: str, title: str, remarks: tuple[str, ...], plan: Plan, spread: Fraction) -> RobotModel:
+def with_ranges(model: RobotModel, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
+    """An arm of a URDF file with ranges for masses and friction."""
+    all_of_it = (
+        tuple(Vary(name, 1 - spread, 1 + spread, True) for name in ("mass", "viscous")) if spread else ()
+    )
+    return varied(model, (*all_of_it, *vary))
+
+
+def _model(
+    name: str,
+    title: str,
+    remarks: tuple[str, ...],
+    plan: Plan,
+    spread: Fraction,
+    vary: tuple[Vary, ...],
+) -> RobotModel:
     joints = plan.joints
     numbers = {key: number.widened(spread) for key, number in plan.numbers().items()}
+    numbers = varied_numbers(numbers, vary)
     parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used()}
     dynamics = plan.build(numbers, tuple(parameters))
     for joint in joints:

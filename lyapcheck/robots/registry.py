@@ -8,8 +8,9 @@ from pathlib import Path
 
 from lyapcheck.errors import argument_error
 from lyapcheck.extensions import folders
-from lyapcheck.robots.armfile import EXACT, read_arm
+from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.vary import Vary, require_known
 
 
 def names() -> tuple[str, ...]:
@@ -17,34 +18,46 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(_arms()))
 
 
-def load(name_or_path: str | Path, tip: str | None = None, spread: Fraction = EXACT) -> RobotModel:
+def load(
+    name_or_path: str | Path,
+    tip: str | None = None,
+    spread: Fraction = EXACT,
+    vary: tuple[Vary, ...] = (),
+) -> RobotModel:
     """The built-in arm of that name, or the arm in that ``.toml`` or ``.urdf`` file.
 
     Args:
         name_or_path: the arm.
         tip: for a URDF file, the link that ends the chain; by default that of the most joints.
-        spread: numbers of an arm file that have no range of their own get value·(1 ± spread), 0 ≤ spread < 1.
+        spread: numbers of an arm file that have no range of their own get value·(1 ± spread), 0 ≤ spread < 1;
+            of a URDF file masses and friction.
+        vary: ranges of some numbers, in place of those of the file.
 
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
     """
     if tip is not None and not str(name_or_path).lower().endswith(".urdf"):
         raise argument_error("tip", tip, f"{name_or_path} is no URDF file", "leave it out")
+    found = _loaded(name_or_path, tip, spread, vary)
+    require_known(found, vary)
+    return found
+
+
+def _loaded(
+    name_or_path: str | Path, tip: str | None, spread: Fraction, vary: tuple[Vary, ...]
+) -> RobotModel:
     if str(name_or_path) in names():
-        return _builtin(str(name_or_path), spread)
+        return _builtin(str(name_or_path), spread, vary)
     path = Path(name_or_path)
-    if path.suffix.lower() == ".urdf" and spread:
-        rule = f"{name_or_path} is a URDF file, whose numbers are taken as exact"
-        raise argument_error("spread", float(spread), rule, "leave it out, or write an arm file")
     if path.suffix.lower() == ".urdf":
         from lyapcheck.robots.urdf import read_urdf
 
-        return read_urdf(path, tip=tip)
+        return with_ranges(read_urdf(path, tip=tip), spread, vary)
     if not path.suffix and not path.exists():
         raise argument_error(
             "robot", name_or_path, "is neither a built-in arm nor a file", _advice(str(name_or_path))
         )
-    return read_arm(path, spread=spread)
+    return read_arm(path, spread=spread, vary=vary)
 
 
 def _advice(name: str) -> str:
@@ -56,8 +69,8 @@ def _advice(name: str) -> str:
 
 
 @lru_cache(maxsize=64)
-def _builtin(name: str, spread: Fraction) -> RobotModel:
-    return read_arm(_arms()[name], f"{name}.toml", spread)
+def _builtin(name: str, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
+    return read_arm(_arms()[name], f"{name}.toml", spread, vary)
 
 
 def _arms() -> dict[str, Path]:

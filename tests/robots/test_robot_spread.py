@@ -83,11 +83,13 @@ def test_percentages_out_of_range_are_refused(percent: str) -> None:
     assert "above 0 and below 100" in str(result.exception)
 
 
-def test_urdf_files_have_exact_numbers_only(tmp_path: Path) -> None:
+def test_masses_and_friction_of_urdf_files_are_spread(tmp_path: Path) -> None:
     urdf = Path(__file__).parents[1] / "arms" / "ur5.urdf"
-    with pytest.raises(InputError, match="taken as exact"):
-        load(urdf, spread=F(1, 20))
     overlay = tmp_path / "arm.toml"
-    overlay.write_text(f'title = "UR5"\nurdf = "{urdf}"\n')
-    with pytest.raises(InputError, match="exact numbers only"):
-        load(overlay, spread=F(1, 20))
+    joint = '[[joints]]\nname = "elbow_joint"\nviscous = 2\n'
+    overlay.write_text(f'title = "UR5"\nurdf = "{urdf}"\n{joint}')
+    for file in (urdf, overlay):
+        model = load(file, spread=F(1, 20))
+        assert len(model.parameters) == 6
+        assert all(x.bounds == (F(19, 20) * x.value, F(21, 20) * x.value) for x in model.parameters.values())
+    assert model.viscous[2].bounds == (F("1.9"), F("2.1"))

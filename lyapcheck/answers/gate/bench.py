@@ -57,7 +57,7 @@ def held_anywhere(gains: GainSet, model: RobotModel) -> list[int]:
 
 
 def dry_friction(model: RobotModel) -> list[Fraction]:
-    """Coulomb torques in N·m, 0 where nothing is known."""
+    """Coulomb torques in N·m; 0 where nothing is known."""
     return [Fraction(0) if number is None else number.value for number in model.coulomb]
 
 

@@ -140,7 +140,7 @@ def _looked_into(found: GateResult, viscous_min: Fraction | None) -> GateResult:
         return found
     from lyapcheck.answers.gate.otherwise import proved_otherwise
 
-    return replace(found, otherwise=proved_otherwise(found.gains, model, viscous_min))
+    return replace(found, otherwise=proved_otherwise(found.gains, model, viscous_min, found.limits.varied))
 
 
 def _require_known(deciding: Sequence[str]) -> None:
@@ -161,6 +161,6 @@ def _certificates(
         return [()] * len(gain_file.gains), ()
     from lyapcheck.answers.gate.prover import Prover
 
-    prover = Prover(limits.model, gain_file.bounds.viscous_min)
+    prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied)
     checks = [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
     return checks, prover.assumptions

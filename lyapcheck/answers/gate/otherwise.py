@@ -24,26 +24,31 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 SCALAR, LASALLE = "scalar", "lasalle"
+MOST_RANGED = 3
+"""Joints of an arm for which M(q) ≻ 0 is proved over ranges."""
 MOST_TERMS = 2000
 """Terms of M(q): the proof for an arm with more takes seconds, and is left to those who ask for it."""
 
 
-def proved_otherwise(gains: GainSet, model: RobotModel, viscous_min: Fraction | None) -> Check | None:
+def proved_otherwise(
+    gains: GainSet, model: RobotModel, viscous_min: Fraction | None, ranges: bool = False
+) -> Check | None:
     """The first of both that the checker proves; ``None`` where neither is, or the arm is large.
 
     Args:
         gains: a set that breaks (19).
-        model: the arm, taken at its nominal numbers.
+        model: the arm.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        ranges: for all values of what is uncertain about the arm, and not for the nominal ones.
 
     Soundness: that of ``lyapcheck.check.verify``; that M(q) ≻ 0 is enough is LaSalle's theorem, cited.
     """
-    fixed = model.fixed()
-    if not small(fixed):
+    if not small(model.fixed()) or (ranges and model.n > MOST_RANGED):
         return None
-    found = _scalar(gains, fixed, friction_of(model, viscous_min))
+    arm = model if ranges else model.fixed()
+    found = _scalar(gains, arm, friction_of(model, viscous_min), ranges)
     if found is None or found.verdict != ACCEPTED:
-        found = lasalle(fixed)
+        found = lasalle(arm)
     return found if found.verdict == ACCEPTED else None
 
 
@@ -64,7 +69,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None) -> tuple[Ends, 
     return tuple((viscous_min, max(viscous_min, number.value)) for number in model.viscous)
 
 
-def _scalar(gains: GainSet, fixed: RobotModel, friction: tuple[Ends, ...] | None) -> Check | None:
+def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, ranges: bool) -> Check | None:
     from lyapcheck.family.registry import named
     from lyapcheck.search.closed_loop import closed_loop_of
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
@@ -72,11 +77,11 @@ def _scalar(gains: GainSet, fixed: RobotModel, friction: tuple[Ends, ...] | None
 
     if not named(gains.family, gains.m).bounded:
         return None
-    remember(fixed)
-    closure = closed_loop_of(gains, fixed, Fraction(1))
+    remember(arm)
+    closure = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
     if friction is not None:
         closure = replace(closure, viscous=friction)
-    proof, _ = norm_proof(closure, mass_proof(mass_of(fixed)), conic=False)
+    proof, _ = norm_proof(closure, mass_proof(mass_of(arm)), conic=False)
     if proof is None:
         return None
     found = judged(proof.statement, [proof.certificate])
@@ -84,12 +89,12 @@ def _scalar(gains: GainSet, fixed: RobotModel, friction: tuple[Ends, ...] | None
 
 
 @lru_cache(maxsize=8)
-def lasalle(fixed: RobotModel) -> Check:
-    """Whether M(q) ≻ 0 is proved of an arm without parameters."""
+def lasalle(arm: RobotModel) -> Check:
+    """Whether M(q) ≻ 0 is proved of an arm, for all values of its parameters."""
     from lyapcheck.check.kinds.inertia import MassAbove
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
-    remember(fixed)
-    mass = mass_of(fixed)
-    found = judged(MassAbove(mass, (), Fraction(0)), [mass_proof(mass)])
+    remember(arm)
+    mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
+    found = judged(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
     return Check(LASALLE, None, found, None, None, None, found.reason)

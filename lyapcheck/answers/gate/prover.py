@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle
+from lyapcheck.answers.gate.otherwise import LASALLE, MOST_RANGED, friction_of, lasalle
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged
@@ -31,6 +31,8 @@ CEILINGS = (64, 16, 8, 4, 2)
 """Times the ε₀ of norms: where branch and bound begins, from above."""
 
 _NOMINAL = "certificates are about the arm at its nominal numbers"
+_RANGED = "certificates are about the arm for all values of its ranges"
+_TOO_MANY = f"over ranges an arm of more than {MOST_RANGED} joints has no certificate"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
@@ -38,15 +40,18 @@ _OTHER_FRICTION = (
 
 
 class Prover:
-    """The certificates of gain sets on one arm at its nominal numbers.
+    """The certificates of gain sets on one arm, at its nominal numbers or over its ranges.
 
     Args:
         model: the arm; ``None`` where the gain file gives its limits only.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        ranges: for all values of what is uncertain about the arm, and not for the nominal ones.
     """
 
-    def __init__(self, model: RobotModel | None, viscous_min: Fraction | None = None) -> None:
-        self.model, self.viscous_min = model, viscous_min
+    def __init__(
+        self, model: RobotModel | None, viscous_min: Fraction | None = None, ranges: bool = False
+    ) -> None:
+        self.model, self.viscous_min, self.ranges = model, viscous_min, ranges
 
     def check(self, name: str, gains: GainSet) -> Check:
         """The check of one certificate: its value is the ε₀ proved.
@@ -55,11 +60,13 @@ class Prover:
         """
         if self.model is None:
             return Check(name, None, None, None, None, None, _NO_ARM)
-        setting = Setting(gains, self.model)
+        if self.ranges and self.model.n > MOST_RANGED:
+            return Check(name, None, None, None, None, None, _TOO_MANY)
+        setting = Setting(gains, self.model, self.ranges)
         reason = self._unphysical(setting)
         proof = None
         if not reason and name == LASALLE:
-            return lasalle(setting.fixed)
+            return lasalle(self.model if self.ranges else self.model.fixed())
         if not reason:
             friction = friction_of(self.model, self.viscous_min)
             proof, reason = (
@@ -75,7 +82,9 @@ class Prover:
     @property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about the arm, and that its numbers are nominal."""
-        return () if self.model is None else (_NOMINAL, *self.model.assumptions)
+        if self.model is None:
+            return ()
+        return (_RANGED if self.ranges else _NOMINAL, *self.model.assumptions)
 
     def _unphysical(self, setting: Setting) -> str:
         """Why there is nothing to prove on this arm, looked at once."""

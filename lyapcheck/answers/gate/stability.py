@@ -43,7 +43,8 @@ def _without_19(result: GateResult) -> list[str]:
     known, frictionless = result.stable, result.limits.viscous_min == 0
     if known is not None:
         accepts = f"; {_flags(result, {'19': known.id})} accepts it" if "19" in result.deciding else ""
-        found = f"(19) fails, yet the gains are proved stable without it: {_proof(known)}{accepts}"
+        where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
+        found = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}{accepts}"
         return [found, _NO_FRICTION] if frictionless else [found]
     if not result.limits.robot:
         return [_NO_ARM]
@@ -55,13 +56,10 @@ def _without_19(result: GateResult) -> list[str]:
     ]
 
 
-def _proof(known: Check) -> str:
+def _proof(known: Check, where: str) -> str:
     if known.value is None:
-        return "M(q) ≻ 0 is proved for the arm at its nominal numbers, the rest is LaSalle's theorem"
-    return (
-        f"dV/dt < 0 with ε₀ = {decimal_text(known.value)} ({known.id} certificate, "
-        "for the arm at its nominal numbers)"
-    )
+        return f"M(q) ≻ 0 is proved for the arm {where}, the rest is LaSalle's theorem"
+    return f"dV/dt < 0 with ε₀ = {decimal_text(known.value)} ({known.id} certificate, for the arm {where})"
 
 
 def _flags(result: GateResult, instead: dict[str, str]) -> str:

@@ -16,7 +16,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
-STABLE = {BY_19: "(19)", BY_PROOF: "proof"}
+IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 HEADS = (
     "joint",

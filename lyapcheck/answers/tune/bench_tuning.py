@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
 from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.bench_answer import STABLE, BenchTuning, Candidate
+from lyapcheck.answers.tune.bench_answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.bench_search import Search
 from lyapcheck.answers.tune.obstacles import impossible, unknown
 from lyapcheck.answers.tune.trial import tried
@@ -16,12 +16,14 @@ from lyapcheck.answers.tune.wishes import BY_19, BY_PROOF, Bench
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.robots import load
+from lyapcheck.robots.vary import corners
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.vary import Vary
 
 
 def tune_for(
@@ -30,7 +32,7 @@ def tune_for(
     members: Sequence[int] = (1,),
     bounds: Bounds | None = None,
     against: GainFile | None = None,
-    models: Sequence[RobotModel] = (),
+    varies: tuple[Vary, ...] = (),
     on_progress: Progress | None = None,
 ) -> BenchTuning:
     """The gains that meet what is asked best, for each member and way to show stability.
@@ -41,7 +43,7 @@ def tune_for(
         members: m of each gain set.
         bounds: limits to take instead of the arm's.
         against: gains to try beside them.
-        models: the arm at other values of what is uncertain; the worst of all counts.
+        varies: ranges of the arm's numbers; the worst of motions at their ends counts, limits hold for all.
         on_progress: told the fraction done.
 
     Raises:
@@ -53,13 +55,13 @@ def tune_for(
     References: (6), (10), (11), (19) of reyes2019family.
     """
     model = load(robot)
-    arms = (model, *models)
-    limits = arm_limits(robot, model.n, bounds)
+    limits = arm_limits(robot, model.n, bounds, varies)
+    arms = (model, *(arm for _, arm in corners(load(robot, vary=varies), varies))) if varies else (model,)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
     reasons = [*unknown(limits), *_overloaded(limits)]
     for done, (m, way) in enumerate([] if reasons else jobs):
-        share = _share(on_progress, done, len(jobs), f"m = {m}, {STABLE[way]}")
+        share = _share(on_progress, done, len(jobs), f"m = {m}, {IN_WORDS[way]}")
         search = Search(bench, arms, limits, m, way)
         if not search.possible:
             reasons.append(_none(m, way))
@@ -99,7 +101,7 @@ def _stable(gains: GainSet, way: str, limits: Limits, robot: str) -> str:
     for condition in ("19",) if way == BY_19 else (SCALAR, LASALLE):
         (result,) = gate(file, robot, ("10p", condition))
         if result.verdict == ACCEPTED:
-            return STABLE[way] if condition in ("19", SCALAR) else "LaSalle"
+            return IN_WORDS[way] if condition in ("19", SCALAR) else "LaSalle"
     return ""
 
 
@@ -125,6 +127,6 @@ def _other(gains: GainSet, arms: Sequence[RobotModel], bench: Bench, file: GainF
     for condition, way in (("19", BY_19), (SCALAR, BY_PROOF)):
         (result,) = gate(file_of, None, ("10p", condition))
         if result.verdict == ACCEPTED:
-            stable = STABLE[way]
+            stable = IN_WORDS[way]
             break
     return Candidate(gains, trial, "", stable, ("",) * len(gains.kp), file.path)

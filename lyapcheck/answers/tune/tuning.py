@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.answer import Tuning
@@ -23,6 +24,9 @@ from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
 from lyapcheck.robots import RobotModel, load
 
+if TYPE_CHECKING:
+    from lyapcheck.robots.vary import Vary
+
 WRITTEN_PLACES = 12
 
 
@@ -32,6 +36,7 @@ def tune(
     targets: Targets | None = None,
     bounds: Bounds | None = None,
     against: GainFile | None = None,
+    varies: tuple[Vary, ...] = (),
 ) -> Tuning:
     """The largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets.
 
@@ -41,6 +46,7 @@ def tune(
         targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
         bounds: limits to take instead of the arm's.
         against: gains to compare with; see ``lyapcheck.answers.tune.compare``.
+        varies: ranges of the arm's numbers that the limits are to hold for.
 
     Raises:
         InputError: the arm or a target cannot be used.
@@ -65,7 +71,8 @@ def tune(
     wanted = targets or Targets()
     require_usable(wanted, model.n)
     wanted = _for_each_joint(wanted, model.n)
-    limits, repeated = _limits(robot, model, wanted, bounds or Bounds())
+    limits = arm_limits(robot, model.n, bounds, varies)
+    limits, repeated = _limits(limits, model, wanted, _repeated(bounds or Bounds(), limits, varies))
     sets = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
     _confirm(sets, limits)
     compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
@@ -82,9 +89,16 @@ def _for_each_joint(targets: Targets, n: int) -> Targets:
     )
 
 
-def _limits(robot: str, model: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
+def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:
+    """The bounds that the gain file must repeat: all of them, where they are those of ranges."""
+    known = tuple(limit for limit in limits.torque if limit is not None)
+    if not varies:
+        return bounds
+    return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
+
+
+def _limits(limits: Limits, model: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
     """The limits to tune to, and those that the gain file must repeat."""
-    limits = arm_limits(robot, model.n, bounds)
     if all(share == 1 for share in targets.peak_share):
         return limits, bounds
     torque = tuple(

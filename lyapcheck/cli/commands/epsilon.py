@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot
+from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
@@ -49,6 +49,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--ranges", action="store_true", help=about)
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
     parser.add_real("--spread", about)
+    add_vary(parser)
     about = "Time for branch and bound; the answer then depends on the machine."
     parser.add_real("--seconds", about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
@@ -68,6 +69,7 @@ def run(
     jobs: int,
     ranges: bool,
     spread: float | None,
+    vary: list[str] | None,
     seconds: float | None,
     weights: bool,
     starts: int,
@@ -91,11 +93,14 @@ def run(
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
-    model = load(robot_name(robot, [gain_file]), spread=_share(spread))
+    ranged = varies(vary)
+    model = load(robot_name(robot, [gain_file]), spread=_share(spread), vary=ranged)
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
-    budget = Budget(max_boxes, jobs, ranges or spread is not None, weights, seconds, starts, seed)
+    budget = Budget(
+        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed
+    )
     with progress("epsilon") as advance:
         results, times = _each(chosen, model, budget, advance)
     if folder is not None:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format
+from lyapcheck.cli.options import add_certificates, add_format, add_vary, varies
 from lyapcheck.cli.show import show
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ def arguments(parser: Parser) -> None:
     parser.add_choice("--gamma", GAMMAS, "The certified γ, or the one the paper prints.", default="true")
     about = "What is undecided counts as a failure, exit code 1."
     parser.add_argument("--strict", action="store_true", help=about)
+    add_vary(parser)
     add_certificates(parser, "Write the certificate of each check there")
     add_format(parser)
 
@@ -43,6 +44,7 @@ def run(
     condition: list[str] | None,
     gamma: str,
     strict: bool,
+    vary: list[str] | None,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -62,7 +64,7 @@ def run(
     gc.set_threshold(1_000_000)  # modules and ten thousand sets hold no garbage, and would be looked through
 
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
-    from lyapcheck.control.arm_limits import ArmLimits
+    from lyapcheck.control.arm_limits import ArmLimits, varied_limits
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import InputError, Problem
 
@@ -74,10 +76,15 @@ def run(
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
+    ranges = varies(vary)
     deciding = tuple(condition or DECIDING)
     for file in files:
         try:
-            results.append(gate(read_gain_file(file), robot, deciding, gamma, strict, arms))
+            gain_file = read_gain_file(file)
+            name = robot or gain_file.robot
+            if ranges and name is not None and name not in arms:
+                arms[name] = varied_limits(name, ranges)
+            results.append(gate(gain_file, robot, deciding, gamma, strict, arms))
         except InputError as error:
             problems += error.problems
     answer = GateAnswer(result for found in results for result in found)

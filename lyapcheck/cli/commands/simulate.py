@@ -9,7 +9,7 @@ from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.eps0 import Eps0, eps0_of
 from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
-from lyapcheck.cli.options import add_format, add_gain_file, add_robot
+from lyapcheck.cli.options import add_format, add_gain_file, add_robot, add_vary, varies
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
 
@@ -44,6 +44,7 @@ def arguments(parser: Parser) -> None:
     parser.add_whole("--runs", "So many runs from random starts; tells how the indices spread.")
     parser.add_real("--spread", "Degrees: with --runs, starts lie so far about --start; 45.")
     parser.add_whole("--seed", "Of the random starts; 0.")
+    add_vary(parser)
     about = "Go on after a broken promise instead of stopping there."
     parser.add_argument("--keep-going", action="store_true", help=about)
     about = "Write all samples to this file; - for standard output."
@@ -67,6 +68,7 @@ def run(
     runs: int | None,
     spread: float | None,
     seed: int | None,
+    vary: list[str] | None,
     keep_going: bool,
     csv: str | None,
     plot: Path | None,
@@ -85,9 +87,11 @@ def run(
       lyapcheck simulate gains.toml --experiment --plot figures/
       lyapcheck simulate gains.toml --target 30,-45,60 --csv run.csv
       lyapcheck simulate gains.toml --runs 1000 --spread 90
+      lyapcheck simulate gains.toml --vary viscous=-30%..+0%
     """
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
+    from lyapcheck.robots.vary import corners
     from lyapcheck.tracking.reference import read_reference
 
     gain_file = read_gain_file(file)
@@ -103,11 +107,13 @@ def run(
         "--runs": runs,
         "--spread": spread,
         "--seed": seed,
+        "--vary": vary,
         "--keep-going": keep_going or None,
         "--plot": plot,
     }
     wrong.reading(check_options, [name for name, value in given.items() if value is not None])
     wrong.reading(check_places, csv, plot)
+    ranges = wrong.reading(varies, vary) or ()
     starts = path = task = request = None
     if runs is not None:
         starts = wrong.reading(starts_of, runs, spread, seed)
@@ -117,8 +123,10 @@ def run(
         path = wrong.reading(read_reference, reference, model.n)
         request = wrong.reading(asked.request, model, path, band)
     wrong.tell()
+    name = robot_name(robot, [gain_file])
+    arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()
     with progress("simulate") as advance:
-        job = Job(gain_file, model, Output(csv, plot, format), advance)
+        job = Job(gain_file, model, Output(csv, plot, format), advance, varied=arms)
         stop = not keep_going
         if path is not None and request is not None:
             code = follow(job, path, request, stop=stop)

@@ -8,11 +8,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.tune.wishes import WAYS
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
-from lyapcheck.cli.options import add_format, add_members
+from lyapcheck.cli.options import add_format, add_members, add_vary, varies
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.show import show
 from lyapcheck.errors import InputError, argument_error
@@ -27,8 +26,11 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.wishes import Bench
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
+    from lyapcheck.robots.vary import Vary
 
 ONE = (Fraction(1),)
+WAYS = ("19", "proof")
+"""How stability may be shown."""
 
 PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 
@@ -59,6 +61,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--kv-min", metavar="TORQUES", help=about)
     about = "Lower bound of each joint's damping ratio."
     parser.add_argument("--damping", metavar="RATIOS", help=about)
+    add_vary(parser)
     parser.add_argument("--torque", metavar="TORQUES", help="Torque limits instead of the arm's, N·m.")
     parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds instead of the arm's, N·m.")
     parser.add_argument("--viscous-min", metavar="N", help="λmin(B) instead of the arm's, N·m·s/rad.")
@@ -82,6 +85,7 @@ def run(
     kv_share: str | None,
     kv_min: str | None,
     damping: str | None,
+    vary: list[str] | None,
     torque: str | None,
     gravity: str | None,
     viscous_min: str | None,
@@ -112,6 +116,7 @@ def run(
     if out is not None:
         wrong.reading(require_writable, "--out", out)
     members = wrong.reading(parse_m, m)
+    ranges = wrong.reading(varies, vary) or ()
     targets = _targets(wrong, digits, peak_share, kv_share, kv_min, damping)
     bounds = _bounds(wrong, robot, targets, torque, gravity, viscous_min)
     against = wrong.reading(_against, robot, compare)
@@ -128,8 +133,8 @@ def run(
         wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
     wrong.tell()
     if wishes and bench is not None:
-        return _tune_for(robot, bench, members or (), bounds, against, out, format)
-    tuning = tune(robot, members or (), targets, bounds, against)
+        return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
+    tuning = tune(robot, members or (), targets, bounds, against, ranges)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
     if format != "toml":
@@ -148,6 +153,7 @@ def _tune_for(
     members: Sequence[int],
     bounds: Bounds,
     against: GainFile | None,
+    ranges: tuple[Vary, ...],
     out: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -157,7 +163,7 @@ def _tune_for(
     from lyapcheck.cli.progress import progress
 
     with progress("tune") as advance:
-        tuning = tune_for(robot, bench, members, bounds, against, on_progress=advance)
+        tuning = tune_for(robot, bench, members, bounds, against, ranges, on_progress=advance)
     if out is not None and tuning.own:
         write_whole(out, bench_file_text(tuning, out.parent))
     if format == "toml":

@@ -1,0 +1,222 @@
+"""What a user supposes to be uncertain about an arm, on top of what its file says: ``viscous=-30%..+0%``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product
+from typing import TYPE_CHECKING, Any, cast
+
+from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots.dynamics import Chain, Share
+from lyapcheck.robots.number import Number
+
+if TYPE_CHECKING:
+    from lyapcheck.robots.model import RobotModel
+
+OPTION = "--vary"
+PAYLOAD = "payload"
+MOTOR = ("viscous", "coulomb", "torque_limit", "gravity_bound")
+"""Numbers of a joint that enter neither M nor the potential."""
+MOST_CORNERS = 32
+_FORM = re.compile(r"(\w+)=([+-]?[\d.]+)(%?)\.\.([+-]?[\d.]+)(%?)", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Vary:
+    """One number of an arm, or one of every joint or link, with a range.
+
+    Args:
+        name: of a number such as ``base_inertia``, or what such names end in: ``viscous``, ``mass``. A
+            ``payload`` is a mass at the centre of mass of the last link.
+        low, high: the range, in the number's unit or as shares of its value.
+        relative: whether they are shares: −30 % is 0.7.
+    """
+
+    name: str
+    low: Fraction
+    high: Fraction
+    relative: bool = False
+
+    @classmethod
+    def parsed(cls, text: str) -> Vary:
+        """The meaning of ``NAME=LO..HI``, both in percent of the number's value or both in its unit.
+
+        Raises:
+            InputError: text of another form, or an empty range.
+        """
+        found = _FORM.fullmatch(text.replace(" ", "").replace("−", "-"))
+        repair = "write --vary viscous=-30%..+0%, or --vary payload=0..3"
+        if found is None or bool(found[3]) != bool(found[5]):
+            raise argument_error(OPTION, text, "is not of the form NAME=LO..HI", repair)
+        try:
+            low, high = Fraction(found[2]), Fraction(found[4])
+        except ValueError:
+            raise argument_error(OPTION, text, "has an end that is no number", repair) from None
+        if found[3]:
+            low, high = 1 + low / 100, 1 + high / 100
+        if low > high:
+            raise argument_error(OPTION, text, "is an empty range", "give the smaller end first")
+        return cls(found[1], low, high, bool(found[3]))
+
+    @property
+    def text(self) -> str:
+        """As it is typed."""
+        ends = [100 * (x - 1) if self.relative else x for x in (self.low, self.high)]
+        unit = "%" if self.relative else ""
+        return f"{self.name}={'..'.join(decimal_text(x) + unit for x in ends)}"
+
+    def matches(self, key: str) -> bool:
+        """Whether a number of that name is meant."""
+        return key == self.name or key.endswith(f"_{self.name}")
+
+    def of(self, number: Number) -> Number:
+        """The number with the range in place of its own; its value stays where it lies within."""
+        low, high = (
+            (self.low * number.value, self.high * number.value) if self.relative else (self.low, self.high)
+        )
+        low, high = min(low, high), max(low, high)
+        return replace(number, value=min(max(number.value, low), high), low=low, high=high)
+
+
+def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dict[str, Number]:
+    """The numbers, those that are meant with their ranges."""
+    found = dict(numbers)
+    for vary in varies:
+        found |= {key: vary.of(number) for key, number in found.items() if vary.matches(key)}
+    return found
+
+
+def varied(
+    model: RobotModel, varies: Sequence[Vary], parts: Sequence[str] = (*MOTOR, "mass", PAYLOAD)
+) -> RobotModel:
+    """An arm with ranges for friction and limits, and where its links are known for their masses.
+
+    Args:
+        model: the arm.
+        varies: the ranges.
+        parts: what may be changed here: numbers of joints, ``mass``, ``payload``.
+
+    Raises:
+        InputError: a range with a friction below 0, or a mass that is not positive.
+    """
+    told: dict[str, Number] = {}
+    changed: dict[str, Any] = {}
+    for part in MOTOR:
+        keys = [f"{joint}_{part}" for joint in model.joints]
+        known = {
+            key: number for key, number in zip(keys, getattr(model, part), strict=True) if number is not None
+        }
+        now = varied_numbers(known, varies) if part in parts else known
+        told |= {key: number for key, number in now.items() if number is not known[key]}
+        changed[part] = tuple(now.get(key) for key in keys)
+    masses = _masses(model, varies, parts)
+    _require_physical(told | masses)
+    numbers = model.numbers | told | masses
+    if masses:
+        chain = model.dynamics
+        assert isinstance(chain, Chain)
+        links = tuple(
+            replace(link, mass=cast(Any, Share(key))) if (key := f"{joint}_mass") in masses else link
+            for joint, link in zip(model.joints, chain.links, strict=True)
+        )
+        changed["dynamics"] = Chain(links, chain.fall, (*chain.names, *masses))
+        changed["parameters"] = model.parameters | masses
+    return replace(model, numbers=numbers, **changed)
+
+
+def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> dict[str, Number]:
+    """The masses of links that get a range, by the name of their joint."""
+    if not isinstance(model.dynamics, Chain) or "mass" not in parts:
+        return {}
+    links = zip(model.joints, model.dynamics.links, strict=True)
+    known = {
+        f"{joint}_mass": Number(link.mass, "kg") for joint, link in links if isinstance(link.mass, Fraction)
+    }
+    found = varied_numbers(known, varies)
+    last = f"{model.joints[-1]}_mass"
+    for vary in varies:
+        if vary.name == PAYLOAD and last in known:
+            own = found[last]
+            found[last] = Number(
+                own.value + vary.low, "kg", low=own.bounds[0] + vary.low, high=own.bounds[1] + vary.high
+            )
+    return {key: number for key, number in found.items() if number is not known[key] and number.ranged}
+
+
+def _require_physical(numbers: Mapping[str, Number]) -> None:
+    problems = [
+        Problem(
+            "argument",
+            None,
+            OPTION,
+            f"{key} from {decimal_text(number.bounds[0])}",
+            rule,
+            "raise the lower end",
+        )
+        for key, number in numbers.items()
+        for rule in (
+            ["must be positive"] if key.endswith(("mass", "torque_limit")) and number.bounds[0] <= 0 else []
+        )
+        + (["must not be negative"] if number.bounds[0] < 0 else [])
+    ]
+    if problems:
+        raise InputError(problems)
+
+
+def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
+    """Refuse names that the arm has no number for.
+
+    Raises:
+        InputError: every such name.
+    """
+    names = {PAYLOAD} if isinstance(model.dynamics, Chain) else set()
+    keys = [*model.numbers, *(f"{joint}_mass" for joint in model.joints if names)]
+    wrong = [one for one in varies if one.name not in names and not any(map(one.matches, keys))]
+    if wrong:
+        known = sorted({key.rpartition("_")[2] for key in keys if not key[-1].isdigit()} | names)
+        repair = f"use one of {', '.join(known)}, or the name of a number that lyapcheck robot shows"
+        rule = f"{model.name} has no number of that name"
+        raise InputError([Problem("argument", None, OPTION, one.name, rule, repair) for one in wrong])
+
+
+def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, RobotModel]]:
+    """The arm at the ends of what varies: each number alone if these are few, else all of a name together.
+
+    Yields:
+        What was changed, and the arm with exact numbers. Between the ends nothing is tried.
+    """
+    keys = [key for key in model.numbers if any(_is_meant(one, key, model) for one in varies)]
+    groups = [[key] for key in keys if model.numbers[key].ranged]
+    if 2 ** len(groups) > MOST_CORNERS:
+        groups = [[key for (key,) in groups if _is_meant(one, key, model)] for one in varies]
+    for ends in product((0, 1), repeat=len(groups)):
+        values = {
+            key: model.numbers[key].bounds[end]
+            for group, end in zip(groups, ends, strict=True)
+            for key in group
+        }
+        text = ", ".join(f"{key} = {decimal_text(value)}" for key, value in values.items())
+        yield text, at_values(model, values)
+
+
+def _is_meant(vary: Vary, key: str, model: RobotModel) -> bool:
+    return vary.matches(key) or (vary.name == PAYLOAD and key == f"{model.joints[-1]}_mass")
+
+
+def at_values(model: RobotModel, values: Mapping[str, Fraction]) -> RobotModel:
+    """The arm with exact values for some of its numbers, the others of M and the potential nominal."""
+    fixed = model.fixed(**{key: value for key, value in values.items() if key in model.parameters})
+    parts: dict[str, Any] = {}
+    for part in MOTOR:
+        rows = zip(model.joints, getattr(model, part), strict=True)
+        parts[part] = tuple(
+            replace(number, value=values[key], low=None, high=None)
+            if (key := f"{joint}_{part}") in values
+            else number
+            for joint, number in rows
+        )
+    return replace(fixed, **parts)

@@ -1,0 +1,123 @@
+"""``--vary``: ranges that a user puts on numbers of an arm, on arm files and on URDF files alike."""
+
+from __future__ import annotations
+
+from fractions import Fraction as F
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import Bench, Wishes, tune_for
+from lyapcheck.control.arm_limits import varied_limits
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.vary import Vary, corners
+from lyapcheck.simulate.task import PAPER_TASK
+
+UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+
+
+def varied(name: str, *texts: str):
+    return robots.load(name, vary=tuple(map(Vary.parsed, texts)))
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "low", "high", "relative"),
+    [
+        ("viscous=-30%..+0%", "viscous", F(7, 10), F(1), True),
+        ("viscous = −30% .. 10%", "viscous", F(7, 10), F(11, 10), True),
+        ("payload=0..3", "payload", F(0), F(3), False),
+        ("base_inertia=0.4..0.6", "base_inertia", F("0.4"), F("0.6"), False),
+    ],
+)
+def test_what_is_typed_is_read_exactly(text: str, name: str, low: F, high: F, relative: bool) -> None:
+    found = Vary.parsed(text)
+    assert (found.name, found.low, found.high, found.relative) == (name, low, high, relative)
+    assert Vary.parsed(found.text) == found
+
+
+@pytest.mark.parametrize(
+    "text", ["viscous", "viscous=30%", "viscous=1..30%", "viscous=2..1", "v=1..2..3", "v=a..1"]
+)
+def test_text_of_another_form_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="--vary"):
+        Vary.parsed(text)
+
+
+def test_friction_and_numbers_of_an_arm_file_get_ranges() -> None:
+    model = varied("buap3", "viscous=-30%..+0%", "shoulder_gravity=30..40")
+    assert [number.bounds[0] for number in model.viscous] == [F("0.2842"), F("1.6016"), F("0.2842")]
+    assert model.parameters["shoulder_gravity"].bounds == (30, 40)
+    assert robots.load("buap3").viscous[0].bounds[0] == F("0.406")
+
+
+def test_masses_and_payload_of_a_urdf_arm_move_its_dynamics() -> None:
+    """At the ends of the range M is that of the arm with those masses."""
+    nominal, model = robots.load(UR5), varied(UR5, "mass=-10%..+10%", "payload=0..3")
+    own = nominal.chain.links[-1].mass
+    assert model.parameters["wrist_3_joint_mass"].bounds == (own * F(9, 10), own * F(11, 10) + 3)
+    q = np.random.default_rng(1).uniform(-3, 3, (5, 6))
+    exact = nominal.chain
+    heavy = model.fixed(**{name: number.bounds[1] for name, number in model.parameters.items()})
+    links = tuple(
+        type(link)(link.axis, link.origin, mass, link.com, link.inertia, link.turn)
+        for link, mass in zip(exact.links, (n.bounds[1] for n in model.parameters.values()), strict=True)
+    )
+    assert heavy.chain.links == links
+    same = model.fixed(**{name: link.mass for name, link in zip(model.parameters, exact.links, strict=True)})
+    np.testing.assert_allclose(
+        NumericModel(same).mass(q), NumericModel(nominal).mass(q), rtol=1e-13, atol=1e-15
+    )
+
+
+def test_the_corners_are_the_ends_of_all_that_varies() -> None:
+    varies = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "base_inertia=0.4..0.6")))
+    model = robots.load("buap3", vary=varies)
+    found = dict(corners(model, varies))
+    assert len(found) == 16
+    assert {float(arm.viscous[0].value) for arm in found.values()} == {0.2842, 0.406}
+    assert not any(arm.parameters or arm.viscous[0].ranged for arm in found.values())
+    many = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "mass=-10%..+10%")))
+    assert len(list(corners(robots.load(UR5, vary=many), many))) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("buap3", "foo=1..2", "has no number of that name"),
+        ("buap3", "payload=0..1", "has no number of that name"),
+        ("buap3", "viscous=-130%..0%", "must not be negative"),
+        (UR5, "mass=-100%..0%", "must be positive"),
+    ],
+)
+def test_ranges_that_no_arm_has_are_refused(name: str, text: str, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        varied(name, text)
+
+
+def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
+    """λmin(B) falls by 30 %, so that k_v = 0.233 breaks (19); stability is proved over the ranges."""
+    file = read_gain_file(paper_gain_file())
+    limits = varied_limits("buap3", (Vary.parsed("viscous=-30%..+0%"),))
+    answer = gate(file, arms={"buap3": limits})
+    assert [one.standing for one in answer] == ["breaks (19), stability proved otherwise"] * 3
+    assert "--vary viscous=-30%..0%: λmin(B) 0.2842 instead of 0.406 N·m·s/rad" in str(answer)
+    certificate = answer[0].stable
+    assert certificate is not None
+    assert tuple(certificate.judgement.statement.viscous[0]) == (F("0.2842"), F("0.406"))
+    assert certificate.judgement.statement.parameters
+    assert certificate.value < gate(file)[1].stable.value
+    accepted = gate(file, deciding=("10p", "scalar"), arms={"buap3": limits})
+    assert [one.verdict for one in accepted] == ["accepted"] * 3
+
+
+def test_tuning_counts_the_worst_arm() -> None:
+    bench = Bench(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
+    found = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
+    assert found.arms == 3
+    assert "each on 3 arms" in str(found).replace("\n", " ")
