@@ -26,8 +26,6 @@ SAID = {
     "answers.gate.judge": (2, GATHERED),
     "answers.recheck": (2, SORTING),
     "answers.robot.report": (1, HEADING),
-    "answers.tune.bench_answer": (1, "names of the conditions by which the gate accepts"),
-    "answers.tune.bench_tuning": (3, "names of the conditions by which the gate accepts, said where it does"),
     "claims.decision": (1, "what a fresh process of the checker said"),
     "claims.finding": (3, "what a search proposes, which the rules are asked about before it is shown"),
     "claims.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
