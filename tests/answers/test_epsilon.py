@@ -160,6 +160,7 @@ def test_pd_has_no_published_number() -> None:
     assert found.witness is not None
 
 
+@pytest.mark.slow
 def test_gains_that_break_19_have_an_empty_18() -> None:
     found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=1, max_boxes=50)
     assert found.published is None

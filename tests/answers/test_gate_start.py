@@ -105,6 +105,7 @@ def test_the_summary_of_a_job_is_added_to(monkeypatch: pytest.MonkeyPatch, tmp_p
         show(answer, "github")
 
 
+@pytest.mark.slow
 def test_a_summary_of_many_sets_keeps_to_the_size_that_is_shown(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

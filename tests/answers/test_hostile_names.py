@@ -237,6 +237,7 @@ def test_no_page_of_a_report_obeys_a_name(
     assert "&lt;script&gt;" in pages["index.html"]
 
 
+@pytest.mark.slow
 def test_figures_show_a_name_with_dollars(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -258,6 +258,7 @@ def test_formats_say_the_same_twice() -> None:
         assert ("| λmin(M) |" in first[1]) == (form == "markdown")
 
 
+@pytest.mark.slow
 def test_what_was_not_proved_is_seen_first_and_fails_at_its_file() -> None:
     file = str(ARMS / "ur5.urdf")
     model = robots.load(file)

@@ -64,6 +64,7 @@ def test_json_follows_its_schema(lyapcheck):
     assert lyapcheck(PD, "--format", "json", "--eps0", "0.01").stdout == done.stdout
 
 
+@pytest.mark.slow
 def test_joints_that_do_not_settle_have_no_settling_time(lyapcheck):
     (_, second, _) = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
     assert None in second["settling"]

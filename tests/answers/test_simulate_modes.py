@@ -108,6 +108,7 @@ def test_a_recording_lasts_as_long_as_it_was_recorded(lyapcheck, single, tmp_pat
     assert "--time = 2: is longer than the recording, which ends at 0.8 s" in longer.stderr
 
 
+@pytest.mark.slow
 def test_figures_of_tracking_have_their_data_beside_them(lyapcheck, single, wave, tmp_path):
     place = tmp_path / "plots"
     place.mkdir()
@@ -131,6 +132,7 @@ def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it(lyapcheck):
         assert result["breach"]["value"] > result["breach"]["limit"] == 0.0
 
 
+@pytest.mark.slow
 def test_keep_going_tells_of_the_promise_and_goes_on(lyapcheck):
     done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json", "--keep-going", "--time", 1)
     assert done.returncode == 1
@@ -193,6 +195,7 @@ def test_a_run_of_a_batch_is_the_run_by_itself():
     assert np.all(np.abs(found.q0) <= 0.5)
 
 
+@pytest.mark.slow
 def test_a_batch_that_breaks_a_promise_says_where(lyapcheck):
     done = lyapcheck(TABLE2, "--runs", 5, "--eps0", 50, "--format", "json")
     assert done.returncode == 1

@@ -47,6 +47,7 @@ def test_a_thousand_rows_of_fifty_digits():
     assert done.stdout.count("\n") > 2000
 
 
+@pytest.mark.slow
 def test_every_digit_shown_is_that_of_an_enclosure_of_120_digits(shown):
     assert set(shown) == set(range(1, 1001))
     for m in range(2, 1001):

@@ -30,6 +30,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
+from tests.helpers.shares import one_in
 
 ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
@@ -72,12 +73,15 @@ def require_largest(tuning, members, folder):
 
 @pytest.mark.parametrize(
     ("robot", "digits"),
-    [
-        *(("buap3", digits) for digits in (1, 2, 3, 6, 12)),
-        *(("buap3-small", digits) for digits in (2, 3, 9)),
-        *(("reyes-kelly2", digits) for digits in (3, 5)),
-        *(("pendulum1", digits) for digits in (2, 12)),
-    ],
+    one_in(
+        4,
+        [
+            *(("buap3", digits) for digits in (1, 2, 3, 6, 12)),
+            *(("buap3-small", digits) for digits in (2, 3, 9)),
+            *(("reyes-kelly2", digits) for digits in (3, 5)),
+            *(("pendulum1", digits) for digits in (2, 12)),
+        ],
+    ),
 )
 def test_no_gain_of_the_built_in_arms_can_be_one_unit_larger(robot, digits, tmp_path):
     members = (1, 2, 3, 12, 500)

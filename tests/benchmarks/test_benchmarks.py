@@ -54,6 +54,7 @@ def test_an_arm_of_many_joints_has_one_share():
     assert cells(text, "ur5 (n = 6)")[1:] == ["1", "1.25", "77.4%", "5 / 4.00 s / 3.00 s"]
 
 
+@pytest.mark.slow
 def test_certificates_are_measured_on_the_joints_an_arm_has():
     shares = (Fraction(9, 10), Fraction(99, 100))
     (result,) = certificates.benchmark(("pendulum1",), (4,), shares)
@@ -107,6 +108,7 @@ def test_many_gain_sets_by_hand_give_the_same_verdicts():
     assert "300 gain sets" in result.command
 
 
+@pytest.mark.slow
 def test_the_start_is_measured_beside_that_of_python():
     result = gate.start(gate.TABLE2, "pass", "Python alone", runs=2)
     assert float(result.agreement.split()[0]) > 0

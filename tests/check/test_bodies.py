@@ -84,6 +84,7 @@ def test_a_link_without_a_moment_about_its_axis_proves_nothing() -> None:
         verify(positive(arm), proof)
 
 
+@pytest.mark.slow
 def test_properties_of_a_six_joint_arm_are_decided_by_the_proof_script() -> None:
     result = run_proof("published.py", [1], UR5, only=["2.1", "2.2", "2.3", "2.4", "2.5", "2.6"])
     assert {row.id: row.verdict for row in result.claims} == dict.fromkeys(

@@ -116,6 +116,7 @@ def test_the_same_proof_gives_the_same_bytes_without_paths(published):
     assert not any("/work" in c.text() or "home" in c.text() for c in published.values())
 
 
+@pytest.mark.slow
 def test_every_decided_claim_has_one_and_uses_name_the_digests(published):
     result = run_proof("published.py", ms=(2,))
     decided = [row for row in result.claims if row.verdict in (Verdict.PROVED, Verdict.REFUTED)]
@@ -224,6 +225,7 @@ def test_with_a_new_digest_it_is_refused_or_still_true(made, changes):
     assert len(survived) > 50 * changes, "changes that keep a statement true must be among them"
 
 
+@pytest.mark.slow
 def test_other_operations_are_refused_or_still_true(made):
     refused, survived = survivors(made, 12, words, other_words)
     for name, path, new, forged in survived:
@@ -231,6 +233,7 @@ def test_other_operations_are_refused_or_still_true(made):
     assert refused > len(survived) > 100
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_published_certificates_do_not_survive_changes_that_matter(published, data):
     certificate = data.draw(st.sampled_from([published[name] for name in sorted(published)]))

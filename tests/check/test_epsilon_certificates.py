@@ -147,6 +147,7 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     assert "3 accepted" in again.output
 
 
+@pytest.mark.slow
 def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
     """With one box nothing but norms or bounds in ‖e‖ is left."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
@@ -163,6 +164,7 @@ def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: P
     assert "without a certificate" in text
 
 
+@pytest.mark.slow
 def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> None:
     arm = 'title = "t"\nsource = "a test"\n[model]\nM11 = [[1, ""], [1.05, "c2"]]\nM12 = [[0.1, ""]]\n'
     arm += 'M22 = [[1, ""]]\npotential = [[-1, "c1"]]\n'
@@ -175,6 +177,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
     assert not [name for name in certificates(found) if "falsified" not in name]
 
 
+@pytest.mark.slow
 def test_an_unbounded_function_has_nothing_certified() -> None:
     gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
     found = epsilon(gains, load("buap3"), starts=2, max_boxes=100)

@@ -34,6 +34,7 @@ from lyapcheck.claims import (
 )
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
+from tests.helpers.shares import one_in
 
 A, B, S = (any_matrix(name) for name in "ABS")
 x, y, z, d = (any_vector(name) for name in "xyzd")
@@ -172,7 +173,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
-@pytest.mark.parametrize(("equation", "count"), [("14", 16), ("15", 11)])
+@pytest.mark.parametrize(("equation", "count"), one_in(2, [("14", 16), ("15", 11)]))
 def test_every_fault_in_a_term_is_refuted(equation, count, change):
     statement_of, terms_of = EQUATIONS[equation]
     terms = terms_of(L)

@@ -71,6 +71,7 @@ def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) 
         verify(decreasing(load(str(arm(tmp_path))), gains, "0.001"), decision.proof)
 
 
+@pytest.mark.slow
 def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
     claims = ("arm.M", "arm.C", "arm.theta", "arm.stable", "arm.states", "arm.ranges", "arms.all")
     result = run_proof("scalar.py", ms=(1,), robot=str(arm(tmp_path)), gains=GAINS, only=claims)

@@ -121,6 +121,7 @@ def test_in_a_directory_it_is_the_same(folder):
     assert recheck(gather([folder])).code == 1, "refused outranks undecided"
 
 
+@pytest.mark.slow
 def test_a_theorem_whose_premises_are_invented_is_undecided(tmp_path):
     """Digests that nobody can check prove nothing, in a file of its own or beside others."""
     made = run_proof("scalar.py", ms=(2,)).certificates

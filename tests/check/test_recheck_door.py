@@ -109,7 +109,7 @@ def plant(folder, what):
     return said
 
 
-@pytest.mark.parametrize("what", PLANT)
+@pytest.mark.parametrize("what", one_in(3, PLANT))
 def test_an_entry_that_is_no_certificate_is_refused_and_the_rest_goes_on(folder, what):
     said = plant(folder, what)
     found = statuses(folder)
@@ -118,7 +118,7 @@ def test_an_entry_that_is_no_certificate_is_refused_and_the_rest_goes_on(folder,
     assert found["x.json"][1].startswith(said)
 
 
-@pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
+@pytest.mark.parametrize("command", one_in(2, [MODULE, COMMAND]), ids=["module", "command"])
 @pytest.mark.parametrize("what", [what for what in PLANT if what != "directory"])
 def test_named_by_itself_it_is_exit_code_2(folder, what, command):
     said = plant(folder, what)

@@ -140,6 +140,7 @@ def test_the_action_annotates_and_fails(gains, robot, code, words, tmp_path, env
     assert summary.startswith("# ") if code < 2 else summary == ""
 
 
+@pytest.mark.slow
 def test_the_action_takes_conditions_and_strictness(tmp_path, environment):
     """No torque limit of the Pelican is known: (10p) is undecided, and (19) holds."""
     text = 'robot = "pelican2"\n[[gains]]\nname = "a"\nm = 1\nkp = [1, 1]\nkv = [0.01, 0.01]\n'

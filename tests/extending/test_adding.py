@@ -44,7 +44,7 @@ def test_the_page_shows_files_and_commands_for_each_of_the_five() -> None:
         assert {type(item) for item in items} == {File, Call}
 
 
-@pytest.mark.parametrize("title", one_in(2, TITLES))
+@pytest.mark.parametrize("title", one_in(4, TITLES))
 def test_each_command_prints_what_the_page_says(workshop: Workshop, title: str) -> None:
     """Each command after the files that stand before it."""
     workshop.up_to(title)
@@ -98,6 +98,7 @@ class TestKind:
         assert done.returncode == 1
         assert "verdict = proved: the proof gives refuted" in done.stdout
 
+    @pytest.mark.slow
     def test_a_checker_without_the_file_does_not_look_for_it(self, made: Workshop) -> None:
         """Neither beside the certificates nor where the user has files of his own."""
         source = made.copy / "lyapcheck" / "check" / "kinds" / "hurwitz.py"
@@ -142,6 +143,7 @@ assert f.h(np.inf) == 1
         done = furnished.python(code)
         assert not done.stderr
 
+    @pytest.mark.slow
     def test_without_balls_for_the_checker_it_runs_and_is_not_certified(self, furnished: Workshop) -> None:
         run = "lyapcheck simulate gentle.toml --target 30 --time 8"
         assert furnished.run(run, copied=False).stdout == furnished.run(run).stdout != ""
@@ -191,7 +193,7 @@ class TestArm:
 class TestAnswer:
     """An answer; the package is the one that is installed."""
 
-    @pytest.mark.parametrize("form", FORMATS)
+    @pytest.mark.parametrize("form", one_in(4, FORMATS))
     def test_it_has_every_format(self, furnished: Workshop, form: str) -> None:
         done = furnished.run(f"lyapcheck torque gentle.toml --format {form}", copied=False)
         assert done.returncode == 0, done.stderr

@@ -199,6 +199,7 @@ def test_robot_properties_hold_for_other_arms(robot):
     assert [(row.id, row.verdict.value) for row in rows] == [(name, "proved") for name in ids]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", one_in(2, ["pendulum1", "reyes-kelly2"]))
 def test_what_an_arm_file_does_not_say_leaves_claims_open_not_broken(robot):
     rows = run_proof("published.py", ms=(2,), robot=robot).claims

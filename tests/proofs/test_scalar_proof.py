@@ -129,6 +129,7 @@ def test_states_know_better_than_norms_until_one_is_found(altered):
     }
 
 
+@pytest.mark.slow
 def test_another_arm_with_gains_of_its_own():
     gains = SCRIPT.parent / "table2_shoulder_elbow.toml"
     assert set(verdicts("scalar.py", robot="reyes-kelly2", gains=gains).values()) == {"proved"}

@@ -34,6 +34,7 @@ def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
     assert "3 accepted" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "n"), ARMS)
 def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) -> None:
     """Numbers alone: the path of the arm depends on where the file is written."""

@@ -115,6 +115,7 @@ def compare(arm: robots.RobotModel, other: Arm) -> None:
             assert np.max(np.abs(mine - theirs)) <= 1e-12 * max(1.0, np.max(np.abs(theirs)))
 
 
+@pytest.mark.slow
 def test_energy_is_kept_without_friction() -> None:
     """d/dt (½ wᵀMw + U) = wᵀ(τ − Bw) = 0: the slope of the energy along a step vanishes to second order."""
     arm = robots.load(ARMS / "panda.urdf", "panda_hand")
@@ -143,6 +144,7 @@ def test_seven_joints_keep_the_skew_symmetry_exactly() -> None:
                 assert slope == arm.christoffel[i][j][k] + arm.christoffel[j][i][k]
 
 
+@pytest.mark.slow
 def test_pivots_from_the_tip_are_never_below_the_link_alone() -> None:
     """D_k = det of the trailing block over the next smaller one."""
     for file, tip in (("ur5", None), ("panda", "panda_hand")):

@@ -210,6 +210,7 @@ def test_more_disturbance_leaves_more() -> None:
     assert levels[0] < levels[1]
 
 
+@pytest.mark.slow
 def test_a_torque_that_moves_the_arm_away_from_its_goal_is_bounded() -> None:
     at = setting("reyes-kelly2", 0)
     found = disturbance_bound(at, [0.0, 0.0], torque=[0.05, 0.05])

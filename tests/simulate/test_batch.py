@@ -130,6 +130,7 @@ def test_the_error_falls_with_the_eighth_power_of_the_step():
     assert 1.5 < fine / coarse < 2.1
 
 
+@pytest.mark.slow
 def test_both_engines_find_the_same_motions(request):
     model, first = robots.load("buap3"), starts(3, 9)
 

@@ -162,6 +162,7 @@ def test_both_ways_of_moving_the_arm_agree():
     np.testing.assert_allclose(torques, explicit.tau[:400], rtol=0, atol=0.05)
 
 
+@pytest.mark.slow
 def test_the_same_request_gives_the_same_bytes():
     first, second = table_run(TABLE2[2]), table_run(TABLE2[2])
     assert runs_csv([first]) == runs_csv([second])

@@ -205,6 +205,7 @@ def arm_at(at: tuple[float, ...]) -> RobotModel:
     return replace(fixed, **friction)
 
 
+@pytest.mark.slow
 def test_an_arm_that_explains_a_print_does_so_in_the_other_simulator(small: Study) -> None:
     for found in small.sets:
         index = found.numbers[0]
