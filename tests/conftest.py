@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 from contextlib import redirect_stdout
 from pathlib import Path
 from subprocess import CompletedProcess
@@ -12,11 +13,16 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from lyapcheck import store
+
 # The same properties in both; ``make test-slow`` looks at more examples. No deadlines: how long an example
 # takes says more of the machine than of the code.
 settings.register_profile("fast", deadline=None, max_examples=25)
 settings.register_profile("thorough", deadline=None, max_examples=400)
 settings.load_profile("fast")
+
+# What an earlier run has found is not what is tested, nor does a test leave anything to a later run.
+os.environ[store.OFF] = "1"
 
 
 @pytest.fixture(scope="module")

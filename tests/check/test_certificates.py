@@ -167,8 +167,8 @@ def other_numbers(old):
     return [str(new) for new in changes if new != value]
 
 
-def test_any_number_changed_is_refused_by_the_digest(made, published):
-    for certificate in (*made.values(), *published.values()):
+def test_any_number_changed_is_refused_by_the_digest(made):
+    for certificate in made.values():
         data = json.loads(certificate.text())
         places = numbers(data)
         for path in places[:: 1 + len(places) // 25]:

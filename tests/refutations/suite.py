@@ -20,7 +20,7 @@ from tests.refutations.statements import Part, parts
 LEAST = 150
 """How many planted faults there must be."""
 FEW = 14
-"""The fast tests plant faults in one statement of so many."""
+"""The fast tests plant faults in one statement of so many of a kind."""
 
 Item = TypeVar("Item")
 Decide = Callable[[Statement], Verdict]
@@ -56,8 +56,11 @@ def planted() -> Planted:
 
 @lru_cache(maxsize=1)
 def partly_planted() -> Planted:
-    """The same in a few of the statements: enough for the fast tests."""
-    return plant(parts()[::FEW])
+    """The same in a few of the statements of each kind: enough for the fast tests."""
+    kinds: dict[type[Statement], list[Part]] = {}
+    for part in parts():
+        kinds.setdefault(type(part.statement), []).append(part)
+    return plant(part for found in kinds.values() for part in found[::FEW])
 
 
 def plant(originals: Iterable[Part]) -> Planted:

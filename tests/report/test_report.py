@@ -265,6 +265,7 @@ def test_published_epsilons_are_held_against_the_others(row: dict[str, Any], cou
     assert len(findings(NOTES, [], {}, [row])) == count
 
 
+@pytest.mark.slow
 def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text('robot = "pendulum1"\n[[gains]]\nname = "mine"\nm = 2\nkp = [3]\nkv = [0.2]\n')

@@ -126,6 +126,7 @@ def test_parameters_enter_along_the_links_as_in_the_polynomials(tmp_path: Path) 
     assert along != all_of(arm.at(sin, cos, Fraction), x)
 
 
+@pytest.mark.slow
 def test_polynomials_of_long_skew_chains_are_not_written_out(tmp_path: Path) -> None:
     file = tmp_path / "arm.urdf"
     file.write_text(generic(12))
