@@ -30,12 +30,14 @@ class Subject:
         ms: the members of the family.
         gain_files: the gains; sets of other members are left out, those without a member (PD) stay.
         own: whether arm or gains are others than the paper's: it is then about these alone.
+        map: whether the map over m and k_v is to be computed; that of the paper's arm is at hand.
     """
 
     robot: str
     ms: tuple[int, ...]
     gain_files: tuple[GainFile, ...]
     own: bool = False
+    map: bool = False
 
     @property
     def sets(self) -> list[tuple[GainFile, str]]:
@@ -92,11 +94,19 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         runs=found.runs,
         sensitivity=found.sensitivity,
         findings=weighed,
+        bench=_bench(subject, model, found.cells),
         figures=dict(sorted((found.figures | draw_damping(gate)).items())),
         certificates=dict(sorted(found.certificates.items())),
         versions={name: version(name) for name in PACKAGES},
         seed=SEED,
     )
+
+
+def _bench(subject: Subject, model: RobotModel, cells: Sequence[Data]) -> Data:
+    from lyapcheck.report.bench import bench
+    from lyapcheck.report.jobs import goal_of
+
+    return bench(model, tuple(subject.of_family.values()), goal_of(model), cells)
 
 
 def _gate(subject: Subject) -> list[Data]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -12,10 +12,11 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
+from lyapcheck.report.bench import kept_map
 from lyapcheck.report.drawings import draw_comparisons, draw_family, draw_sensitivity, draw_set, draw_sides
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import small_path
-from lyapcheck.report.jobs import PaperData, claims_job, gains_job, paper_job
+from lyapcheck.report.jobs import PaperData, claims_job, gains_job, map_job, paper_job
 from lyapcheck.report.model import Data
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending
@@ -44,6 +45,7 @@ class Computed:
     epsilon: tuple[Data, ...]
     runs: tuple[Data, ...]
     sensitivity: Data | None
+    cells: Sequence[Data]
     figures: Files
     certificates: dict[str, str]
 
@@ -85,6 +87,7 @@ def compute(subject: Subject, notes: Notes, tell: Progress) -> Computed:
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
+        cells=jobs.map.result() if jobs.map else kept_map(load(subject.robot)),
         figures=figures,
         certificates=certificates,
     )
@@ -103,6 +106,7 @@ class Jobs:
         sets: ε₀ and simulation of each gain set.
         paper: the claims of the paper, with small witnesses.
         others: those of the other proofs.
+        map: the map over m and k_v, where it is asked for.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
     """
@@ -110,6 +114,7 @@ class Jobs:
     sets: list[Job]
     paper: Job
     others: list[Job]
+    map: Job | None
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
 
@@ -128,7 +133,8 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
     others = [start(proof, claims_job, proof, *about) for proof in OTHERS]
-    return Jobs(sets, paper, others, labels, dict.fromkeys(sets, draw_set))
+    cells = start("map", map_job, subject.robot, subject.of_family) if subject.map else None
+    return Jobs(sets, paper, others, cells, labels, dict.fromkeys(sets, draw_set))
 
 
 def _drawn(jobs: Jobs, tell: Progress) -> Files:

@@ -29,7 +29,7 @@ def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> dict[
     chosen = {entry.m: one.name for one in gain_sets if (entry := printed_entry(one, model))}
     if not chosen:
         return None
-    study: dict[str, Any] = json.loads(_results().read_text(encoding="utf-8"))
+    study: dict[str, Any] = json.loads(study_file("printed_experiment").read_text(encoding="utf-8"))
     if study.pop("arm") != arm_digest(model):
         return None
     sets = [one | {"name": chosen[one["m"]]} for one in study["sets"] if one["m"] in chosen]
@@ -43,8 +43,8 @@ def arm_digest(model: RobotModel) -> str:
     return sha256(repr((model.name, model.joints, numbers)).encode()).hexdigest()
 
 
-def _results() -> Path:
-    """In an installed package, or in a checkout."""
+def study_file(name: str) -> Path:
+    """The results of a study: in an installed package, or in a checkout."""
     package = Path(str(resources.files("lyapcheck")))
-    inside = package / "report" / "printed_experiment.json"
-    return inside if inside.is_file() else package.parent / "studies" / "printed_experiment" / "results.json"
+    inside = package / "report" / f"{name}.json"
+    return inside if inside.is_file() else package.parent / "studies" / name / "results.json"

@@ -153,7 +153,23 @@ def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
     if model.n == len(PAPER_TASK.q_d):
         task = PAPER_TASK
         return simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0, stop=False)
-    return simulate(gain_set, model, [REST] * model.n, eps0=eps0, stop=False)
+    return simulate(gain_set, model, goal_of(model), eps0=eps0, stop=False)
+
+
+def goal_of(model: RobotModel) -> list[float]:
+    """The goal of the runs: the paper's for an arm of three joints, else 45° in every joint; rad."""
+    from lyapcheck.simulate.task import PAPER_TASK
+
+    return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
+
+
+def map_job(robot: str, sets: Mapping[int, GainSet]) -> list[dict[str, Any]]:
+    """The map over m and k_v."""
+    from lyapcheck.report.bench import gain_map
+    from lyapcheck.robots import load
+
+    model = load(robot)
+    return gain_map(model, sets, goal_of(model))
 
 
 def _run_data(run: Run) -> RunData:

@@ -91,6 +91,7 @@ class Report:
         runs: simulated runs, one a gain set, the PD baseline last.
         sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
         findings: the heaviest first.
+        bench: what the page needs to try gains.
         figures: SVG text, PNG and CSV by file name.
         certificates: by their paths, those that the checker has accepted.
         versions: the software that was used.
@@ -109,6 +110,7 @@ class Report:
     runs: tuple[Data, ...]
     sensitivity: Data | None
     findings: tuple[Finding, ...]
+    bench: Data
     figures: Mapping[str, str | bytes] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)

@@ -58,6 +58,7 @@ def files(found: dict[str, Any]) -> dict[str, str | bytes]:
         ms=(1,),
         notes=NOTES,
         own=False,
+        bench={"map": []},
         sensitivity=found,
         figures=draw_sensitivity(found),
         **(empty | {"findings": found_out}),

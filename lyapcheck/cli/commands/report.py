@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--robot", metavar="ROBOT", help="A built-in arm or an arm file.")
     about = "A gain file; the paper's Table 2 and its PD baseline if missing."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
+    about = "Compute the map over m and k_v for the page, some minutes; that of the paper's arm is at hand."
+    parser.add_argument("--map", action="store_true", help=about)
     about = "The folder to write to."
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("reports"), help=about)
     about = "Which of html, md and json, separated by commas."
@@ -46,6 +49,7 @@ def run(
     m: list[str],
     robot: str | None,
     gains: Path | None,
+    map: bool,  # noqa: A002
     out: Path,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -64,7 +68,7 @@ def run(
 
     formats = _formats(format)
     require_folder("--out", out)
-    subject = _subject(",".join([*m, *members]), robot, gains)
+    subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
     from lyapcheck.report.build import build
 
     with progress("report") as advance:

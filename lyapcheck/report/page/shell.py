@@ -44,7 +44,7 @@ def render(report: Report) -> str:
         element("a", "Skip to the findings", href="#findings", class_="skip"),
         element("header", _navigation(), class_="bar"),
         element("main", sections),
-        element("script", raw("page.js")),
+        element("script", raw("page.js"), raw("bench.js")),
     )
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 

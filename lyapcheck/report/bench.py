@@ -1,0 +1,108 @@
+"""What the page needs to try gains: numbers of the arm in floating point, and the map over m and k_v."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lyapcheck.report.model import Data
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+
+MOST = 8
+"""The largest m of the sliders."""
+POSTURES = 13
+SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
+"""k_v of the map, N·m."""
+BOXES = 20_000
+"""Budget of branch and bound for one place of the map."""
+DIGITS = 3
+
+
+def bench(
+    model: RobotModel, sets: Sequence[GainSet], goal: Sequence[float], cells: Sequence[Data]
+) -> dict[str, Any]:
+    """Plain data for the page.
+
+    Args:
+        model: the arm.
+        sets: gain sets of the family, to start from.
+        goal: (n,) the step of each joint, rad.
+        cells: of the map; empty where there is none.
+    """
+    from lyapcheck.family import hyperbolic
+    from lyapcheck.robots.numeric import NumericModel
+
+    posture = np.linspace(0.0, np.pi, POSTURES)
+    mass = NumericModel(model).mass(np.repeat(posture[:, None], model.n, axis=1))
+    gammas = [hyperbolic(m).constants().gamma for m in range(1, MOST + 1)]
+    return {
+        "robot": model.name,
+        "joints": list(model.joints),
+        "viscous": [float(number.value) for number in model.viscous],
+        "torque": [None if one is None else float(one.value) for one in model.torque_limit],
+        "gravity": [None if one is None else float(one.value) for one in model.gravity_bound],
+        "posture": [float(f"{x:.6g}") for x in posture],
+        "mass": [[float(f"{x:.6g}") for x in np.diag(one)] for one in mass],
+        "gamma": [float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None],
+        "goal": [float(f"{x:.6g}") for x in goal],
+        "sets": [
+            {"name": one.name, "m": one.m, "kp": [float(k) for k in one.kp], "kv": [float(k) for k in one.kv]}
+            for one in sets
+        ],
+        "map": list(cells),
+    }
+
+
+def gain_map(model: RobotModel, sets: Mapping[int, GainSet], goal: Sequence[float]) -> list[dict[str, Any]]:
+    """For each m and k_v the ε₀ that is proved, and what the reference simulation does.
+
+    Args:
+        model: the arm.
+        sets: a gain set for each m, whose K_p is kept.
+        goal: (n,) the step of each joint from rest at home, rad.
+    """
+    return [_cell(model, one, Fraction(kv), goal) for _, one in sorted(sets.items()) for kv in SCALES]
+
+
+def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) -> dict[str, Any]:
+    from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.simulate.closed_loop import simulate
+
+    gains = replace(one, kv=(kv,) * model.n)
+    found = epsilon(gains, model, max_boxes=BOXES)
+    run = simulate(gains, model, goal, stop=False)
+    settling = None if any(t is None for t in run.settling) else max(float(t) for t in run.settling)
+    peaks = zip(run.peak_torque, model.torque_limit, strict=True)
+    shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
+    return {
+        "m": one.m,
+        "kv": f"{float(kv):g}",
+        "eps0": None if found.certified is None else _down(found.certified),
+        "settling": None if settling is None else float(f"{settling:.{DIGITS}g}"),
+        "share": float(f"{max(shares):.{DIGITS}g}") if shares else None,
+        "within_19": found.published is not None,
+    }
+
+
+def _down(value: Fraction) -> str:
+    """The largest decimal of three digits that is not above it."""
+    from lyapcheck.answers.epsilon.compute import round_down
+
+    return f"{float(round_down(value, DIGITS)):.{DIGITS}g}"
+
+
+def kept_map(model: RobotModel) -> list[Data]:
+    """The map of the paper's arm as the study wrote it; none for another arm."""
+    from lyapcheck.report.experiment import arm_digest, study_file
+
+    path = study_file("gain_map")
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return list(found["map"]) if found and found["arm"] == arm_digest(model) else []
