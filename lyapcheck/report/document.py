@@ -10,7 +10,18 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.model import WEIGHTS, Data, Finding, Report, Witness, applies
-from lyapcheck.report.text import SYMBOLS, and_list, bracket, fixed, joined, member_words, number, span_words
+from lyapcheck.report.text import (
+    SYMBOLS,
+    and_list,
+    bracket,
+    fixed,
+    joined,
+    letter,
+    member_words,
+    number,
+    short_number,
+    span_words,
+)
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.report.words import (
     answer_cell,
@@ -147,7 +158,9 @@ def witness_sentence(witness: Witness) -> str:
     """Where it fails, and both sides there."""
     where = [f"n = {witness.n}"] if witness.n else []
     where += [f"m = {witness.m}"] if witness.m else []
-    where += [f"{name} = {value}" for name, value in witness.point.items() if value != "0"]
+    where += [
+        f"{letter(name)} = {short_number(value)}" for name, value in witness.point.items() if value != "0"
+    ]
     sides = (
         f"{span_words(witness.left)} is not {witness.operator.replace('<=', '≤')} {span_words(witness.right)}"
     )

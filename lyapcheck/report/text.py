@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 from lyapcheck.report.model import Data
@@ -81,3 +82,34 @@ def and_list(names: Sequence[str]) -> str:
 def member_words(ms: Sequence[int]) -> str:
     """``m = 1, 2``; ``every m`` where it concerns all."""
     return f"m = {', '.join(map(str, ms))}" if ms else "every m"
+
+
+LETTERS = {
+    "gamma": "γ",
+    "rho": "ρ",
+    "beta": "β_M",
+    "kc": "k_c",
+    "eps0": "ε₀",
+    "kp": "λmin(K_p)",
+    "kp_min": "λmin(K_p)",
+    "kv": "λmax(K_v)",
+    "b": "λmin(B)",
+    "more": "λmax(B) − λmin(B)",
+    "share": "ε/ε₀",
+}
+OF_JOINTS = {"kp": "k_p", "kv": "k_v", "e": "q̃_", "q": "q_", "w": "q̇_", "x": "x_", "c": "c_"}
+
+
+def letter(name: str) -> str:
+    """A letter of the paper's script as the paper writes it, with the number of its joint."""
+    stem = name.rstrip("0123456789")
+    if name in LETTERS or stem == name or stem not in OF_JOINTS:
+        return LETTERS.get(name, name)
+    return f"{OF_JOINTS[stem]}{name[len(stem) :]}"
+
+
+def short_number(value: str) -> str:
+    """A rational as a decimal where that is exact and short, else as it is."""
+    number = Fraction(value)
+    decimal = f"{float(number):.6g}"
+    return decimal if "e" not in decimal and Fraction(decimal) == number else value

@@ -13,13 +13,21 @@ from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
+from lyapcheck.report.pdf import render as pdf
 from lyapcheck.temporary import pending, try_writing
 
-FORMATS = ("html", "md", "json")
+FORMATS = ("html", "md", "json", "pdf")
+USUAL = FORMATS[:3]
 
 
-def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str | bytes]:
-    """Every file of a report by its name; figures and certificates are shared by the formats."""
+def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = False) -> dict[str, str | bytes]:
+    """Every file of a report by its name; figures and certificates are shared by the formats.
+
+    Args:
+        report: what it says.
+        formats: some of ``FORMATS``.
+        appendix: whether the PDF goes on with claims, gate, runs and the experiment one by one.
+    """
     files: dict[str, str | bytes] = {}
     answer = ReportAnswer(report)
     if "html" in formats:
@@ -29,6 +37,8 @@ def render(report: Report, formats: Sequence[str] = FORMATS) -> dict[str, str | 
         files["report.md"] = answer.written("markdown")
     if "json" in formats:
         files["report.json"] = answer.written("json")
+    if "pdf" in formats:
+        files["report.pdf"] = pdf(report, appendix)
     if set(formats) & {"html", "md"}:
         files |= {f"figures/{name}": drawing for name, drawing in report.figures.items()}
     return {**files, **report.certificates}

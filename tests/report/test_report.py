@@ -361,7 +361,7 @@ BROKEN = [
     (["--m", "1", "2", "-3"], "--m = -3: m must be at least 1"),
     (["--m", "1", "--members", "2"], "--members: is not an option here"),
     (["--format", "docx"], "is not a format"),
-    (["--format", "html,pdf"], "print-to-pdf"),
+    (["--compare", "nowhere"], "cannot be read as a report"),
     (["--robot", "nobody"], "nobody"),
     (["--robot", "reyes-kelly2"], "3 joints"),
     (["--gains", "missing.toml"], "missing.toml"),

@@ -20,12 +20,10 @@ if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
     from lyapcheck.report.model import Report
 
+COMPARED = {"html": "html", "md": "markdown", "json": "json"}
+"""The files of a comparison by the formats they are in."""
 _MEMBERS = "1:3"
 _MOST_MEMBERS = 20
-_PRINT = (
-    "write html and print it, its pages are made for paper: "
-    "chromium --headless --print-to-pdf=report.pdf reports/index.html, or print from any browser"
-)
 
 
 def arguments(parser: Parser) -> None:
@@ -40,8 +38,12 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--map", action="store_true", help=about)
     about = "The folder to write to."
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("reports"), help=about)
-    about = "Which of html, md and json, separated by commas."
+    about = "Which of html, md, json and pdf, separated by commas."
     parser.add_argument("--format", metavar="FORMATS", default="html,md,json", help=about)
+    about = "Let the PDF go on with claims, gate, runs and the experiment one by one."
+    parser.add_argument("--appendix", action="store_true", help=about)
+    about = "An older report (its folder or report.json): what changed goes to compare.html, .md and .json."
+    parser.add_argument("--compare", metavar="OLD", type=Path, help=about)
 
 
 def run(
@@ -52,30 +54,47 @@ def run(
     map: bool,  # noqa: A002
     out: Path,
     format: str,  # noqa: A002
+    appendix: bool,
+    compare: Path | None,
 ) -> Exit:
     """Check proof, gains and closed loop for each m and write it all up in a folder.
 
     Without arguments: the paper's arm and gains for m = 1, 2, 3, into reports/. With --robot or --gains the
     report is about that arm and those gains alone. Exit code 0 when the report is written, whatever it says;
-    2: unusable input.
+    1 with --compare where a verdict got worse; 2: unusable input.
 
     Examples:
       lyapcheck report
       lyapcheck report 1
+      lyapcheck report --format html,pdf --compare reports/before
       lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
+    from lyapcheck.report.compare import compare as compared
+    from lyapcheck.report.compare import read_report
+    from lyapcheck.report.document import ReportAnswer
+    from lyapcheck.report.pdf import require_typst
     from lyapcheck.report.write import render, require_folder, write
 
     formats = _formats(format)
+    if "pdf" in formats:
+        require_typst()
+    old = None if compare is None else read_report(compare)
     require_folder("--out", out)
     subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
     from lyapcheck.report.build import build
 
     with progress("report") as advance:
         report = build(subject, advance)
-    write(render(report, formats), out)
+    files = render(report, formats, appendix)
+    changed = None if old is None else compared(old, ReportAnswer(report).data(), str(compare))
+    if changed is not None:
+        files |= {f"compare.{end}": changed.written(name) for end, name in COMPARED.items()}
+    write(files, out)
     sys.stdout.write(document_text(_summary(report, out, formats)))
-    return Exit.PROVED
+    if changed is None:
+        return Exit.PROVED
+    sys.stdout.write(f"\n{changed}\n")
+    return changed.exit_code
 
 
 def _formats(text: str) -> tuple[str, ...]:
@@ -83,8 +102,6 @@ def _formats(text: str) -> tuple[str, ...]:
 
     wanted = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
     unknown = [part for part in wanted if part not in FORMATS]
-    if "pdf" in unknown:
-        raise argument_error("--format", text, "PDF is not written", _PRINT)
     if unknown:
         known = ", ".join(FORMATS)
         raise argument_error("--format", text, f"{unknown[0]!r} is not a format", f"choose from {known}")
@@ -119,7 +136,7 @@ def _members(files: Iterable[GainFile]) -> list[int]:
 
 def _summary(report: Report, out: Path, formats: tuple[str, ...]) -> str:
     """What was found, in a few lines, and where to read it."""
-    first = {"html": "index.html", "md": "report.md", "json": "report.json"}
+    first = {"html": "index.html", "md": "report.md", "json": "report.json", "pdf": "report.pdf"}
     from lyapcheck.report.verdict import badges, sentences
 
     lines = [f"{badge.subject}: {badge.word}" for badge in badges(report)]

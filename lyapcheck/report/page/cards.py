@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.model import WEIGHTS, Finding, Report, Witness
 from lyapcheck.report.page.drawing import figure
-from lyapcheck.report.text import member_words, span_words
+from lyapcheck.report.text import letter, member_words, short_number, span_words
 
 FOLDED = ("C", "D")
 
@@ -82,9 +81,7 @@ def _witness(witness: Witness) -> Markup:
     where += [f"m = {witness.m}"] if witness.m else []
     zero = [name for name, value in witness.point.items() if Fraction(value) == 0]
     where += [
-        f"{_letter(name)} = {short_number(value)}"
-        for name, value in witness.point.items()
-        if name not in zero
+        f"{letter(name)} = {short_number(value)}" for name, value in witness.point.items() if name not in zero
     ]
     rest = "; all else 0" if zero else ""
     sides = (
@@ -102,40 +99,6 @@ def _witness(witness: Witness) -> Markup:
     )
 
 
-LETTERS = {
-    "gamma": "γ",
-    "rho": "ρ",
-    "beta": "β_M",
-    "kc": "k_c",
-    "eps0": "ε₀",
-    "kp": "λmin(K_p)",
-    "kv": "λmax(K_v)",
-    "kp_min": "λmin(K_p)",
-    "b": "λmin(B)",
-    "more": "λmax(B) − λmin(B)",
-    "share": "ε/ε₀",
-    "e": "q̃",
-    "x": "x",
-    "factor of K_v": "factor of K_v",
-}
-
-
-def _letter(name: str) -> str:
-    """A letter of a script as the paper writes it, with the number of its joint."""
-    if name in LETTERS:
-        return LETTERS[name]
-    stem = name.rstrip("0123456789")
-    short = {"kp": "k_p", "kv": "k_v", "e": "q̃_", "q": "q_", "w": "q̇_", "x": "x_", "c": "c_"}.get(stem)
-    return f"{short}{name[len(stem) :]}" if short else name
-
-
-def short_number(value: str) -> str:
-    """A rational as a decimal where that is exact and short, else as it is."""
-    number = Fraction(value)
-    decimal = f"{float(number):.6g}"
-    return decimal if "e" not in decimal and Fraction(decimal) == number else value
-
-
 def _again(finding: Finding) -> Markup | None:
     """The command that decides it again, and its certificate."""
     if not finding.claims:
@@ -147,8 +110,3 @@ def _again(finding: Finding) -> Markup | None:
     path = finding.witness.certificate if finding.witness else None
     link = element("a", "its certificate", href=path) if path else None
     return element("p", element("code", command), [" ", link] if link else None, class_="again")
-
-
-def listed(findings: Sequence[Finding]) -> list[str]:
-    """Findings in a line each."""
-    return [f"{one.subject}: {one.title}. {one.text}" for one in findings]

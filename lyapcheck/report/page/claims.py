@@ -33,7 +33,7 @@ def claims_section(report: Report) -> Markup:
         _switch(report),
         _filters(rows),
         None if report.own else _graph(report),
-        [_group(report, title, list(group), used_by) for title, group in _sections(rows)],
+        [_group(report, title, group, used_by) for title, group in _sections(rows)],
         _equations(report),
         id="claims",
     )
@@ -92,12 +92,15 @@ def _graph(report: Report) -> Markup:
     )
 
 
-def _sections(rows: Sequence[Data]) -> Iterator[tuple[str, Iterator[Data]]]:
+def _sections(rows: Sequence[Data]) -> Iterator[tuple[str, list[Data]]]:
     def title(row: Data) -> str:
         section = str(row["section"] or "Claims")
         return section if row["proof"] == "published" else f"{row['proof']}.py: {section}"
 
-    yield from groupby(rows, key=title)
+    groups: dict[str, list[Data]] = {}
+    for row in rows:
+        groups.setdefault(title(row), []).append(row)
+    yield from groups.items()
 
 
 def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, list[str]]) -> Markup:
@@ -121,7 +124,7 @@ def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, 
     summary = element(
         "summary",
         element("h3", title),
-        element("span", plural(len(claims), "claim"), ": ", Markup(counts), class_="tally"),
+        element("span", plural(len(claims), "claim"), "; for each m: ", Markup(counts), class_="tally"),
     )
     return element("details", summary, table, class_="fold group")
 

@@ -8,8 +8,8 @@ from lyapcheck.output.elements import Markup, element
 from lyapcheck.report.model import Data
 from lyapcheck.report.text import SYMBOLS
 
-WIDE, HIGH = 82, 22
-ACROSS, DOWN = 128, 29
+WIDE, HIGH = 96, 22
+ACROSS, DOWN = 138, 29
 MARGIN = 8
 Place = tuple[float, float]
 

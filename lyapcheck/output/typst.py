@@ -1,0 +1,90 @@
+"""A document in the language of the typesetter Typst, for paper.
+
+All text is in string literals, in which nothing but the quote and the backslash has a meaning.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.escapes import printable
+
+LAYOUT = """#set document(title: {title}, date: none)
+#set page(paper: "a4", margin: (x: 17mm, top: 20mm, bottom: 18mm), numbering: "1 / 1",
+  header: context if counter(page).get().first() > 1 {{ text(8pt, fill: gray.darken(40%))[#{running}] }})
+#set text(font: ("Libertinus Serif", "New Computer Modern", "DejaVu Sans Mono"), size: 9.4pt, lang: "en")
+#set par(justify: false, leading: 0.55em, spacing: 0.75em)
+#set list(spacing: 0.5em)
+#show heading: set block(above: 1.1em, below: 0.55em, sticky: true)
+#show heading.where(level: 1): set text(15pt)
+#show heading.where(level: 2): set text(12pt)
+#show heading.where(level: 3): set text(10pt)
+#show raw: set text(8pt)
+#show figure.caption: set text(8pt)
+#set table(inset: (x: 4pt, y: 2.6pt), stroke: (x, y) => (bottom: 0.4pt + gray))
+#show table.cell: set text(8.2pt)
+#show table.cell.where(y: 0): strong
+"""
+SIDES = {"l": "left", "r": "right"}
+WIDE = 9
+"""A column of words that is longer than this many characters shares the width that others leave."""
+
+
+def markup(document: Document, running: str) -> str:
+    """The whole document.
+
+    Args:
+        document: what is said; figures are files beside the document.
+        running: what stands above every page but the first.
+    """
+    lines = [LAYOUT.format(title=quoted(document.title), running=quoted(running))]
+    lines.append(f"#heading(level: 1, {quoted(document.title)})")
+    return "\n".join([*lines, *_blocks(document.body, 2)]) + "\n"
+
+
+def quoted(text: str) -> str:
+    """A string literal."""
+    return '"' + printable(text).replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+    for block in blocks:
+        yield ""
+        match block:
+            case Paragraph(text):
+                yield f"#par[#{quoted(text)}]"
+            case Bullets(items):
+                yield from (f"- #{quoted(item)}" for item in items)
+            case Code(text):
+                yield f"#raw(block: true, {quoted_lines(text)})"
+            case Figure(path, caption):
+                words = f"caption: [#{quoted(caption)}]"
+                image = f"image({quoted(path)}, height: 34mm)"
+                yield f"#figure({image}, {words}, numbering: none)"
+            case Section(title, inner):
+                yield f"#heading(level: {level}, {quoted(title)})"
+                yield from _blocks(inner, level + 1)
+            case Table():
+                yield from _table(block)
+
+
+def quoted_lines(text: str) -> str:
+    """A string literal of several lines."""
+    return ' + "\\n" + '.join(map(quoted, text.splitlines())) or '""'
+
+
+def _table(table: Table) -> Iterator[str]:
+    columns = zip(table.heads, *table.rows, strict=True)
+    widths = (
+        "1fr" if side == "l" and max(map(len, cells)) > 3 * WIDE else "auto"
+        for cells, side in zip(columns, table.align, strict=True)
+    )
+    if table.caption:
+        yield f"#text(8.4pt)[#{quoted(table.caption)}]"
+        yield ""
+    sides = ", ".join(SIDES[side] for side in table.align)
+    yield f"#table(columns: ({', '.join(widths)},), align: ({sides},),"
+    yield f"  table.header({', '.join(f'[#{quoted(head)}]' for head in table.heads)}),"
+    yield from (f"  {', '.join(f'[#{quoted(cell)}]' for cell in row)}," for row in table.rows)
+    yield ")"

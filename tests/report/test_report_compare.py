@@ -1,0 +1,80 @@
+"""Two reports side by side: what got worse is said first and makes the exit code 1."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck.errors import InputError
+from lyapcheck.report.compare import compare, read_report
+
+CHECK = {"id": "19", "joint": "base", "margin": "0.1"}
+OLD: dict[str, Any] = {
+    "schema": "lyapcheck/report/2",
+    "claims": [
+        {"proof": "published", "id": "a", "m": 1, "verdict": "proved", "grade": "exact"},
+        {"proof": "published", "id": "b", "m": None, "verdict": "undecided", "grade": "numeric"},
+    ],
+    "others": [],
+    "gate": [{"name": "<g>", "verdict": "accepted", "checks": [CHECK]}],
+    "epsilon": [{"name": "<g>", "published": None, "scalar": "1", "certified": "2", "falsified": "3"}],
+}
+
+
+def changed(*places: Any, to: Any) -> dict[str, Any]:
+    """The old report with another value in one place."""
+    new = deepcopy(OLD)
+    inner: Any = new
+    for place in places[:-1]:
+        inner = inner[place]
+    inner[places[-1]] = to
+    return new
+
+
+def test_nothing_changed() -> None:
+    found = compare(OLD, OLD, "old")
+    assert found.changes == ()
+    assert found.exit_code == 0
+    assert "what it was" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("new", "what", "worse"),
+    [
+        (changed("claims", 0, "verdict", to="refuted"), "claim", True),
+        (changed("claims", 0, "verdict", to="undecided"), "claim", True),
+        (changed("claims", 1, "verdict", to="proved"), "claim", False),
+        (changed("claims", 0, "grade", to="kernel"), "claim", False),
+        (changed("claims", to=OLD["claims"][1:]), "claim", True),
+        (changed("gate", 0, "verdict", to="rejected"), "gate", True),
+        (changed("gate", 0, "checks", 0, "margin", to="0.2"), "margin", False),
+        (changed("epsilon", 0, "certified", to="2.5"), "ε₀", False),
+        (changed("epsilon", 0, "certified", to=None), "ε₀", True),
+    ],
+)
+def test_a_change_is_found_and_weighed(new: dict[str, Any], what: str, worse: bool) -> None:
+    found = compare(OLD, new, "old")
+    assert [(change.what, change.worse) for change in found.changes] == [(what, worse)]
+    assert found.exit_code == int(worse)
+
+
+def test_what_got_worse_comes_first_in_every_format() -> None:
+    new = changed("claims", 1, "verdict", to="proved")
+    new["gate"][0]["verdict"] = "rejected"
+    found = compare(OLD, new, "old")
+    assert [change.worse for change in found.changes] == [True, False]
+    assert found.written("markdown").index("Worse (1)") < found.written("markdown").index("Changed (1)")
+    assert "&lt;g&gt;" in found.written("html")
+    assert json.loads(found.written("json"))["changes"][0]["new"] == "rejected"
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "lyapcheck/report/1"}'])
+def test_what_is_no_report_is_refused(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"--compare"):
+        read_report(tmp_path)

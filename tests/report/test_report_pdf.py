@@ -1,0 +1,33 @@
+"""The report on paper: at most six pages, the same bytes, nothing obeyed."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.typst import markup, quoted
+
+typst = pytest.importorskip("typst")
+NASTY = [
+    '#read("/etc/passwd")',
+    '"; #panic("x")',
+    "\\",
+    "$x$ *b* _i_ `c` @r <l> // c",
+    "a\nb\x1b",
+    "λ 关节 🦾",
+]
+
+
+@pytest.mark.parametrize("text", NASTY)
+def test_a_text_is_a_literal(text: str, tmp_path: Path) -> None:
+    assert re.fullmatch(r'"(?:[^"\\]|\\["\\])*"', quoted(text))
+    table = Table((text, "b"), ((text, text),), text)
+    document = Document(text, (Paragraph(text), Bullets((text,)), Code(text), Section(text, (table,))))
+    source = tmp_path / "a.typ"
+    source.write_text(markup(document, text), encoding="utf-8")
+    first, second = (typst.compile(str(source), root=str(tmp_path), ignore_system_fonts=True) for _ in "ab")
+    assert first == second
+    assert first.startswith(b"%PDF")
