@@ -3,10 +3,11 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report study test test-slow test-robots kernel fuzz lint types bench lock clean help
+.PHONY: report screenshots study test test-slow test-robots kernel fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
+	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 40,000 statements, many examples, built wheel"
@@ -21,7 +22,11 @@ help:
 report: .venv/.ready
 	$(BIN)/lyapcheck report
 
+screenshots: .venv/.ready
+	$(BIN)/python -m tests.report.screenshots
+
 study: .venv/.ready
+	$(BIN)/python -m studies.gain_map
 	$(BIN)/python -m studies.printed_experiment
 
 test: .venv/.ready

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -79,7 +80,8 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
     gains = replace(one, kv=(kv,) * model.n)
     found = epsilon(gains, model, max_boxes=BOXES)
     run = simulate(gains, model, goal, stop=False)
-    settling = None if any(t is None for t in run.settling) else max(float(t) for t in run.settling)
+    times = [math.nan if t is None else float(t) for t in run.settling]
+    settling = max(times) if all(map(math.isfinite, times)) else None
     peaks = zip(run.peak_torque, model.torque_limit, strict=True)
     shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
     return {

@@ -6,7 +6,6 @@ import csv
 import json
 import pickle
 import re
-from dataclasses import replace
 from fractions import Fraction
 from html.parser import HTMLParser
 from io import BytesIO, StringIO
@@ -21,7 +20,6 @@ from PIL import Image
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.escapes import html_text
 from lyapcheck.report.build import Subject, build
@@ -39,24 +37,6 @@ from lyapcheck.report.write import render, require_folder, write
 from tests.helpers.command import invoke
 
 VOID = {"meta", "link", "img", "br", "input"}
-
-
-@pytest.fixture(scope="module")
-def report() -> Report:
-    """A small real report: the two-joint arm, m = 1."""
-    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    return build(Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),)))
-
-
-@pytest.fixture(scope="module")
-def everything(report: Report) -> dict[str, str | bytes]:
-    return render(report)
-
-
-@pytest.fixture(scope="module")
-def files(everything: dict[str, str | bytes]) -> dict[str, str]:
-    """All of it as text; what is not is known by its name only."""
-    return {name: content if isinstance(content, str) else "" for name, content in everything.items()}
 
 
 class Balance(HTMLParser):

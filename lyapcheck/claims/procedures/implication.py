@@ -16,7 +16,7 @@ from lyapcheck.check.kinds.signs import SignIdentity, Signs
 from lyapcheck.check.statement import Variable
 from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
-from lyapcheck.claims.procedures.search import Failure, first_refutation, witness_data, witness_of
+from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
 from lyapcheck.claims.registry import procedure
 
 METHOD = "implication between inequalities"
@@ -66,7 +66,8 @@ def counterexample(statement: Implies) -> Failure | None:
     given = [hypothesis.comparison for hypothesis in statement.hypotheses]
     given += [bound_of(v) for v in statement.variables if v.low is not None]
     points = candidates(statement.variables, statement.hypotheses, statement.conclusion)
-    return first_refutation(statement.conclusion.comparison, points, given)
+    found = first_refutation(statement.conclusion.comparison, points, given)
+    return None if found is None else rounder(found, given)
 
 
 def sampled() -> dict[str, int]:

@@ -19,6 +19,9 @@ LARGEST = 4096
 MOST_DIGITS = 400
 """That are shown of a side, however near it is to the other."""
 
+ROUND = tuple(map(Fraction, ("0", "1", "1/2", "2", "1/10", "10", "1/100", "100")))
+"""What a reader takes in at a glance, the roundest first."""
+
 Point = dict[str, Fraction]
 Failure = tuple[Comparison, Point, Sides]
 
@@ -35,6 +38,17 @@ def first_refutation(
         if sides is not None and all(map(_can_be_written, (sides.left, sides.right))):
             return claim, point, sides
     return None
+
+
+def rounder(failure: Failure, hypotheses: Sequence[Comparison] = ()) -> Failure:
+    """The same failure at rounder numbers, one coordinate after the other, where it still is one."""
+    claim, point, _ = failure
+    found = failure
+    for name in sorted(point):
+        signed = (sign * value for value in ROUND for sign in ((1, -1) if value else (1,)))
+        tries = ({**found[1], name: value} for value in signed)
+        found = first_refutation(claim, tries, hypotheses) or found
+    return found
 
 
 def _can_be_written(side: Enclosure) -> bool:

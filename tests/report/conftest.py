@@ -1,0 +1,41 @@
+"""One small real report for all tests of reports."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.report.build import Subject, build
+from lyapcheck.report.model import Report
+from lyapcheck.report.write import render, write
+
+
+@pytest.fixture(scope="session")
+def report() -> Report:
+    """The two-joint arm, m = 1."""
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    return build(Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),)))
+
+
+@pytest.fixture(scope="session")
+def everything(report: Report) -> dict[str, str | bytes]:
+    """Its files by their names."""
+    return render(report)
+
+
+@pytest.fixture(scope="session")
+def files(everything: dict[str, str | bytes]) -> dict[str, str]:
+    """All of it as text; what is not is known by its name only."""
+    return {name: content if isinstance(content, str) else "" for name, content in everything.items()}
+
+
+@pytest.fixture(scope="session")
+def folder(everything: dict[str, str | bytes], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All of it on disk."""
+    place = tmp_path_factory.mktemp("report")
+    write(everything, place)
+    return place

@@ -1,0 +1,183 @@
+"""The page in a real browser: no error, links, filters, sliders, keyboard, phone, dark, paper, no script."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.report.model import Report
+from tests.helpers.browser import CHROMIUM, Tab, browser
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+PHONE, DESK = 390, 1280
+MOST_PAGES = 6
+ROWS = "[...document.querySelectorAll('table.claims tbody tr')]"
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Tab]:
+    with browser() as tab:
+        yield tab
+
+
+@pytest.fixture
+def page(chromium: Tab, folder: Path) -> Iterator[Tab]:
+    """The page, freshly loaded at a desk."""
+    chromium.size(DESK)
+    chromium.media()
+    chromium.send("Emulation.setScriptExecutionDisabled", value=False)
+    chromium.open(folder / "index.html")
+    yield chromium
+    assert chromium.errors == []
+
+
+def test_every_link_leads_somewhere(page: Tab, folder: Path) -> None:
+    assert page.run("document.querySelectorAll('a[href]').length") > 200
+    lost = "[...document.querySelectorAll('a[href^=\"#\"]')].map(a => decodeURIComponent(a.getAttribute('href').slice(1)))"
+    assert page.run(f"{lost}.filter(name => !document.getElementById(name))") == []
+    files = page.run(
+        "[...document.querySelectorAll('a[href]:not([href^=\"#\"])')].map(a => a.getAttribute('href'))"
+    )
+    assert files
+    assert [name for name in files if not (folder / name).is_file()] == []
+
+
+def test_the_first_screen_answers(page: Tab) -> None:
+    page.size(DESK, 900)
+    end = page.run("document.querySelector('.picture').getBoundingClientRect().bottom")
+    assert end <= 900
+    colours = "[...document.querySelectorAll('.chain:not(.around) li')].map(li => li.className)"
+    assert page.run(colours).count("bad") == 1
+
+
+def test_a_claim_that_is_followed_is_open(page: Tab, folder: Path) -> None:
+    page.open(folder / "index.html", "16.6")
+    assert page.run("document.getElementById('16.6').querySelector('.member').checkVisibility()")
+    page.run("location.hash = '#equation-16'")
+    assert page.later("document.getElementById('equation-16').checkVisibility()")
+
+
+def test_filters_leave_what_was_asked_for(page: Tab, report: Report) -> None:
+    page.enter("#by-verdict", "refuted")
+    shown = page.run(f"{ROWS}.filter(row => !row.hidden).map(row => row.id)")
+    refuted = {row["id"] for row in report.claims if row["verdict"] == "refuted"}
+    assert set(shown) == refuted
+    assert page.run(f"{ROWS}.filter(row => !row.hidden).every(row => row.checkVisibility())")
+    assert page.run("document.getElementById('shown').value").startswith(f"{len(refuted)} of ")
+    page.enter("#find", "no such words")
+    assert page.run(f"{ROWS}.every(row => row.hidden)")
+
+
+def test_columns_are_sorted_both_ways_and_back(page: Tab) -> None:
+    first = "document.querySelector('table.claims')"
+    ids = f"[...{first}.tBodies[0].rows].map(row => row.cells[2].textContent)"
+    before = page.run(ids)
+    found = []
+    for _ in range(3):
+        page.run(f"{first}.querySelectorAll('.sort')[2].click()")
+        found.append(page.run(ids))
+    assert found[0] == sorted(before)
+    assert found[1] == sorted(before, reverse=True)
+    assert found[2] == before
+
+
+def test_the_switch_of_m_needs_no_script(page: Tab) -> None:
+    both = "<i id=other data-m=2>other</i><i id=same data-m=1>same</i>"
+    page.run(f"document.body.insertAdjacentHTML('beforeend', '{both}')")
+    page.run("document.getElementById('m1').click()")
+    assert not page.run("document.getElementById('other').checkVisibility()")
+    assert page.run("document.getElementById('same').checkVisibility()")
+
+
+def test_the_graph_shows_what_a_claim_rests_on(page: Tab) -> None:
+    page.run("document.querySelector('.box[data-claim=\"16\"]').dispatchEvent(new Event('pointerenter'))")
+    lit = page.run("[...document.querySelectorAll('.box.on')].map(box => box.dataset.claim)")
+    assert {"16", "16.6", "15"} <= set(lit)
+    assert "P" not in lit
+
+
+def test_sliders_move_curves_and_the_gain_file_can_be_read(page: Tab, tmp_path: Path) -> None:
+    curve = "document.querySelector('#plot-step polyline').getAttribute('points')"
+    before = page.run(curve)
+    page.enter("#sliders label:nth-of-type(3) input", 900)
+    assert page.run(curve) != before
+    page.run("document.getElementById('copy-gains').click()")
+    text = page.later("document.getElementById('gain-file').textContent")
+    path = tmp_path / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    (gains,) = read_gain_file(path).gains
+    assert gains.m == 1
+    assert len(gains.kp) == 2
+
+
+def test_the_keyboard_goes_down_the_page(page: Tab) -> None:
+    """In the order in which a screen reader says it, beginning with the way past the navigation."""
+    page.run("window.at = document.body; window.back = 0")
+    seen = []
+    for _ in range(25):
+        page.press("Tab")
+        forward = (
+            "back += !(at.compareDocumentPosition(document.activeElement) & 4); at = document.activeElement"
+        )
+        page.run(forward)
+        seen.append(page.run("document.activeElement.textContent.trim().slice(0, 30)"))
+    assert seen[0].startswith("Skip to")
+    assert page.run("back") == 0
+    assert page.run("getComputedStyle(document.activeElement).outlineStyle") != "none"
+
+
+@pytest.mark.parametrize("opened", [False, True])
+def test_a_phone_needs_no_sideways_scrolling(page: Tab, opened: bool) -> None:
+    page.size(PHONE)
+    if opened:
+        page.run("document.querySelectorAll('details').forEach(one => { one.open = true })")
+    assert page.run("document.documentElement.scrollWidth") <= PHONE
+
+
+READ = "h1, .lead p, .badge span, .chain small, .card dd, .cite, nav a, figcaption"
+CONTRAST = """
+[...document.querySelectorAll(READ)].map(one => {
+  const style = (node) => getComputedStyle(node ?? document.body);
+  const bright = (colour) => {
+    const [r, g, b] = colour.match(/[\\d.]+/g).map(x => (x / 255) ** 2.2);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05;
+  };
+  let behind = one;
+  while (behind && style(behind).backgroundColor === 'rgba(0, 0, 0, 0)') behind = behind.parentElement;
+  const ratio = bright(style(one).color) / bright(style(behind).backgroundColor);
+  return Math.max(ratio, 1 / ratio);
+})
+""".replace("READ", f"'{READ}'")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everything_can_be_read_by_day_and_by_night(page: Tab, scheme: str) -> None:
+    page.media(scheme=scheme)
+    ratios = page.run(CONTRAST)
+    assert len(ratios) > 30
+    assert min(ratios) >= 4.5
+    assert (page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)") == (
+        scheme == "light"
+    )
+
+
+def test_paper_holds_it_on_six_pages(page: Tab) -> None:
+    counts = re.findall(rb"/Count (\d+)", page.paper())
+    assert 1 <= max(map(int, counts)) <= MOST_PAGES
+
+
+def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Report) -> None:
+    page.send("Emulation.setScriptExecutionDisabled", value=True)
+    page.open(folder / "index.html")
+    text = page.send("DOM.getOuterHTML", nodeId=page.send("DOM.getDocument")["root"]["nodeId"])["outerHTML"]
+    assert 'class="scripted"' not in text
+    assert all(f'id="{row["id"]}"' in text for row in report.claims)
+
+
+def test_the_old_page_of_a_member_leads_to_the_new(page: Tab, folder: Path) -> None:
+    page.open(folder / "m1.html")
+    assert page.later("location.href", 500).endswith("index.html#m1")
