@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -11,18 +11,19 @@ from multiprocessing import get_context
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.report.bench import kept_map
+from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import draw_comparisons, draw_family, draw_sensitivity, draw_set, draw_sides
 from lyapcheck.report.experiment import printed_experiment
-from lyapcheck.report.findings import small_path
+from lyapcheck.report.findings import light, small_path
 from lyapcheck.report.jobs import PaperData, claims_job, gains_job, map_job, paper_job
-from lyapcheck.report.model import Data
+from lyapcheck.report.kept import question, read, written
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
-    from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
     from lyapcheck.report.notes import Notes
@@ -35,29 +36,24 @@ OTHERS = ("scalar.py", "tracking.py")
 WORKERS = 2
 
 
-@dataclass(frozen=True)
-class Computed:
-    """What the long computations hand back, with their figures and certificates."""
-
-    claims: tuple[Data, ...]
-    others: tuple[Data, ...]
-    small: Mapping[str, SmallWitness]
-    epsilon: tuple[Data, ...]
-    runs: tuple[Data, ...]
-    sensitivity: Data | None
-    cells: Sequence[Data]
-    figures: Files
-    certificates: dict[str, str]
-
-
 def compute(subject: Subject, notes: Notes, tell: Progress) -> Computed:
-    """The long computations, a process for each core; what can be drawn of one is drawn when it is done.
+    """The long computations, from the store if all that they decided is decided so again.
 
     Args:
         subject: arm, members and gains.
         notes: on the paper.
         tell: told the fraction done and a few words.
     """
+    asked = question(subject)
+    found = read(store.take(asked))
+    if found is None:
+        found = _afresh(subject, notes, tell)
+        store.put(asked, written(found))
+    return found
+
+
+def _afresh(subject: Subject, notes: Notes, tell: Progress) -> Computed:
+    """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
@@ -70,20 +66,20 @@ def compute(subject: Subject, notes: Notes, tell: Progress) -> Computed:
     others = [job.result() for job in jobs.others]
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
     certificates: dict[str, str] = {}
-    for part in (paper.claims, *others):
+    for part in (paper.claims, *others, *parts):
         certificates |= part.certificates
     small = {} if subject.own else paper.small
     certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
     rows = (*paper.claims.rows, *(row for part in others for row in part.rows))
     if subject.own:
         rows = tuple(row for row in rows if row["id"] in notes.own.get(row["proof"], ()))
-        kept = {row["certificate"] for row in rows}
+        kept = {row["certificate"] for row in rows} | {path for part in parts for path in part.certificates}
         certificates = {path: text for path, text in certificates.items() if path in kept}
     figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
         claims=tuple(row for row in rows if row["proof"] == "published"),
         others=tuple(row for row in rows if row["proof"] != "published"),
-        small=small,
+        small={name: light(one) for name, one in small.items()},
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,

@@ -28,11 +28,12 @@ def draw_family(ms: Sequence[int]) -> Files:
 def draw_sides(small: Mapping[str, SmallWitness]) -> Files:
     """Both sides of what fails, over the letter that is worth moving."""
     from lyapcheck.report.figures.sides import sides_plot
+    from lyapcheck.report.findings import sides_name
 
     files: Files = {}
-    for name, witness in small.items():
-        if witness.moved:
-            files |= sides_plot(witness).files(f"sides_{name.replace('.', '_')}")
+    for witness in small.values():
+        if name := sides_name(witness):
+            files |= sides_plot(witness).files(name)
     return files
 
 

@@ -18,7 +18,7 @@ SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
 MISPRINTS = "Section 4"
 """The part of the paper in which a refuted claim is a slip of the pen, unless a note says more."""
-Small = Mapping[str, "SmallWitness"]
+Small = Mapping[str, Witness]
 
 
 def findings(
@@ -75,7 +75,7 @@ def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Fin
 
 def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: Note, small: Small) -> Finding:
     own = next((small[name] for name in names if name in small), None)
-    witness = _ordinary(min(rows, key=_length)) if own is None else _small(own)
+    witness = own or _ordinary(min(rows, key=_length))
     return Finding(
         weight=weight,
         subject=f"claim {names[0]}",
@@ -89,7 +89,7 @@ def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: No
         consequence=note.consequence,
         repair=note.repair,
         witness=witness,
-        figure=f"sides_{own.id.replace('.', '_')}" if own is not None and own.moved else note.figure,
+        figure=(own.figure if own else "") or note.figure,
     )
 
 
@@ -97,10 +97,16 @@ def _ms(rows: Sequence[Data]) -> tuple[int, ...]:
     return tuple(sorted({row["m"] for row in rows if row["m"] is not None}))
 
 
-def _small(own: SmallWitness) -> Witness:
+def light(own: SmallWitness) -> Witness:
+    """A small witness as findings show it."""
     data = own.data
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return Witness(own.m, own.n, data["point"], *sides, small_path(own.id), True)
+    return Witness(own.m, own.n, data["point"], *sides, small_path(own.id), True, sides_name(own))
+
+
+def sides_name(own: SmallWitness) -> str:
+    """The drawing of both sides; empty where no letter is worth moving."""
+    return f"sides_{own.id.replace('.', '_')}" if own.moved else ""
 
 
 def _length(row: Data) -> int:
@@ -118,7 +124,7 @@ def _ordinary(row: Data) -> Witness | None:
     if "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return Witness(row["m"], row["n"], data["point"], *sides, row["certificate"], False)
+    return Witness(row["m"], row["n"], data["point"], *sides, row["certificate"], False, "")
 
 
 def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:

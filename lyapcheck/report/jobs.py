@@ -23,6 +23,8 @@ DIGITS = 4
 """Significant digits of ε₀ in a report, rounded to the safe side: more would differ between machines."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
+BOTH_ENDS = ("certified", "falsified")
+"""The ε₀ that rest on certificates."""
 SHOWN = 6
 """Significant digits of what floating point computes."""
 
@@ -49,10 +51,11 @@ class RunData:
 
 @dataclass(frozen=True)
 class GainData:
-    """What was computed for one gain set."""
+    """What was computed for one gain set, with the certificates of its ε₀ by their paths in a report."""
 
     epsilon: dict[str, Any]
     run: RunData
+    certificates: Mapping[str, str]
 
 
 def claims_job(proof: str, ms: Sequence[int], robot: str, gains: str) -> ProofData:
@@ -115,29 +118,34 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
     gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
     model = load(robot)
-    row = _epsilon(gain_set, model, seed)
+    row, files = _epsilon(gain_set, model, seed)
     eps0 = float(row["certified"] or row["scalar"] or 0.0)
-    return GainData(row, _run_data(_simulated(gain_set, model, eps0)))
+    return GainData(row, _run_data(_simulated(gain_set, model, eps0)), files)
 
 
-def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> dict[str, Any]:
-    """The four ε₀, rounded to the safe side, and why one is missing."""
+def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[dict[str, Any], dict[str, str]]:
+    """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
     from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.answers.epsilon.data import result_data
     from lyapcheck.answers.epsilon.words import KINDS
 
     result = epsilon(gain_set, model, max_boxes=BOXES, seed=seed)
     values: dict[str, Fraction | None] = {kind: getattr(result, kind) for kind in KINDS}
-    shown = {kind: _rounded(value, up=kind == "falsified") for kind, value in values.items()}
+    shown = {kind: rounded(value, up=kind == "falsified") for kind, value in values.items()}
     low, high = shown["certified"], shown["falsified"]
     ratio = f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None
     data = result_data(result)
     kept = {key: data[key] for key in ("name", "m", "robot", "certified_by", "assumptions", "seed")}
     missing = {kind: text for kind, text in data["reasons"].items() if shown.get(kind) is None}
-    return {**kept, **shown, "ratio": ratio, "boxes": BOXES, "reasons": missing}
+    files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
+    paths = {path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS}
+    more = {"ratio": ratio, "boxes": BOXES, "reasons": missing, "certificates": paths}
+    return {**kept, **shown, **more}, files
 
 
-def _rounded(value: Fraction | None, up: bool) -> str | None:
+def rounded(value: Fraction | None, up: bool) -> str | None:
+    """A positive number to ``DIGITS`` significant digits, not above it, or not below it with ``up``."""
     if value is None:
         return None
     scale = Fraction(10) ** (DIGITS - 1 - math.floor(math.log10(value)))

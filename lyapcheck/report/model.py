@@ -30,6 +30,7 @@ class Witness:
         operator: of the relation that fails.
         certificate: its path in the report.
         small: whether it was searched for as small as it is.
+        figure: name of the drawing of both sides, if there is one.
     """
 
     m: int | None
@@ -40,6 +41,7 @@ class Witness:
     right: tuple[str, str]
     certificate: str | None
     small: bool
+    figure: str
 
 
 @dataclass(frozen=True)

@@ -37,8 +37,8 @@ def page(chromium: Tab, folder: Path) -> Iterator[Tab]:
 
 def test_every_link_leads_somewhere(page: Tab, folder: Path) -> None:
     assert page.run("document.querySelectorAll('a[href]').length") > 200
-    lost = "[...document.querySelectorAll('a[href^=\"#\"]')].map(a => decodeURIComponent(a.getAttribute('href').slice(1)))"
-    assert page.run(f"{lost}.filter(name => !document.getElementById(name))") == []
+    places = "[...document.querySelectorAll('a[href^=\"#\"]')].map(a => a.getAttribute('href').slice(1))"
+    assert page.run(f"{places}.filter(name => !document.getElementById(decodeURIComponent(name)))") == []
     files = page.run(
         "[...document.querySelectorAll('a[href]:not([href^=\"#\"])')].map(a => a.getAttribute('href'))"
     )

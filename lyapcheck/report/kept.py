@@ -1,0 +1,120 @@
+"""A report computed before: taken from the store only if the checker accepts all its certificates again."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from base64 import b64decode, b64encode
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.claims.python_process import command, environment
+from lyapcheck.report.computed import Computed
+from lyapcheck.report.jobs import BOXES, rounded
+from lyapcheck.report.model import Witness
+from lyapcheck.robots import load
+from lyapcheck.temporary import temporary_folder
+
+if TYPE_CHECKING:
+    from lyapcheck.report.build import Subject
+
+LARGEST = "certificates/published/"
+"""What one process judges while another judges the rest."""
+
+
+def question(subject: Subject) -> dict[str, Any]:
+    """All that a report depends on: exact numbers of the arm and of the gains, by their digests."""
+    exact = repr((load(subject.robot), [(file.gains, file.bounds) for file in subject.gain_files]))
+    names = [name for _, name in subject.sets]
+    about = {"ms": subject.ms, "sets": names, "own": subject.own, "map": subject.map, "boxes": BOXES}
+    return {"report": sha256(exact.encode()).hexdigest(), **about}
+
+
+def written(found: Computed) -> dict[str, Any]:
+    """All of it as plain data."""
+    figures = {
+        name: drawing if isinstance(drawing, str) else {"base64": b64encode(drawing).decode()}
+        for name, drawing in found.figures.items()
+    }
+    small = {name: asdict(one) for name, one in found.small.items()}
+    return {**vars(found), "figures": figures, "small": small}
+
+
+def read(kept: Any) -> Computed | None:
+    """What was written, if every verdict in it is what the checker says of its certificate now."""
+    if kept is None:
+        return None
+    try:
+        figures = {
+            name: drawing if isinstance(drawing, str) else b64decode(drawing["base64"])
+            for name, drawing in kept["figures"].items()
+        }
+        small = {
+            name: Witness(**{**one, "left": tuple(one["left"]), "right": tuple(one["right"])})
+            for name, one in kept["small"].items()
+        }
+        lists = {name: tuple(kept[name]) for name in ("claims", "others", "epsilon", "runs")}
+        found = Computed(**{**kept, **lists, "figures": figures, "small": small})
+        return found if _holds(found) else None
+    except (KeyError, TypeError, ValueError):
+        return None
+
+
+def _holds(found: Computed) -> bool:
+    """Whether a fresh checker decides all of it as it says."""
+    judged = _judged(found.certificates)
+    digests = {path: json.loads(text)["digest"] for path, text in found.certificates.items()}
+
+    def verdict(path: str | None) -> str | None:
+        return None if path is None else judged.get(digests[path], {}).get("verdict")
+
+    for row in (*found.claims, *found.others):
+        if row["verdict"] not in ("proved", "refuted"):
+            continue
+        answer = judged.get(row["digest"], {})
+        said = [answer.get(key) for key in ("verdict", "grade", "id", "m", "rules")]
+        if said != [row[key] for key in ("verdict", "grade", "id", "m", "rules")]:
+            return False
+    if any(verdict(one.certificate) != "refuted" for one in found.small.values()):
+        return False
+    return all(
+        verdict(path) == ("refuted" if kind == "falsified" else "proved")
+        and rounded(_eps0(found.certificates[path]), up=kind == "falsified") == row[kind]
+        for row in found.epsilon
+        for kind, path in row["certificates"].items()
+    ) and all(row["certified"] is None or "certified" in row["certificates"] for row in found.epsilon)
+
+
+def _eps0(certificate: str) -> Fraction:
+    return Fraction(json.loads(certificate)["statement"]["eps0"])
+
+
+def _judged(certificates: Mapping[str, str]) -> dict[str, Any]:
+    """What two fresh processes of the checker say, by the digest of each certificate."""
+    with temporary_folder() as folder:
+        processes = [
+            _process(Path(folder, str(number)), paths, certificates)
+            for number, paths in enumerate(
+                [
+                    [path for path in certificates if path.startswith(LARGEST)],
+                    [path for path in certificates if not path.startswith(LARGEST)],
+                ]
+            )
+            if paths
+        ]
+        answers = [json.loads(process.communicate()[0]) for process in processes]
+    if any(answer["alarms"] for answer in answers):
+        return {}
+    return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}
+
+
+def _process(place: Path, paths: Iterable[str], certificates: Mapping[str, str]) -> subprocess.Popen[bytes]:
+    place.mkdir()
+    for number, path in enumerate(paths):
+        (place / f"{number}.json").write_text(certificates[path], encoding="utf-8")
+    words = command("lyapcheck.check", "--format", "json", str(place))
+    return subprocess.Popen(words, stdout=subprocess.PIPE, env=environment())
