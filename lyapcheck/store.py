@@ -31,6 +31,11 @@ BEHIND = ("lyapcheck", "casadi", "clarabel", "cvxpy", "matplotlib", "numpy", "py
 _DIGEST = hashlib.sha256().digest_size
 
 
+def switch_off() -> None:
+    """Take and keep nothing, in this process and those that it starts."""
+    os.environ[OFF] = "1"
+
+
 def home() -> Path:
     """$XDG_CACHE_HOME/lyapcheck, or the same in ~/.cache."""
     given = os.environ.get("XDG_CACHE_HOME", "")
@@ -72,6 +77,11 @@ def take(question: Mapping[str, Any]) -> Any | None:
         return None if body is None else json.loads(gzip.decompress(body))
     except (OSError, ValueError, EOFError):
         return None
+
+
+def has(question: Mapping[str, Any]) -> bool:
+    """Whether there is anything under a question, or nothing is to be kept."""
+    return bool(os.environ.get(OFF)) or (home() / ANSWERS / key_of(question)).is_file()
 
 
 def put(question: Mapping[str, Any], answer: Any) -> None:

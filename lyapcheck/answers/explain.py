@@ -53,6 +53,7 @@ class Explanation(Answer):
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
         procedures: how it is decided, one paragraph a procedure.
+        found: what came of it for the paper's arm, and on what evidence; empty where that was not asked.
     """
 
     schema = "lyapcheck/explain/1"
@@ -69,12 +70,14 @@ class Explanation(Answer):
     parts: tuple[Part, ...]
     lacking: str
     procedures: tuple[str, ...]
+    found: tuple[str, ...] = ()
 
     def document(self) -> Document:
         """Where it stands, what is decided and how, what it uses and what uses it, how to decide it."""
         how = tuple(block for text in self.procedures for block in _blocks(text))
         blocks = (
             Paragraph(self._where()),
+            *((Section("What came of it", (Bullets(self.found),)),) if self.found else ()),
             Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(self._decided())),
             Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
             Section("What it uses", (_claims(self.uses),)),
@@ -85,7 +88,7 @@ class Explanation(Answer):
 
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
-        found = asdict(self)
+        found = asdict(self) | {"found": list(self.found)}
         for key in ("uses", "used_by"):
             found[key] = [{"id": known, "says": says} for known, says in found[key]]
         return found | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
@@ -113,12 +116,56 @@ class Explanation(Answer):
         return f"lyapcheck check {self.script} --only {self.id}"
 
 
-def explain(claim_id: str, script: str | None = None) -> Explanation:
+@dataclass(frozen=True)
+class ClaimList(Answer):
+    """All claims that can be explained.
+
+    Args:
+        proofs: for each script its title, and the ids of its claims with the author's words.
+    """
+
+    schema = "lyapcheck/explain-list/1"
+
+    proofs: tuple[tuple[str, str, tuple[tuple[str, str], ...]], ...]
+
+    def document(self) -> Document:
+        """A table a script."""
+        sections = (
+            Section(f"{script}: {title}", (_claims(claims),)) for script, title, claims in self.proofs
+        )
+        return Document("Claims that can be explained", tuple(sections))
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{script, id, says}]``."""
+        rows = [
+            {"script": script, "id": known, "says": says}
+            for script, _, claims in self.proofs
+            for known, says in claims
+        ]
+        return {"results": rows}
+
+
+def list_claims(script: str | None = None) -> ClaimList:
+    """The ids of all claims of a script, by default of those that come with lyapcheck.
+
+    Raises:
+        InputError: no such script, or one that cannot be used.
+    """
+    proofs = []
+    for name in SHIPPED if script is None else (script,):
+        path = find_script(name)
+        told = ask(Request(str(path), path.name))
+        proofs.append((path.name, told.title, tuple(_named(claim) for claim in told.claims)))
+    return ClaimList(tuple(proofs))
+
+
+def explain(claim_id: str, script: str | None = None, decide: bool = False) -> Explanation:
     """One claim explained.
 
     Args:
         claim_id: such as ``7a``; ``(7a)`` and ``7A`` mean the same where no other claim has that id.
         script: the proof script that makes it; by default the first of those that come with lyapcheck.
+        decide: whether to decide it as well, for m = 1, 2, 3 and the paper's arm.
 
     Raises:
         InputError: no such claim, no such script, or one that cannot be used.
@@ -151,6 +198,23 @@ def explain(claim_id: str, script: str | None = None) -> Explanation:
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
+        found=_found(script_path, meant) if decide else (),
+    )
+
+
+def _found(script: Path, claim: str) -> tuple[str, ...]:
+    """The verdict for each m, with its witness or reason."""
+    from lyapcheck.claims import run_proof
+
+    rows = run_proof(script, only=(claim,)).claims
+    return tuple(
+        "; ".join(
+            (
+                f"{f'm = {row.m}: ' if row.m is not None else ''}{row.verdict} [{row.decision.grade.label}]",
+                *row.support,
+            )
+        )
+        for row in rows
     )
 
 

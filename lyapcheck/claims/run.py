@@ -74,7 +74,9 @@ def run_proof(
     told = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(told, asked, script.name, on_progress or _silent)
     made = certificates(proposals, told.name)
-    results = _results(proposals, judge_afresh(made))
+    judged = judge_afresh(made)
+    _keep(proposals, judged)
+    results = _results(proposals, judged)
     places = {claim.id: k for k, claim in enumerate(told.claims)}
     every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
     return ProofResult(
@@ -154,23 +156,27 @@ def _dependences(told: Handover) -> dict[str, set[str]]:
 
 
 def _search(statement: Statement | Missing) -> Finding:
-    """What the search proposes, from the store if it has proposed it before: the checker judges it anyway."""
+    """What the search proposes, or has proposed before; the checker judges it either way."""
     try:
-        if isinstance(statement, Missing):
-            return propose(statement)
-        question = {"search": digest_of(to_json(statement))}
-        if (found := _read(store.take(question))) is not None:
-            return found
-        found = propose(statement)
-        if found.proof is not None:
-            store.put(question, _written(found, found.proof))
-        return found
+        kept = None if isinstance(statement, Missing) else _read(store.take(_question(statement)))
+        return kept or propose(statement)
     except Exception as error:
         return Finding(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
 
-def _written(found: Finding, proof: Proof) -> dict[str, Any]:
-    return {**vars(found), "grade": found.grade.label, "proof": to_json(proof)}
+def _keep(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> None:
+    """Put what the checker has accepted into the store."""
+    for key, row in proposals.items():
+        found = row.finding
+        if isinstance(row.stated, Missing) or found.proof is None or not judged[key].accepted:
+            continue
+        if not store.has(question := _question(row.stated)):
+            written = {**vars(found), "grade": found.grade.label, "proof": to_json(found.proof)}
+            store.put(question, written)
+
+
+def _question(statement: Statement) -> dict[str, str]:
+    return {"search": digest_of(to_json(statement))}
 
 
 def _read(kept: Any) -> Finding | None:

@@ -61,6 +61,12 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     return tuple(one for one in found if one is not None)
 
 
+def add_no_store(parser: Parser) -> None:
+    """``--no-store``."""
+    about = "Take nothing from the store and keep nothing there; see store."
+    parser.add_argument("--no-store", action="store_true", help=about)
+
+
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat, default: str = "text") -> None:
     """``--format``, the name of one of some formats."""
     parser.add_choice("--format", formats, "How to write it.", default=default)

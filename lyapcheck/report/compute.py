@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -20,6 +20,7 @@ from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
 from lyapcheck.report.jobs import PaperData, claims_job, gains_job, map_job, paper_job
 from lyapcheck.report.kept import question, read, written
+from lyapcheck.report.model import Data, behind
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
@@ -72,9 +73,10 @@ def _afresh(subject: Subject, notes: Notes, tell: Progress) -> Computed:
     certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
     rows = (*paper.claims.rows, *(row for part in others for row in part.rows))
     if subject.own:
+        needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
+        unwanted = {row["certificate"] for row in rows if row["id"] not in needed[row["proof"]]}
         rows = tuple(row for row in rows if row["id"] in notes.own.get(row["proof"], ()))
-        kept = {row["certificate"] for row in rows} | {path for part in parts for path in part.certificates}
-        certificates = {path: text for path, text in certificates.items() if path in kept}
+        certificates = {path: text for path, text in certificates.items() if path not in unwanted}
     figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
         claims=tuple(row for row in rows if row["proof"] == "published"),
@@ -87,6 +89,12 @@ def _afresh(subject: Subject, notes: Notes, tell: Progress) -> Computed:
         figures=figures,
         certificates=certificates,
     )
+
+
+def _behind_own(proof: str, rows: Sequence[Data], notes: Notes) -> set[str]:
+    """The claims that a report on an arm of one's own has, and all that they rest on."""
+    own = [row for row in rows if row["proof"] == proof]
+    return set().union(*(behind(name, own) for name in notes.own.get(proof, ())))
 
 
 def _work_in(place: str) -> None:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format, add_members
+from lyapcheck.cli.options import add_certificates, add_format, add_members, add_no_store
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def arguments(parser: Parser) -> None:
     )
     add_certificates(parser, "Write a certificate per decided claim there")
     parser.add_argument("--timings", action="store_true", help="Add the seconds each claim took.")
+    add_no_store(parser)
     add_format(parser)
 
 
@@ -37,6 +38,7 @@ def run(
     only: list[str] | None,
     certificates: Path | None,
     timings: bool,
+    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
@@ -53,6 +55,7 @@ def run(
     """
     from dataclasses import replace
 
+    from lyapcheck import store
     from lyapcheck.claims import run_proof
     from lyapcheck.claims.fresh_check import Alarm
     from lyapcheck.cli.m_range import parse_m
@@ -67,6 +70,8 @@ def run(
         )
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
+    if no_store:
+        store.switch_off()
     folder = None if certificates is None else open_folder("--certificates", certificates)
     try:
         with progress("check") as advance:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_format
+from lyapcheck.cli.options import add_format, add_no_store
 from lyapcheck.cli.show import show
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
@@ -15,24 +15,31 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("id", metavar="ID", help="The id of a claim, such as 7a or 16.6.")
+    about = "The id of a claim, such as 7a or 16.6; without one, all ids are listed."
+    parser.add_argument("id", metavar="ID", nargs="?", help=about)
     about = "The proof script that makes the claim; the first of lyapcheck's own if missing."
     parser.add_argument("--proof", metavar="FILE", help=about)
+    add_no_store(parser)
     add_format(parser, Format)
 
 
 def run(
-    id: str,  # noqa: A002
+    id: str | None,  # noqa: A002
     proof: str | None,
+    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Say what a claim states, where the paper makes it, what it uses and how it is decided.
+    """Say what a claim states, what came of it, where the paper makes it, what it uses and how it is decided.
 
     Examples:
+      lyapcheck explain
       lyapcheck explain 16.6
       lyapcheck explain mine --proof my_proof.py
     """
-    from lyapcheck.answers.explain import explain
+    from lyapcheck import store
+    from lyapcheck.answers.explain import explain, list_claims
 
-    show(explain(id, proof), format)
+    if no_store:
+        store.switch_off()
+    show(list_claims(proof) if id is None else explain(id, proof, decide=True), format)
     return Exit.PROVED

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.options import add_no_store
 from lyapcheck.cli.progress import progress
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
@@ -44,6 +45,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--appendix", action="store_true", help=about)
     about = "An older report (its folder or report.json): what changed goes to compare.html, .md and .json."
     parser.add_argument("--compare", metavar="OLD", type=Path, help=about)
+    add_no_store(parser)
 
 
 def run(
@@ -56,6 +58,7 @@ def run(
     format: str,  # noqa: A002
     appendix: bool,
     compare: Path | None,
+    no_store: bool,
 ) -> Exit:
     """Check proof, gains and closed loop for each m and write it all up in a folder.
 
@@ -81,8 +84,11 @@ def run(
     old = None if compare is None else read_report(compare)
     require_folder("--out", out)
     subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
+    from lyapcheck import store
     from lyapcheck.report.build import build
 
+    if no_store:
+        store.switch_off()
     with progress("report") as advance:
         report = build(subject, advance)
     files = render(report, formats, appendix)

@@ -1,0 +1,104 @@
+"""What is kept between runs: found again, whole or not at all, and judged anew."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck import store
+from lyapcheck.claims import run as runs
+from lyapcheck.claims import run_proof
+from lyapcheck.verdicts import Verdict
+
+QUESTION = {"what": "<is it>"}
+
+
+@pytest.fixture(autouse=True)
+def place(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """A store of this test's own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.delenv(store.OFF)
+    return tmp_path / "lyapcheck" / store.ANSWERS
+
+
+def test_an_answer_is_found_under_its_question_alone() -> None:
+    assert store.take(QUESTION) is None
+    assert not store.has(QUESTION)
+    store.put(QUESTION, {"answer": ["λ", 1]})
+    assert store.take(QUESTION) == {"answer": ["λ", 1]}
+    assert store.has(QUESTION)
+    assert store.take({"what": "another"}) is None
+
+
+def test_a_damaged_file_is_not_found(place: Path) -> None:
+    store.put(QUESTION, [1])
+    (path,) = place.iterdir()
+    content = path.read_bytes()
+    for damaged in (content[:-1], b"", content[:5] + b"x" + content[6:], gzip.compress(b"[2]")):
+        path.write_bytes(damaged)
+        assert store.take(QUESTION) is None
+
+
+def test_what_others_could_write_is_not_found(place: Path) -> None:
+    store.put(QUESTION, [1])
+    place.chmod(0o777)
+    assert store.take(QUESTION) is None
+
+
+def test_another_version_asks_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    store.put(QUESTION, [1])
+    monkeypatch.setattr(store, "source_digest", lambda: "another")
+    assert store.take(QUESTION) is None
+
+
+def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+    store.put(QUESTION, [1])
+    monkeypatch.setenv(store.OFF, "1")
+    assert store.take(QUESTION) is None
+    store.put({"what": "more"}, [2])
+    assert len(list(place.iterdir())) == 1
+
+
+def test_what_is_held_is_counted_and_cleared(place: Path) -> None:
+    store.put(QUESTION, [1])
+    (held,) = store.held()
+    assert (held.room, held.files) == (store.ANSWERS, 1)
+    assert held.bytes == sum(path.stat().st_size for path in place.iterdir())
+    store.clear()
+    assert store.take(QUESTION) is None
+    assert store.held()[0].files == 0
+
+
+def test_a_place_that_cannot_be_written_is_no_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    store.put(QUESTION, [1])
+    assert store.take(QUESTION) is None
+
+
+def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = run_proof("published.py", (1,), only=("7a",))
+
+    def searched(statement: Any) -> None:
+        raise AssertionError("it was searched for again")
+
+    monkeypatch.setattr(runs, "propose", searched)
+    again = run_proof("published.py", (1,), only=("7a",))
+    assert again.data() == first.data()
+    assert again.claims[0].verdict is Verdict.PROVED
+
+
+def test_a_proof_that_was_exchanged_proves_nothing(place: Path) -> None:
+    """Even one whose own digest is right: the checker does not trust where it comes from."""
+    run_proof("published.py", (1,), only=("7a",))
+    answers = [json.loads(gzip.decompress(path.read_bytes()[:-32])) for path in sorted(place.iterdir())]
+    names = [path.name for path in sorted(place.iterdir())]
+    for name, answer in zip(names, [*answers[1:], answers[0]], strict=True):
+        store.keep(store.ANSWERS, name, gzip.compress(json.dumps(answer).encode()))
+    assert len(names) > 1
+    (row,) = run_proof("published.py", (1,), only=("7a",)).claims
+    assert row.verdict is not Verdict.PROVED
