@@ -3,10 +3,11 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report screenshots study test test-slow test-robots kernel fuzz lint types bench lock clean help
+.PHONY: report screenshots site study test test-slow test-robots kernel fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
+	@echo "make site       the documents as a site, in build/site/"
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
@@ -21,6 +22,12 @@ help:
 
 report: .venv/.ready
 	$(BIN)/lyapcheck report
+
+# Packages that only the site needs, in an environment of their own.
+site:
+	$(PYTHON) -m venv build/docs
+	build/docs/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r docs/requirements.lock
+	NO_MKDOCS_2_WARNING=1 build/docs/bin/mkdocs build --strict --quiet
 
 screenshots: .venv/.ready
 	$(BIN)/python -m tests.report.screenshots
@@ -71,6 +78,8 @@ bench: .venv/.ready
 lock:
 	uv pip compile pyproject.toml --group dev --universal --python-version 3.11 --generate-hashes \
 	  --no-emit-index-url --no-header --no-annotate --quiet -o requirements.lock
+	uv pip compile --group pyproject.toml:docs --universal --python-version 3.11 --generate-hashes \
+	  --no-emit-index-url --no-header --no-annotate --quiet -o docs/requirements.lock
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,84 @@
+"""The documents: their commands are ones that lyapcheck takes, the tutorial does what it says, links lead on."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.cli.commands import NAMES, load
+from lyapcheck.cli.parser import Parser
+from tests.helpers.command import lyapcheck
+
+ROOT = Path(__file__).parents[2]
+DOCS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+EXTENDED = "adding.md"
+"""Its commands are run as they stand by tests/extending, with the files that it adds."""
+SCREEN = 60
+"""Lines of a README that fits one screen."""
+
+
+def commands(page: Path) -> list[str]:
+    """The command lines of a page, without comments."""
+    found = []
+    for block in re.findall(r"```console\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+        for line in re.findall(r"^\$ (.*)$", block, re.MULTILINE):
+            found += [part.strip() for part in re.split(r"&&|>", line.split(" #")[0])]
+    return [line for line in found if line.startswith("lyapcheck ")]
+
+
+EVERY = [(page.name, line) for page in DOCS if page.name != EXTENDED for line in commands(page)]
+
+
+@pytest.mark.parametrize(("page", "line"), EVERY)
+def test_every_command_in_the_documents_is_one(page: str, line: str) -> None:
+    name, *words = shlex.split(line)[1:]
+    if not name.startswith("-"):
+        assert name in NAMES
+        parser = Parser(prog=name)
+        load(name).arguments(parser)
+        parser.parse(words)
+
+
+def test_there_are_commands_in_the_documents() -> None:
+    assert len(EVERY) > 25
+
+
+def test_the_tutorial_does_what_it_says(tmp_path: Path) -> None:
+    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    gains = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
+    assert gains is not None
+    (tmp_path / "gains.toml").write_text(gains[1], encoding="utf-8")
+    codes = [
+        lyapcheck(*shlex.split(line)[1:], folder=tmp_path).returncode
+        for line in commands(ROOT / "docs" / "tutorial.md")
+    ]
+    assert codes == [1, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    targets = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8"))
+    local = [target for target in targets if not re.match(r"[a-z]+:", target)]
+    assert [target for target in local if not (page.parent / target).exists()] == []
+
+
+def test_every_page_is_in_the_site() -> None:
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    assert set(re.findall(r": ([a-z_]+\.md)$", text, re.MULTILINE)) == {
+        page.name for page in (ROOT / "docs").glob("*.md")
+    }
+
+
+def test_the_readme_fits_a_screen() -> None:
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= SCREEN
+
+
+def test_the_citation_is_of_this_version() -> None:
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert f"\nversion: {project['version']}\n" in citation
+    assert f"\nlicense: {project['license']}\n" in citation
