@@ -1,4 +1,4 @@
-"""The documents: their commands are ones that lyapcheck takes, the tutorial does what it says, links lead on."""
+"""The documents: their commands are ones that lyapcheck takes, the tutorial does what it says."""
 
 from __future__ import annotations
 
