@@ -45,7 +45,7 @@ def arguments(parser: Parser) -> None:
     add_members(parser, "1:3")
     parser.add_whole("--digits", "Decimal places of the gains.", default=3)
     parser.add_real("--overshoot", "Target: most overshoot, per cent of a joint's step.")
-    parser.add_real("--settle", "Target: seconds until each joint stays within 2 % of its step.")
+    parser.add_real("--settle", "Target: seconds until each joint stays within 2 %% of its step.")
     parser.add_real("--rest-error", "Target: degrees from the goal that dry friction may leave.")
     about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1; with targets: in any motion."
     parser.add_argument("--peak-share", metavar="SHARES", default="1", help=about)
