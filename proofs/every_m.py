@@ -22,17 +22,21 @@ from fractions import Fraction
 
 from lyapcheck.claims import (
     Constant,
+    ForSmall,
     Proof,
     all_of,
     cosh,
+    every_n,
     exp,
     expr,
     for_all,
     h,
+    identity,
     implies,
     log,
     nonnegative,
     positive,
+    rate,
     sinh,
     sqrt,
     var,
@@ -45,6 +49,36 @@ proof = Proof(
 M = var("m")
 ROOT2 = sqrt(2)
 ASINH1 = log(1 + ROOT2)
+
+
+def slope_in(m, p, u):
+    """h_m' with u = sinh²x and p = u^m."""
+    return p * (2 * m + (2 * m - 1 - p) / u) / (1 + p) ** 2
+
+
+proof.section("h in u and p")
+S, C, P = (var(name) for name in ("s", "c", "p"))
+
+
+@proof.claim(
+    "E.form.slope",
+    "with s = sinh x, c = cosh x, p = s^(2m): h = pc/((1 + p)s) moves by p(2mc² − 1 − p)/((1 + p)²s²)",
+)
+def _():
+    """ds/dx = c, dc/dx = s = (c² − 1)/s and dp/dx = 2mp c/s, for every real m."""
+    moving = [(S, C), (C, (C**2 - 1) / S), (P, 2 * M * P * C / S), (M, expr(0))]
+    right = P * (2 * M * C**2 - 1 - P) / ((1 + P) ** 2 * S**2)
+    return every_n(rate(P * C / ((1 + P) * S)), right, rates=moving, positive=[S, C, P, M])
+
+
+@proof.claim(
+    "E.form.u", "p(2mc² − 1 − p)/((1 + p)²s²) is p(2m + (2m − 1 − p)/u)/(1 + p)² with s² = u, c² = 1 + u"
+)
+def _():
+    u = var("u")
+    left = P * (2 * M * (1 + u) - 1 - P) / ((1 + P) ** 2 * u)
+    return identity(left, slope_in(M, P, u), positive("m", "p", "u"))
+
 
 proof.section("γ")
 
@@ -76,6 +110,21 @@ def _():
 )
 def _():
     return for_all(FOUR_M < FOUR_M / 2 * (U + 1) - 1, 8)
+
+
+@proof.claim(
+    "E.gamma.peak",
+    "h_m rises where p < 2m u + 2m − 1 and falls beyond; there p/(1 + p) is 1 − 1/(2m(1 + u)), every real m",
+    uses=["E.form.u"],
+)
+def _():
+    u, top = var("u"), 2 * M * var("u") + 2 * M - 1
+    free = positive("m", "u", "p")
+    return all_of(
+        rises=implies(free, (top > P,), slope_in(M, P, u) > 0),
+        falls=implies(free, (top < P,), slope_in(M, P, u) < 0),
+        value=identity((top / (1 + top)) ** 2, (1 - 1 / (2 * M * (1 + u))) ** 2, positive("m", "u")),
+    )
 
 
 @proof.claim(
@@ -206,3 +255,18 @@ def _():
         left=for_all(h(2, x) <= Fraction(9, 10) * x, 0),
         limit=Constant(expr(Fraction(9, 10)) < ROOT2 / ASINH1),
     )
+
+
+proof.section("The limit")
+
+
+@proof.claim("E.limit.inside", "h_m → 0 where sinh²x = u < 1, as p = u^m → 0: a dead zone up to asinh 1")
+def _():
+    u, d = var("u"), var("d")
+    return ForSmall("p", positive("u", "d"), (), (1 + u) * P**2 < d * u * (1 + P) ** 2)
+
+
+@proof.claim("E.limit.outside", "h_m² → 1 + 1/u = coth²x where u > 1, as 1/p → 0")
+def _():
+    d, rest = var("d"), var("rest")
+    return ForSmall("rest", positive("d"), (), 1 - (1 / (1 + rest)) ** 2 < d)

@@ -741,6 +741,70 @@ for figure, name, joint, torque in FIGURES:
         f"Fig. {figure}",
     )
 
+proof.section("Section 5: conclusions")
+
+
+def responses(m, name):
+    """|k_pi h_m(q̃_i)| in N·m for each joint at the printed final errors of a gain set, with its gains."""
+    rows = zip(TABLE_2[name][1], STEADY[name], strict=False)
+    return [expr(k) * h(m, abs(Fraction(e_i)) * pi / 180) for k, e_i in rows]
+
+
+proof.add(
+    "S5.norm",
+    "the norm of the steady-state error falls as m grows: 0.5934, 0.5539, 0.5193",
+    all_of(
+        from_1_to_2=Constant(expr(STEADY["m2"][3]) < STEADY["m1"][3]),
+        from_2_to_3=Constant(expr(STEADY["m3"][3]) < STEADY["m2"][3]),
+    ),
+    "Section 5",
+)
+proof.add(
+    "S5.joints",
+    "so does that of each joint",
+    all_of(
+        **{
+            f"{joint}_from_{k}_to_{k + 1}": Constant(
+                expr(abs(Fraction(STEADY[f"m{k + 1}"][i]))) < abs(Fraction(STEADY[f"m{k}"][i]))
+            )
+            for i, joint in enumerate(JOINTS)
+            for k in (1, 2)
+        }
+    ),
+    "Section 5",
+)
+proof.add(
+    "S5.stiffness",
+    "as the controllers become stiffer at the goal: K_p h_m(q̃) at the printed final errors grows with m",
+    all_of(
+        **{
+            f"{joint}_from_{k}_to_{k + 1}": Constant(
+                responses(k, f"m{k}")[i] < responses(k + 1, f"m{k + 1}")[i]
+            )
+            for i, joint in enumerate(JOINTS)
+            for k in (1, 2)
+        }
+    ),
+    "Section 5",
+)
+proof.add(
+    "S5.flat",
+    "the proportional torque at the printed final errors is above 0.28 N·m at the base for m = 1, and at "
+    "every joint below 3.1·10⁻⁵ N·m for m = 2 and 3·10⁻¹⁰ N·m for m = 3: less than any dry friction",
+    all_of(
+        base=Constant(expr("0.28") < responses(1, "m1")[0]),
+        **{
+            f"m2_{joint}": Constant(torque < "31/1000000")
+            for joint, torque in zip(JOINTS, responses(2, "m2"), strict=True)
+        },
+        **{
+            f"m3_{joint}": Constant(torque < "3/10000000000")
+            for joint, torque in zip(JOINTS, responses(3, "m3"), strict=True)
+        },
+    ),
+    "Section 5",
+)
+
 # Remark II: tracking --------------------------------------------------------------------------------------
 
 proof.adopt("scalar.py", "h.bounds", section="Section 3: the family")

@@ -13,6 +13,12 @@ and for every v_d < ∞ some ε₀ makes it positive definite. The error system 
 as q = q_d(t) − q̃. So the conclusion needs bounds of V and of its rate in which there is no t: 21.below,
 21.above and 21.form. They hold whatever q_d(t) is, so stability is uniform in the initial time, and in q_d as
 long as ‖q̇_d‖ ≤ v_d. Taken for granted: q_d has two continuous derivatives, and (21) knows M, C, g, B exactly.
+
+The torque of (21) is not bounded, whatever h is: C(q, q̇)q̇_d grows with q̇. Only (6) is.
+Strict Lyapunov functions for tracking are in the second reference. For every n and every function at once it is
+in ``every_function.py``.
+
+References: ``reyes2019family``, ``santibanez1997strict``.
 """
 
 from dataclasses import replace

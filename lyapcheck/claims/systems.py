@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
@@ -29,6 +30,7 @@ from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.statement import Monomials, Relation, Statement
+from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import Form
 from lyapcheck.check.systems.system import Entrywise, Member, State, System
 from lyapcheck.check.systems.theorems import Argument, Change, Rest
@@ -284,6 +286,12 @@ def _argued(
     small: bool = False,
     local: bool = False,
 ) -> Stable:
+    relations, forms = (
+        tuple(where),
+        [one for one in (above, rate, below, rest and rest[1]) if one is not None],
+    )
+    for one in (*(form.tree for form in forms), *(relation.gap for relation in relations)):
+        _require_names(loop, variables(one), [*(changes or ())])
     return Stable(
         Argument(
             theorem,
@@ -295,11 +303,25 @@ def _argued(
             form_of(rate),
             tuple(Change(state, equals.tree) for state, equals in (changes or {}).items()),
             None if rest is None else Rest(rest[0].tree, form_of(rest[1])),
-            tuple(where),
+            relations,
             small,
             local,
         )
     )
+
+
+def _require_names(loop: System, used: Iterable[str], changed: Iterable[str]) -> None:
+    """Refuse names of numbers that nothing in the system has.
+
+    Raises:
+        ValueError: with the nearest ones that it has.
+    """
+    letters_of = [*loop.moving, *(f.name for f in loop.functions), *(f"y_{state}" for state in changed)]
+    known = {*constants_of(loop), "s", *(f"norm_{name}" for name in letters_of)}
+    known |= {f"sum_U{f.name}" for f in loop.functions}
+    for name in sorted(set(used) - known):
+        near = " or ".join(get_close_matches(name, known, n=2)) or ", ".join(sorted(known))
+        raise ValueError(f"{name} is no constant or size of this system; did you mean {near}?")
 
 
 def along(loop: System, V: Expr, equals: Expr, gravity: bool = False) -> EveryN:

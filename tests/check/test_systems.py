@@ -204,10 +204,14 @@ def test_coefficients_are_constants():
     assert "goes to 0 far away" in why(
         pd.argued(above=pd.goal.mu / 2 * pd.b**2 + pd.goal.s * pd.K.min / 2 * pd.r**2)
     )
-    assert "are no constants" in why(pd.argued(rate=var("free") * pd.b**2))
+    free = form_of(var("free") * pd.b**2)
+    assert "are no constants" in why(Stable(replace(pd.argued().argument, rate=free)))
+    with pytest.raises(ValueError, match="Kv_mn is no constant or size of this system; did you mean Kv_min"):
+        pd.argued(rate=var("Kv_mn") * pd.b**2)
     assert "must be about constants" in why(pd.argued(where=[pd.r < 1]))
     assert "must be about constants" in why(pd.argued(small=True, where=[pd.goal.eps0 > 1]))
-    assert "is not one of a state" in why(pd.argued(above=pd.above + var("norm_magic") ** 2))
+    magic = form_of(pd.above + var("norm_magic") ** 2)
+    assert "is not one of a state" in why(Stable(replace(pd.argued().argument, lower=magic)))
 
 
 def test_a_bounded_size_does_not_grow():

@@ -44,6 +44,15 @@ def test_each_concludes_and_refuses_what_is_wrong(name):
     assert len(Path(find_script(f"{name}.py")).read_text(encoding="utf-8").splitlines()) <= 120
 
 
+def test_the_class_theorem_serves_every_n_and_every_function():
+    """One statement whatever n is; its members are of m."""
+    rows = {row.id: row for row in run_proof("every_function.py", ms=(2,), n=4).claims}
+    assert {row.verdict.value for row in rows.values()} == {"proved"}
+    assert {rows[name].n for name in rows} == {None}
+    assert (rows["F.arms"].m, rows["F.family"].m) == (None, 2)
+    assert rows["F.arms"].decision.grade.name == "EXACT"
+
+
 TURNED = [("K_p @ e - K_v @ w", "-1 * K_p @ e - K_v @ w"), ("K_p @ e - K_v @ w", "K_p @ e + K_v @ w")]
 FAULTS = {
     "takegaki_arimoto": [

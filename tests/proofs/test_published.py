@@ -53,6 +53,10 @@ BY_HAND = {
     ("S4.norm.pd", None): "proved",
     ("F.4.base", None): "refuted",  # 28 tanh(π/4) = 18.36
     ("F.10.elbow", None): "proved",  # 0.133·90 = 11.97
+    ("S5.norm", None): "proved",
+    ("S5.joints", None): "refuted",  # the base's error grows from m = 2 to 3, the shoulder's from 1 to 2
+    ("S5.stiffness", None): "refuted",  # 28 tanh(0.01) against 27 h_2(0.003) < 10⁻⁶
+    ("S5.flat", None): "proved",
 }
 
 

@@ -35,6 +35,7 @@ from lyapcheck.claims.registry import procedure
 METHOD = "norms for every n"
 TRIES = 40
 """How often entries are drawn for each n."""
+MOST_SHOWN = 2
 Sizes = dict[tuple[int, ...], arb]
 """A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""
 Option = tuple[Cover, Tree, Sizes]
@@ -59,7 +60,32 @@ def find_bound_every_n(statement: BoundEveryN) -> Finding:
     against = _against(statement)
     if against is not None:
         return against
-    return still_open("no choice of norms keeps the terms within the bound; enlarge the bound", METHOD)
+    return still_open(_left_over(statement, found, options, spare), METHOD)
+
+
+def _left_over(statement: BoundEveryN, found: list[Term], options: list[list[Option]], spare: Sizes) -> str:
+    """Which term nothing bounds, or how much is missing with the first cover of each."""
+    for term, choices in zip(found, options, strict=True):
+        if not choices:
+            return f"nothing that is known bounds the term {_term_text(term)}; give its letters a bound"
+    names = sorted(statement.numbers)
+    for choices in options:
+        for key, c in choices[0][2].items():
+            spare = spare | {key: spare.get(key, arb(0)) - c}
+    missing = [(key, c) for key, c in spare.items() if c < 0]
+    terms = " and ".join(
+        _term_text((-c.mid(), dict(zip(names, key, strict=True)))) for key, c in missing[:MOST_SHOWN]
+    )
+    lacks = f": it lacks {terms}" if missing else ""
+    return f"no choice of norms keeps the terms within the bound{lacks}; enlarge the bound"
+
+
+def _term_text(term: tuple[object, dict[str, int]]) -> str:
+    """A coefficient and the factors beside it."""
+    c, powers = term
+    size = f"{float(c):.4g}"  # type: ignore[arg-type]
+    factors = [f"{name}^{k}" if k > 1 else name for name, k in powers.items() if k]
+    return "·".join([size, *factors]).replace("-", "−")
 
 
 def _against(statement: BoundEveryN) -> Finding | None:
