@@ -15,8 +15,8 @@ as q = q_d(t) − q̃. So the conclusion needs bounds of V and of its rate in wh
 long as ‖q̇_d‖ ≤ v_d. Taken for granted: q_d has two continuous derivatives, and (21) knows M, C, g, B exactly.
 
 The torque of (21) is not bounded, whatever h is: C(q, q̇)q̇_d grows with q̇. Only (6) is.
-Strict Lyapunov functions for tracking are in the second reference. For every n and every function at once it is
-in ``every_function.py``.
+Strict Lyapunov functions for tracking are in the second reference. For every n and every function at once
+it is in ``every_function.py``.
 
 References: ``reyes2019family``, ``santibanez1997strict``.
 """
