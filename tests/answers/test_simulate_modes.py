@@ -127,7 +127,8 @@ def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it(lyapcheck):
     assert "confirmed in balls" in done.stderr
     for result in json.loads(done.stdout)["results"]:
         assert result["complete"] is False
-        assert result["reached"] == result["breach"]["t"] < 5
+        assert result["reached"] == pytest.approx(result["breach"]["t"], abs=1e-9)
+        assert result["reached"] < 5
         assert result["breach"]["grade"] == "enclosure"
         assert result["breach"]["value"] > result["breach"]["limit"] == 0.0
 
@@ -191,7 +192,8 @@ def test_a_run_of_a_batch_is_the_run_by_itself():
     found = sweep(gain_set, model, PAPER_TASK, Starts(3, 0.5, 1))
     alone = simulate(gain_set, model, PAPER_TASK.q_d, found.q0[2], points=501)
     assert found.runs.L2[2] == pytest.approx(alone.L2, rel=1e-8)
-    assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-8)
+    sampled = np.max(np.abs(alone.tau), axis=0)  # of a batch the samples are looked at alone
+    assert found.runs.peak_torque[2] == pytest.approx(sampled, rel=1e-8)
     assert np.all(np.abs(found.q0) <= 0.5)
 
 

@@ -15,13 +15,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune import Targets, tune
+from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.damping import damping_of
 from lyapcheck.answers.tune.gain_file import gain_file_text
 from lyapcheck.answers.tune.program import propose
 from lyapcheck.answers.tune.room import Room
 from lyapcheck.answers.tune.rounding import best_units, binding
-from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms
+from lyapcheck.answers.tune.targets import Targets
+from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
 from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.cli.decimals import parse_decimals
 from lyapcheck.control.gains import Bounds, read_gain_file
@@ -170,7 +171,8 @@ def largest_of(function):
 def rooms(robot="buap3", m=2, **targets):
     model = load(robot)
     wanted = _for_each_joint(Targets(**targets), model.n)
-    return _rooms(m, model, _limits(robot, model, wanted, Bounds())[0], wanted)
+    limits, _ = _limits(arm_limits(robot, model.n), model, wanted, Bounds())
+    return _rooms(m, model, limits, wanted)
 
 
 @pytest.mark.parametrize(
@@ -332,7 +334,7 @@ def test_markdown_tables_have_as_many_cells_as_heads():
 
 def test_asking_for_help_or_importing_the_api_loads_no_solver():
     code = (
-        "import sys, lyapcheck.answers.tune, lyapcheck.cli.commands.tune\n"
+        "import sys, lyapcheck.answers.tune.tuning, lyapcheck.cli.commands.tune\n"
         "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

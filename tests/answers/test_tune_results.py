@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune import Targets, tune
+from lyapcheck.answers.tune.targets import Targets
+from lyapcheck.answers.tune.tuning import tune
 from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file

@@ -13,9 +13,11 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune import Bench, BenchTuning, Wishes, tune_for
+from lyapcheck.answers.tune.bench_answer import BenchTuning
+from lyapcheck.answers.tune.bench_tuning import tune_for
 from lyapcheck.answers.tune.one_joint import Joint, proposal
 from lyapcheck.answers.tune.trial import tried
+from lyapcheck.answers.tune.wishes import Bench, Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file

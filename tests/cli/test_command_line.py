@@ -65,7 +65,10 @@ BAD = [
     ("gate none.toml nil.toml", ["none.toml: file: cannot be read", "nil.toml: file: cannot be read"]),
     ("gate .", ["file: is a folder"]),
     ("gate TABLE2 --robot nobody", ["robot = nobody: is neither a built-in arm nor a file"]),
-    ("gate TABLE2 --condition 11", ["--condition = 11: is not one of 10, 10p, 19, scalar, global"]),
+    (
+        "gate TABLE2 --condition 11",
+        ["--condition = 11: is not one of 10, 10p, 10i, 19, scalar, global, lasalle"],
+    ),
     ("gate TABLE2 --gamma rounded", ["--gamma = rounded: is not one of true, printed"]),
     ("check", ["the following arguments are required: PROOF.py"]),
     ("check none.py", ["none.py: PROOF = none.py: no such proof script"]),

@@ -151,6 +151,8 @@ assert f.h(np.inf) == 1
         assert done.returncode == 2
         assert "no bounded function 'gentle' with m = None is known to the checker" in done.stderr
         assert "docs/adding.md" in done.stderr
+        done = furnished.run("lyapcheck gate gentle.toml --condition lasalle", copied=False)
+        assert done.returncode == 3, "nothing says that x h(x) > 0"
 
     @pytest.mark.slow
     def test_its_certificates_rest_on_its_balls(self, furnished: Workshop) -> None:

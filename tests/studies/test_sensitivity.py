@@ -176,7 +176,7 @@ def test_figures_print_the_torques_that_the_proof_holds_against_table_2() -> Non
     proof = runpy.run_path(str(Path(__file__).parents[2] / "proofs" / "published.py"))
     joints = proof["JOINTS"]
     ours = {
-        (figure.removeprefix("Fig. "), m, joints[i], value)
+        (figure.removeprefix("Fig. "), f"m{m}" if m else "pd", joints[i], value)
         for m, (figure, torques) in START_TORQUES.items()
         for i, value in enumerate(torques)
         if value is not None

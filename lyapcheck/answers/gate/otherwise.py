@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.control.judgement import judged
+from lyapcheck.errors import InputError
 
 if TYPE_CHECKING:
     from lyapcheck.check.statement import Ends
@@ -43,13 +44,27 @@ def proved_otherwise(
 
     Soundness: that of ``lyapcheck.check.verify``; that M(q) ≻ 0 is enough is LaSalle's theorem, cited.
     """
-    if not small(model.fixed()) or (ranges and model.n > MOST_RANGED):
+    if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > MOST_RANGED):
         return None
     arm = model if ranges else model.fixed()
     found = _scalar(gains, arm, friction_of(model, viscous_min), ranges)
     if found is None or found.verdict != ACCEPTED:
         found = lasalle(arm)
     return found if found.verdict == ACCEPTED else None
+
+
+def unknown_function(gains: GainSet) -> str:
+    """Why nothing is known of the h of a gain set, as that x h(x) > 0; empty where the checker knows h."""
+    from lyapcheck.family.registry import named
+
+    family = named(gains.family, gains.m)
+    if not family.bounded:  # PD: h(x) = x
+        return "" if family.name == "linear" else f"the checker knows no function {family.name!r}"
+    try:
+        _ = family.checked
+    except InputError as error:
+        return str(error)
+    return ""
 
 
 def small(fixed: RobotModel) -> bool:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from lyapcheck.answers.gate.otherwise import LASALLE, MOST_RANGED, friction_of, lasalle
+from lyapcheck.answers.gate.otherwise import LASALLE, MOST_RANGED, friction_of, lasalle, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged
@@ -63,7 +63,7 @@ class Prover:
         if self.ranges and self.model.n > MOST_RANGED:
             return Check(name, None, None, None, None, None, _TOO_MANY)
         setting = Setting(gains, self.model, self.ranges)
-        reason = self._unphysical(setting)
+        reason = unknown_function(gains) or self._unphysical(setting)
         proof = None
         if not reason and name == LASALLE:
             return lasalle(self.model if self.ranges else self.model.fixed())

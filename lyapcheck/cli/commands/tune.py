@@ -22,7 +22,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lyapcheck.answers.tune import Targets
+    from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.answers.tune.wishes import Bench
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
@@ -106,11 +106,11 @@ def run(
 
     Examples:
       lyapcheck tune buap3 --m 1:5
-      lyapcheck tune buap3 --overshoot 5 --settle 1.5 --rest-error 20 --out gains.toml
+      lyapcheck tune buap3 --overshoot 5 --settle 1.5 --rest-error 20 --m 1
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
-    from lyapcheck.answers.tune import tune
     from lyapcheck.answers.tune.gain_file import gain_file_text
+    from lyapcheck.answers.tune.tuning import tune
 
     wrong = Complaints()
     if out is not None:
@@ -228,7 +228,7 @@ def _targets(
     damping: str | None,
 ) -> Targets:
     """The targets given on the command line; those that cannot be read are left at their defaults."""
-    from lyapcheck.answers.tune import Targets
+    from lyapcheck.answers.tune.targets import Targets
 
     shares = wrong.reading(parse_decimals, "--peak-share", peak_share)
     others = (("--kv-share", kv_share), ("--kv-min", kv_min), ("--damping", damping))
