@@ -11,7 +11,7 @@ help:
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
-	@echo "make test-slow  the rest: whole grids, planted faults, 40,000 statements, many examples, built wheel"
+	@echo "make test-slow  the rest: whole grids, planted faults, 10,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
