@@ -19,6 +19,7 @@ from lyapcheck.claims import (
     below,
     bounded,
     coriolis_at_rest,
+    coriolis_bounded,
     damping_below,
     dh,
     diagonal,
@@ -27,6 +28,7 @@ from lyapcheck.claims import (
     expr,
     for_all,
     gamma,
+    gravity_bounded,
     gravity_bounds,
     gravity_vector,
     h,
@@ -35,6 +37,8 @@ from lyapcheck.claims import (
     lacking,
     loop_property,
     loops,
+    mass_bounded,
+    mass_positive,
     mass_symmetric,
     norm_bound,
     pi,
@@ -66,12 +70,12 @@ proof.section("Section 2: the robot")
 
 @proof.claim("2.1", "M(q) is symmetric and positive definite for all q", "Property 2.1")
 def _(robot):
-    return all_of(symmetric=mass_symmetric(robot), positive=ArmBounds(robot).mass_above())
+    return all_of(symmetric=mass_symmetric(robot), positive=mass_positive(robot))
 
 
 @proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", "Property 2.2, (2)")
 def _(robot):
-    return ArmBounds(robot).mass_below()
+    return mass_bounded(robot)
 
 
 proof.add("2.3", "C(q, 0) = 0", coriolis_at_rest, "Property 2.3")
@@ -87,7 +91,7 @@ proof.add(
 
 @proof.claim("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", "Property 2.6, (5)")
 def _(robot):
-    return ArmBounds(robot).coriolis_below()
+    return coriolis_bounded(robot)
 
 
 @proof.claim("2.7", "0 < λmin(B)‖q̇‖² ≤ q̇ᵀBq̇ ≤ λmax(B)‖q̇‖² for q̇ ≠ 0", "Property 2.7")
@@ -105,8 +109,9 @@ def _(n, robot):
 
 @proof.claim("2.8", "|g_i(q)| ≤ k_gi, so ‖g(q)‖ is bounded", "Property 2.8")
 def _(robot):
-    g = gravity_vector(robot.fixed())
-    return bounded(g) if None in robot.gravity_bound else bounded(g, gravity_bounds(robot))
+    if None in robot.gravity_bound:
+        return gravity_bounded(robot)
+    return bounded(gravity_vector(robot.fixed()), gravity_bounds(robot))
 
 
 proof.section("Section 3: the family")

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.chain import ChainAbove
+from lyapcheck.check.kinds.chain_identity import ChainIdentity
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
     MassSymmetric,
     RateLessTwiceCoriolis,
     RateOfMass,
 )
-from lyapcheck.check.statement import Ends
+from lyapcheck.check.statement import Ends, Statement
+from lyapcheck.claims.arms import gravity_vector
+from lyapcheck.claims.bounds import ArmBounds
+from lyapcheck.claims.case import lacking
+from lyapcheck.claims.statements import bounded
+from lyapcheck.robots.dynamics import FEW, TooLong
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.dynamics import Chain
 
 
 def ranges_of(robot: RobotModel) -> tuple[Ends, ...]:
@@ -22,21 +31,67 @@ def ranges_of(robot: RobotModel) -> tuple[Ends, ...]:
     return tuple(number.bounds for number in robot.parameters.values())
 
 
-def mass_symmetric(robot: RobotModel) -> MassSymmetric:
+def mass_symmetric(robot: RobotModel) -> Statement:
     """M(q) = M(q)ᵀ."""
-    return MassSymmetric(mass_of(robot), ranges_of(robot))
+    return _of_links(robot, "symmetric") or MassSymmetric(mass_of(robot), ranges_of(robot))
 
 
-def coriolis_at_rest(robot: RobotModel) -> CoriolisAtRest:
+def coriolis_at_rest(robot: RobotModel) -> Statement:
     """C(q, 0) = 0, C by Christoffel symbols."""
-    return CoriolisAtRest(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "at rest") or CoriolisAtRest(mass_of(robot), ranges_of(robot), ())
 
 
-def rate_of_mass(robot: RobotModel) -> RateOfMass:
+def rate_of_mass(robot: RobotModel) -> Statement:
     """Ṁ(q) = C(q, q̇) + C(q, q̇)ᵀ, and both are symmetric."""
-    return RateOfMass(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "rate") or RateOfMass(mass_of(robot), ranges_of(robot), ())
 
 
-def rate_less_twice_coriolis(robot: RobotModel) -> RateLessTwiceCoriolis:
+def rate_less_twice_coriolis(robot: RobotModel) -> Statement:
     """½ q̇ᵀ[Ṁ − 2C]q̇ = 0, and Ṁ − 2C is skew-symmetric."""
-    return RateLessTwiceCoriolis(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "skew") or RateLessTwiceCoriolis(mass_of(robot), ranges_of(robot), ())
+
+
+def mass_positive(robot: RobotModel) -> Statement:
+    """M(q) ≻ 0 at the robot's nominal numbers."""
+    chain = _chain(robot.fixed())
+    return ArmBounds(robot).mass_above() if chain is None else ChainAbove(chain.links, Fraction(0))
+
+
+def mass_bounded(robot: RobotModel) -> Statement:
+    """‖M(q)‖ ≤ β_M at the robot's nominal numbers."""
+    from lyapcheck.constants.storage import storage_proof
+
+    chain = _chain(robot.fixed())
+    shown = None if chain is None else storage_proof(chain, "lambda_max")
+    return ArmBounds(robot).mass_below() if shown is None else shown.statement
+
+
+def coriolis_bounded(robot: RobotModel) -> Statement:
+    """‖C(q, x)y‖ ≤ k_c ‖x‖ ‖y‖ at the robot's nominal numbers.
+
+    Raises:
+        Lacking: M(q) is too long to be written out.
+    """
+    try:
+        return ArmBounds(robot).coriolis_below()
+    except TooLong as error:
+        raise lacking(str(error)) from None
+
+
+def gravity_bounded(robot: RobotModel) -> Statement:
+    """‖g(q)‖, or every |g_i(q)|, is bounded at the robot's nominal numbers."""
+    from lyapcheck.constants.storage import storage_proof
+
+    chain = _chain(robot.fixed())
+    shown = None if chain is None else storage_proof(chain, "k_g")
+    return bounded(gravity_vector(robot.fixed())) if shown is None else shown.statement
+
+
+def _of_links(robot: RobotModel, identity: str) -> ChainIdentity | None:
+    chain = _chain(robot)
+    return None if chain is None else ChainIdentity(chain.links, identity)
+
+
+def _chain(robot: RobotModel) -> Chain | None:
+    """The links of an arm of many joints, whose polynomials are long."""
+    return robot.chain if robot.n > FEW else None

@@ -29,8 +29,8 @@ Rows = list[list[Any]]
 
 FEW = 3
 """Up to so many joints a chain is evaluated by its polynomials."""
-MOST_TERMS = 20_000
-"""Terms of one polynomial beyond which M(q) is not written out; the longest of a Panda has 1,500."""
+MOST_TERMS = 2_500
+"""Terms of one polynomial beyond which M(q) is not written out; a Panda has 805, a skew chain 5ⁿ⁻¹."""
 
 
 class TooLong(InputError):

@@ -24,6 +24,7 @@ from lyapcheck.check.kinds.chain import (
     NoTorque,
     OwnMoments,
 )
+from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.compared import MovingPosture
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
@@ -155,6 +156,8 @@ def of_chains() -> Iterator[Row]:
     assert shown is not None
     yield "chain-lambda_min", shown.statement, shown.proof
     yield "chain-no-torque", ChainGravityBelow(LINKS, AXIS, (1, 2), F(0)), NoTorque()
+    for identity in IDENTITIES:
+        yield f"chain-{identity.replace(' ', '-')}", ChainIdentity(LINKS, identity), ByDefinition()
     yield "chain-small", ChainAbove(LINKS, F(1)), PostureWitness(AT, (), (F(-2), F(5)))
     yield "chain-large", ChainBelow(LINKS, F(5)), PostureWitness((F(0), F(0)), (), (F(5), F(2)))
     yield (

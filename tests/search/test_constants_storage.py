@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, NoTorque, OwnMoments, StorageForms
+from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.storage import hinges, turning_form
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
+from lyapcheck.claims import run_proof
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage import storage_bounds
@@ -22,8 +24,9 @@ from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.constants.storage.problem import doubles, unit_rows
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import but
-from tests.helpers.urdf_texts import ARMS
+from tests.helpers.urdf_texts import ARMS, generic
 
 LEANING = """
 title = "three joints, no two of them parallel, one upside down"
@@ -195,12 +198,31 @@ def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
     assert refused(leaning, NoTorque())
 
 
+def test_properties_of_seven_skew_joints_are_decided(tmp_path: Path) -> None:
+    """All but the bound of C, whose polynomials are too long; 2.7 and 2.8 too."""
+    file = tmp_path / "skew.urdf"
+    file.write_text(generic(7))
+    ids = [f"2.{k}" for k in (1, 2, 3, 4, 5, 6, 8)]
+    found = {row.id: row for row in run_proof("published.py", [1], str(file), only=ids).claims}
+    assert [name for name in ids if found[name].verdict is not Verdict.PROVED] == ["2.6"]
+    assert "too many to write out" in found["2.6"].decision.reason
+
+
 def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
     chain = arm_of("ur5", tmp_path).chain
     assert verify(ChainAbove(chain.links, F(0)), OwnMoments()).grade == "exact"
     assert refused(ChainAbove(chain.links, F(1, 1000)), OwnMoments())
     still = replace(chain.links[0], mass=F(0), com=(F(0),) * 3, inertia=((F(0),) * 3,) * 3)
     assert refused(ChainAbove((still, *chain.links[1:]), F(0)), OwnMoments())
+
+
+@pytest.mark.parametrize("identity", IDENTITIES)
+def test_identities_hold_of_every_chain_and_of_nothing_else(identity: str, tmp_path: Path) -> None:
+    links = arm_of("leaning", tmp_path).chain.links
+    found = verify(ChainIdentity(links, identity), ByDefinition())
+    assert (found.verdict, found.grade) == ("proved", "exact")
+    assert refused(ChainIdentity(links, "M(q) = 0"), ByDefinition())
+    assert refused(ChainIdentity((), identity), ByDefinition())
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.storage import lift, whirl
+from lyapcheck.constants.storage import head, lift, whirl
 from lyapcheck.constants.storage.exact import rounded
 from lyapcheck.constants.storage.head import RELATION, states
-from lyapcheck.constants.storage.hinges import hinges
+from lyapcheck.constants.storage.hinges import Hinge, hinges
 from lyapcheck.robots.numeric import NumericModel
 from tests.search.test_constants_storage import arm_of
 
@@ -82,9 +82,15 @@ def test_the_first_two_joints_reach_what_the_states_say(tmp_path: Path) -> None:
     assert five @ RELATION @ five == pytest.approx(0)
 
 
+def holds(bodies: list[Hinge], basis: whirl.Basis, x: np.ndarray, sector: tuple[float, float]) -> bool:
+    """Whether forms prove their κ on a sector of q_2."""
+    after = whirl._stored(bodies, basis, x)
+    return after is not None and head.certain(bodies, whirl.fmpq_of(float(x[0])), after, *sector)
+
+
 @pytest.mark.slow
 def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whirl, "_PROGRAMS", 4)
+    monkeypatch.setattr(whirl, "_SECTORS", 4)
     arm = arm_of("leaning", tmp_path)
     bound = whirl.whirl_bound(hinges(arm.chain)[0])
     (boxes,) = arm_constants(arm, 3000, names=("k_c",))
@@ -94,11 +100,11 @@ def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pyt
 def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
     bodies, sector = hinges(arm_of("leaning", tmp_path).chain)[0], (0.8, 0.4)
     x = whirl.solve(whirl._blocks(bodies, BASIS, sector), 1 + BASIS.each + 17, 1e-5)
-    assert whirl._holds(bodies, BASIS, x, sector)
+    assert holds(bodies, BASIS, x, sector)
     for place, factor in ((0, 0.9), (3, 2.0), (slice(1, 1 + BASIS.each), 0.0)):
         changed = x.copy()
         changed[place] *= factor
-        assert not whirl._holds(bodies, BASIS, changed, sector)
+        assert not holds(bodies, BASIS, changed, sector)
 
 
 @pytest.mark.slow
@@ -106,8 +112,8 @@ def test_a_sector_says_nothing_of_the_others(tmp_path: Path) -> None:
     """The forms of a narrow sector fail elsewhere on the circle."""
     bodies = hinges(arm_of("leaning", tmp_path).chain)[0]
     x = whirl.solve(whirl._blocks(bodies, BASIS, (0.8, 0.1)), 1 + BASIS.each + 17, 1e-5)
-    assert whirl._holds(bodies, BASIS, x, (0.8, 0.1))
-    assert not whirl._holds(bodies, BASIS, x, (0.8, 3.2))
+    assert holds(bodies, BASIS, x, (0.8, 0.1))
+    assert not holds(bodies, BASIS, x, (0.8, 3.2))
 
 
 def test_too_few_joints(tmp_path: Path) -> None:

@@ -14,15 +14,14 @@ from fractions import Fraction
 from flint import arb, fmpq_mat
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.inertia import Bounded, PostureWitness, dot, require_posture, written_out
+from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, written_out
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.chain import Posture, RigidLink
-from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.links import no_torque
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
 MAX_LINKS = 12
@@ -31,7 +30,7 @@ MAX_DIGITS = 400
 
 
 @dataclass(frozen=True)
-class OfChain(Bounded):
+class OfLinks(Total):
     """What the kinds below share: ``links`` are the joints and bodies, base first."""
 
     links: tuple[RigidLink, ...]
@@ -51,9 +50,10 @@ class OfChain(Bounded):
         entries = [f"link {k + 1}: {_link_text(link)}" for k, link in enumerate(self.links)]
         return f"for all q, {written_out(entries, f'chain of {len(self.links)} links', self.links, ())}"
 
-    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
-        """No: boxes are for polynomials."""
-        return False
+
+@dataclass(frozen=True)
+class OfChain(OfLinks, Bound):
+    """A bound of M(q) or g(q) of some links."""
 
     def at(self, witness: PostureWitness) -> Posture:
         """The chain at the posture of a witness, in balls.
@@ -88,6 +88,10 @@ class ChainAbove(OfChain):
     def text(self) -> str:
         """``M(q) ≻ low·I …``."""
         return f"M(q) ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
+
+    def attempts(self) -> list[Proof]:
+        """Of the bound 0."""
+        return [OwnMoments()] if self.low == 0 else []
 
     def excess(self, at: PostureWitness) -> arb:
         """low xᵀx − xᵀMx."""

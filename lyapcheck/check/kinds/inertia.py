@@ -129,12 +129,8 @@ class PostureWitness(Proof):
     y: tuple[Fraction, ...] = ()
 
 
-class Bounded(Total):
+class Bound(Total):
     """A bound for all postures and parameters of one arm."""
-
-    @abstractmethod
-    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
-        """Whether it is shown by boxes that are cut until they show it."""
 
     @abstractmethod
     def excess(self, at: PostureWitness) -> arb:
@@ -143,6 +139,14 @@ class Bounded(Total):
         Raises:
             Refused: the posture does not fit.
         """
+
+
+class Bounded(Bound):
+    """A bound of polynomials."""
+
+    @abstractmethod
+    def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
+        """Whether it is shown by boxes that are cut until they show it."""
 
 
 class BoundedAbove(Bounded):
@@ -171,8 +175,8 @@ def by_sizes(statement: BoundedAbove, proof: HarmonicSizes) -> Accepted:
     return Accepted("proved", "exact")
 
 
-@rule(Bounded, PostureWitness)
-def by_posture(statement: Bounded, proof: PostureWitness) -> Accepted:
+@rule(Bound, PostureWitness)
+def by_posture(statement: Bound, proof: PostureWitness) -> Accepted:
     """Soundness: the bound fails at one posture, by balls."""
     require(statement.excess(proof) > 0, "posture", "", "does not show that the bound fails")
     return Accepted("refuted", "enclosure")

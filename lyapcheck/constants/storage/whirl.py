@@ -29,10 +29,7 @@ from lyapcheck.constants.torus import PI_ABOVE
 
 _MARGIN = 1e-5
 _ANGLES = 17
-_PROGRAMS = 12
-_QUARTERS = 4
-_PROGRESS = 0.999
-"""A split that leaves more than this share of its bound is the last one."""
+_SECTORS = 6
 _HEAD = 30.0
 _TOLERANCE = 1e-5
 _BITS = 256
@@ -61,28 +58,34 @@ def whirl_bound(hinges: Sequence[Hinge]) -> Fraction | None:
     if len(hinges) < 3:
         return None
     basis = Basis(lift.turning_forms(), lift.relations(), lift.positive_products())
-    half = PI_ABOVE / _QUARTERS
-    sectors = [((2 * k + 1) * half, half) for k in range(_QUARTERS)]
-    found = [(_sector(hinges, basis, sector), sector) for sector in sectors]
-    for _ in range((_PROGRAMS - _QUARTERS) // 2):
-        worst = max(found)
-        centre, half = worst[1][0], worst[1][1] / 2
-        halves = [
-            (_sector(hinges, basis, part), part) for part in ((centre - half, half), (centre + half, half))
-        ]
-        if max(halves) < worst:
-            found = [entry for entry in found if entry is not worst] + halves
-        if max(halves)[0] > _PROGRESS * worst[0]:
-            break
-    most = max(found)[0]
-    return Fraction(most) if isfinite(most) else None
+    known: list[tuple[float, Exact]] = []
+    half = PI_ABOVE / _SECTORS
+    found = [_sector(hinges, basis, ((2 * k + 1) * half, half), known) for k in range(_SECTORS)]
+    return Fraction(max(found)) if isfinite(max(found)) else None
 
 
-def _sector(hinges: Sequence[Hinge], basis: Basis, sector: tuple[float, float]) -> float:
-    """A κ that holds for q_2 in the sector (middle, half width); infinite where none was found."""
+def _sector(
+    hinges: Sequence[Hinge], basis: Basis, sector: tuple[float, float], known: list[tuple[float, Exact]]
+) -> float:
+    """A κ that holds for q_2 in the sector (middle, half width); infinite where none was found.
+
+    Args:
+        hinges: base first.
+        basis: of the forms.
+        sector: rad.
+        known: κ and what the second joint stores of what held for other sectors, to which more is added. Of
+            an arm whose second axis is across the first one, opposite sectors are alike.
+    """
+    for kappa, stored in known:
+        if head.certain(hinges, fmpq_of(kappa), stored, *sector):
+            return kappa
     unknowns = 1 + (len(hinges) - 2) * basis.each + _ANGLES
     x = solve(_blocks(hinges, basis, sector), unknowns, _TOLERANCE)
-    return inf if x is None or not _holds(hinges, basis, x, sector) else float(x[0])
+    after = None if x is None else _stored(hinges, basis, x)
+    if x is None or after is None or not head.certain(hinges, fmpq_of(float(x[0])), after, *sector):
+        return inf
+    known.append((float(x[0]), after))
+    return float(x[0])
 
 
 def _blocks(hinges: Sequence[Hinge], basis: Basis, sector: tuple[float, float]) -> Blocks:
@@ -127,8 +130,8 @@ def _unit(place: tuple[int, int]) -> Array:
     return result
 
 
-def _holds(hinges: Sequence[Hinge], basis: Basis, x: Array, sector: tuple[float, float]) -> bool:
-    """Whether the unknowns prove their κ, in exact numbers and balls."""
+def _stored(hinges: Sequence[Hinge], basis: Basis, x: Array) -> Exact | None:
+    """The cost of the second joint and what follows it, if the forms hold from the third on; exactly."""
     n, kappa = len(hinges), fmpq_of(float(x[0]))
     parts = x[1 : 1 + (n - 2) * basis.each].reshape(n - 2, basis.each)
     one, two = len(basis.own), len(basis.own) + len(basis.relations)
@@ -137,7 +140,7 @@ def _holds(hinges: Sequence[Hinge], basis: Basis, x: Array, sector: tuple[float,
     for k in range(2, n):
         row = parts[k - 2]
         if not _definite(_sum(row[two:], [_unit(place) for place in basis.positive])):
-            return False
+            return None
         slack = _sum(row[one:two], basis.relations) - _sum(row[two:], list(basis.positive.values()))
         slack[: lift.STATE, : lift.STATE] += forms[k - 2]
         slack[lift.RATE, lift.RATE] += kappa
@@ -148,10 +151,9 @@ def _holds(hinges: Sequence[Hinge], basis: Basis, x: Array, sector: tuple[float,
             carry = lift.carried(hinges[k + 1].carry)
             after = after + carry.T @ forms[k - 1] @ carry
         if not _definite(slack - push.T @ after @ push):
-            return False
+            return None
     carry = lift.carried(hinges[2].carry)
-    after = lift.power(hinges[1].body) + carry.T @ forms[0] @ carry
-    return head.certain(hinges, kappa, after, *sector)
+    return np.asarray(lift.power(hinges[1].body) + carry.T @ forms[0] @ carry)
 
 
 def _sum(coefficients: Array, forms: Sequence[Array]) -> Exact:
