@@ -38,9 +38,11 @@ def bench(
         goal: (n,) the step of each joint, rad.
         cells: of the map; empty where there is none.
     """
+    from lyapcheck.control.arm_limits import model_limits
     from lyapcheck.family import hyperbolic
     from lyapcheck.robots.numeric import NumericModel
 
+    limits = model_limits(model)
     posture = np.linspace(0.0, np.pi, POSTURES)
     mass = NumericModel(model).mass(np.repeat(posture[:, None], model.n, axis=1))
     gammas = [hyperbolic(m).constants().gamma for m in range(1, MOST + 1)]
@@ -48,8 +50,8 @@ def bench(
         "robot": model.name,
         "joints": list(model.joints),
         "viscous": [float(number.value) for number in model.viscous],
-        "torque": [None if one is None else float(one.value) for one in model.torque_limit],
-        "gravity": [None if one is None else float(one.value) for one in model.gravity_bound],
+        "torque": [None if one is None else float(one) for one in limits.torque],
+        "gravity": [float(f"{float(one):.6g}") for one in limits.gravity],
         "posture": [float(f"{x:.6g}") for x in posture],
         "mass": [[float(f"{x:.6g}") for x in np.diag(one)] for one in mass],
         "gamma": [float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None],

@@ -134,11 +134,11 @@
     curve.line(xs.map((x) => [x, h(state.m, x)]), COLOURS[0]);
     curve.line([[-4, gamma], [4, gamma]], "var(--quiet)", true);
     curve.words(0, `m = ${state.m}, γ = ${short(gamma)}`, "currentColor");
-    bars("tau", state.kp.map((k, i) => k + state.kv[i]), arm.torque.map((most, i) => (most === null || arm.gravity[i] === null ? null : (most - arm.gravity[i]) / (root * gamma))));
+    bars("tau", state.kp.map((k, i) => k + state.kv[i]), arm.torque.map((most, i) => (most === null ? null : (most - arm.gravity[i]) / (root * gamma))));
     const least = Math.min(...arm.viscous) * state.friction;
     bars("damping", state.kv, state.kv.map(() => least / (root * gamma)));
     const runs = arm.joints.map((_, i) => run(i));
-    const steps = frame("step", [0, 3], [-0.5, 1]);
+    const steps = frame("step", [0, 3], [-1, 1]);
     const shares = frame("share", [0, 3], [0, 1.25]);
     shares.line([[0, 1], [3, 1]], "var(--bad)", true);
     runs.forEach((points, i) => {
@@ -146,7 +146,7 @@
       steps.line(points.map(([t, e]) => [t, e]), colour);
       steps.words(i, arm.joints[i], colour);
       if (arm.torque[i] === null) return;
-      shares.line(points.map(([t, , tau]) => [t, (tau + (arm.gravity[i] ?? 0)) / arm.torque[i]]), colour);
+      shares.line(points.map(([t, , tau]) => [t, (tau + arm.gravity[i]) / arm.torque[i]]), colour);
       shares.words(i, arm.joints[i], colour);
     });
     const words = document.createElement("ul");

@@ -59,11 +59,13 @@ def _card(report: Report, finding: Finding) -> Markup:
         ("Consequence", finding.consequence),
         ("Repair", finding.repair),
     ]
+    if not any(text for _, text in about):
+        return element("article", head, element("p", finding.text), class_=f"card {tone}")
     parts = [[element("dt", term), element("dd", sentence(text))] for term, text in about if text]
     printed = element("div", latex(finding.printed), class_="printed") if finding.printed else None
     drawn = figure(report, finding.figure, _caption(report, finding)) if finding.figure else None
     numbers = [_witness(finding.witness) if finding.witness else element("p", finding.text), drawn]
-    left = element("div", printed, element("dl", parts) if parts else None, class_="said")
+    left = element("div", printed, element("dl", parts), class_="said")
     right = element("div", numbers, _again(finding), class_="shown")
     return element("article", head, element("div", left, right, class_="two"), class_=f"card {tone}")
 
