@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
-MISPRINTS = "Section 4"
-"""The part of the paper in which a refuted claim is a slip of the pen, unless a note says more."""
+LIGHTER = {"Section 4": "C", "Section 5": "D"}
+"""What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
 Small = Mapping[str, Witness]
 
 
@@ -64,12 +64,11 @@ def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Fin
         if not seen and not (note.ask and any(name in small for name in note.claims)):
             continue
         done.update(names)
-        weight = "A" if carrying & set(names) else "B"
+        weight = "A" if carrying & set(names) else _lighter(seen)
         yield _finding(weight, names or note.claims, seen, note, small)
     for name, rows in refuted.items():
         if name not in done:
-            slip = rows[0]["section"].startswith(MISPRINTS)
-            weight = "A" if name in carrying else "C" if slip else "B"
+            weight = "A" if name in carrying else _lighter(rows)
             yield _finding(weight, (name,), rows, Note((name,), rows[0]["comment"]), small)
 
 
@@ -91,6 +90,11 @@ def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: No
         witness=witness,
         figure=(own.figure if own else "") or note.figure,
     )
+
+
+def _lighter(rows: Sequence[Data]) -> str:
+    parts = (weight for part, weight in LIGHTER.items() if rows and rows[0]["section"].startswith(part))
+    return next(parts, "B")
 
 
 def _ms(rows: Sequence[Data]) -> tuple[int, ...]:
