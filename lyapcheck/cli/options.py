@@ -25,9 +25,10 @@ def add_robot(parser: Parser) -> None:
     parser.add_argument("--robot", metavar="ROBOT", help=about)
 
 
-def add_members(parser: Parser, default: str) -> None:
+def add_members(parser: Parser, default: str | None, more: str = "") -> None:
     """``--m``, as `lyapcheck.cli.m_range.parse_m` reads it."""
-    parser.add_argument("--m", metavar="M", default=default, help="Members of the family: 3, 1,2,5 or 1:12.")
+    about = f"Members of the family: 3, 1,2,5 or 1:12.{more}"
+    parser.add_argument("--m", metavar="M", default=default, help=about)
 
 
 def add_certificates(parser: Parser, what: str = "Write the certificates of each gain set there") -> None:

@@ -76,6 +76,11 @@ class GainFile:
         return self.document.place(path if joint is None else (*path, joint))
 
 
+def gain_file_of(file: GainFile | str | Path) -> GainFile:
+    """A gain file as read, or the one at a path."""
+    return file if isinstance(file, GainFile) else read_gain_file(file)
+
+
 def read_gain_file(path: str | Path) -> GainFile:
     """The gain sets of a TOML file, every decimal exact.
 
@@ -112,7 +117,8 @@ def _gain_set(table: Fields, index: int) -> GainSet | None:
     if kp is None or kv is None:
         return None
     if len(kp) != len(kv):
-        table.fail("kv", f"has {len(kv)} gains where kp has {len(kp)}", f"give {len(kp)} gains, one a joint")
+        rule = f"has {len(kv)} gain{'s' if len(kv) > 1 else ''} where kp has {len(kp)}"
+        table.fail("kv", rule, "give both as many gains as the arm has joints")
     return GainSet(name, m, kp, kv, family, angle, index)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, Self
@@ -11,6 +12,8 @@ from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
 from lyapcheck.files.place import KeyPath
 from lyapcheck.files.rules import RETYPE, UNPRINTABLE
 from lyapcheck.output.escapes import printable
+
+_NUMBER = re.compile(r"[+-]?[0-9._]+([eE][+-]?[0-9]+)?")
 
 
 class Notes:
@@ -72,7 +75,8 @@ class Fields:
         if value is None:
             return None
         if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
-            self.fail(key, f"must be a whole number from {low} to {high}", f"write {key} = {low}")
+            quotes = ", without quotes" if isinstance(value, str) else ""
+            self.fail(key, f"must be a whole number from {low} to {high}", f"write {key} = {low}{quotes}")
             return None
         return value
 
@@ -87,7 +91,9 @@ class Fields:
         if value is None:
             return None
         if not isinstance(value, list) or not value:
-            self.fail(key, "must be a list of numbers, one a joint", f"write {key} = [1.0, 1.0]")
+            one = _shown(value) if value and _no_number(value) == "" else "1.0"
+            repair = f"write {key} = [{one}, {one}] for two joints, and so on"
+            self.fail(key, "must be a list of numbers, one a joint", repair)
             return None
         items = [self._number((*self.path, key, i), item, positive) for i, item in enumerate(value)]
         kept = tuple(item for item in items if item is not None)
@@ -158,4 +164,6 @@ def _shown(value: object) -> str:
         text = printable(str(value if isinstance(value, str) else repr(value)))
     except (ValueError, RecursionError):  # an integer of thousands of digits, lists a hundred deep
         return "…"
+    if isinstance(value, str) and _NUMBER.fullmatch(value):
+        return f'"{value}"'  # the quotes are what is wrong with it
     return text if len(text) <= 60 else text[:57] + "…"

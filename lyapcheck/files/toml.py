@@ -57,7 +57,7 @@ def open_document(path: Path, shown: str | None = None) -> Document:
     try:
         return Document(name, text, tomllib.loads(text, parse_float=written))
     except tomllib.TOMLDecodeError as error:
-        raise _syntax(name, str(error)) from None
+        raise _syntax(name, str(error), text) from None
     except RecursionError:
         raise _refused(name, "is nested too deeply", "write plain tables and lists") from None
     except ValueError:
@@ -95,8 +95,20 @@ def _too_long(name: str, text: str) -> InputError:
     return InputError(Problem(name, line, "number", "", rule, "write a number of physical size"))
 
 
-def _syntax(name: str, message: str) -> InputError:
+def _syntax(name: str, message: str, text: str) -> InputError:
     found = re.search(r"\(at line (\d+), column (\d+)\)", message)
     what = re.sub(r" \(at .*\)$", "", message)
-    line = int(found[1]) if found else None
+    line = int(found[1]) if found else _last_assignment(text)
+    if what == "Unclosed array" and found is not None:
+        before = text.splitlines()[: int(found[1])]
+        if "[" not in before[-1][: int(found[2])]:  # it is the next key that does not fit into the array
+            line = _last_assignment("\n".join(before[:-1]))
     return InputError(Problem(name, line, "TOML", "", what, "correct the syntax on this line"))
+
+
+def _last_assignment(text: str) -> int | None:
+    """The last line that begins a value, which is where an end that is missing at the end was opened."""
+    lines = [
+        number for number, line in enumerate(text.splitlines(), 1) if re.match(r"\s*[\w\"'.-]+\s*=", line)
+    ]
+    return lines[-1] if lines else None

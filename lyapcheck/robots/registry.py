@@ -43,12 +43,18 @@ def load(
     return found
 
 
+def arm_file(name_or_path: str | Path) -> Path:
+    """The file of an arm: that of a built-in one or of an example, or the path itself."""
+    known = _arms() | _examples()
+    return known.get(str(name_or_path), known.get(str(name_or_path).lower(), Path(name_or_path)))
+
+
 def _loaded(
     name_or_path: str | Path, tip: str | None, spread: Fraction, vary: tuple[Vary, ...]
 ) -> RobotModel:
     if str(name_or_path) in names():
         return _builtin(str(name_or_path), spread, vary)
-    path = Path(name_or_path)
+    path = arm_file(name_or_path)
     if path.suffix.lower() == ".urdf":
         from lyapcheck.robots.urdf import read_urdf
 
@@ -63,14 +69,23 @@ def _loaded(
 def _advice(name: str) -> str:
     from difflib import get_close_matches
 
-    near = get_close_matches(name, names(), n=1)
+    near = get_close_matches(name, [*names(), *_examples()], n=1)
     guess = f"did you mean {near[0]}? " if near else ""
-    return f"{guess}built-in arms: {', '.join(names())}; or give the path of an arm file (.toml, .urdf)"
+    known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
+    return f"{guess}{known}; or give the path of an arm file (.toml, .urdf)"
 
 
 @lru_cache(maxsize=64)
 def _builtin(name: str, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
     return read_arm(_arms()[name], f"{name}.toml", spread, vary)
+
+
+def _examples() -> dict[str, Path]:
+    """Arm files of the examples by name, which travel with lyapcheck."""
+    package = Path(__file__).parents[1]
+    inside = package / "examples"
+    folder = inside if inside.is_dir() else package.parent / "examples"
+    return {file.stem: file for file in folder.glob("*.toml") if not file.stem.endswith("_gains")}
 
 
 def _arms() -> dict[str, Path]:

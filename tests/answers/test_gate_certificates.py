@@ -283,7 +283,7 @@ def test_without_friction_lasalle_is_what_is_known(tmp_path: Path) -> None:
     """(19) fails for every gain, and no ε₀ is proved without friction: M ≻ 0 is, and more is not promised."""
     path = gain_file(tmp_path / "g.toml", "", "[" + ", ".join(["0.1"] * 6) + "]")
     path.write_text(path.read_text().replace("[1, 1]", "[" + ", ".join(["1"] * 6) + "]"))
-    ur5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+    ur5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
     (result,) = gate(read_gain_file(path), ur5)
     assert (result.verdict, result.standing) == ("rejected", "breaks (19), stability proved otherwise")
     assert (result.stable.id, result.stable.value) == ("lasalle", None)

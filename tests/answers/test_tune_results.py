@@ -21,7 +21,7 @@ from lyapcheck.control.paper import paper_gain_file
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 
-UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
 
 

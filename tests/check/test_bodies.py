@@ -18,7 +18,7 @@ from lyapcheck.verdicts import Verdict
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
 ARMS = ("pelican2", UR5)
 
 

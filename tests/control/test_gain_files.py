@@ -195,7 +195,7 @@ HUGE = "9" * 6000
 BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     # name: (file, line, key, part of the rule, part of the repair)
     "no value": (changed("m = 2", "m ="), 5, "TOML", "Invalid value", "syntax"),
-    "no closing bracket": (changed("3e-1]", "3e-1"), 7, "TOML", "Unclosed array", "syntax"),
+    "no closing bracket": (changed("3e-1]", "3e-1"), 6, "TOML", "Unclosed array", "syntax"),
     "no closing quote": (changed('"one"', '"one'), 4, "TOML", "Illegal character", "syntax"),
     "a key twice": (changed("m = 2", "m = 2\nm = 3"), 6, "TOML", "overwrite", "syntax"),
     "comma for a decimal point": (changed("0.1,", "0,1;"), 7, "TOML", "Unclosed array", "syntax"),
@@ -273,11 +273,11 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "integer of many digits": (changed("1.5", HUGE), 6, "number", "absurd length", "physical size"),
     "integer of 500 digits": (changed("1.5", "9" * 500), 6, "gains[1].kp[1]", "1e400 in size", "0.223"),
     "hexadecimal of many digits": (changed("1.5", "0x" + HUGE), 6, "gains[1].kp[1]", "1e400", "0.223"),
-    "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
+    "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.5, 1.5]"),
     "kp empty": (changed("[1.5, 2, 3e-1]", "[]"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
     "kp a table": (changed("[1.5, 2, 3e-1]", "{base = 1.5}"), 6, "gains[1].kp", "list of numbers", "[1.0"),
-    "kv too short": (changed("0.20, ", ""), 7, "gains[1].kv", "2 gains where kp has 3", "give 3 gains"),
-    "kv too long": (changed("0.20, ", "1, 1, "), 7, "gains[1].kv", "4 gains where kp has 3", "give 3 gains"),
+    "kv too short": (changed("0.20, ", ""), 7, "gains[1].kv", "2 gains where kp has 3", "as the arm"),
+    "kv too long": (changed("0.20, ", "1, 1, "), 7, "gains[1].kv", "4 gains where kp has 3", "as the arm"),
     "unknown family": (
         changed("m = 2", 'm = 2\nfamily = "sine"'),
         6,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from pathlib import Path
 
-ARMS = Path(__file__).parents[1] / "arms"
+ARMS = Path(__file__).parents[2] / "examples"
 
 TWO = """\
 <?xml version="1.0"?>

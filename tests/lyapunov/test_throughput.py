@@ -203,7 +203,7 @@ def test_too_long_a_formula_is_left_to_arrays(monkeypatch, few):
 
 @pytest.mark.slow
 def test_six_joints_agree_too():
-    model = robots.load(str(Path(__file__).parents[1] / "arms" / "ur5.urdf"))
+    model = robots.load(str(Path(__file__).parents[2] / "examples" / "ur5.urdf"))
     kept = LyapunovNumeric(model, family.hyperbolic(2), KP + KP, KV + KV, EPS0)
     columns = states(6, LARGE)
     assert kept.engine() == EXPECTED

@@ -84,7 +84,7 @@ def test_percentages_out_of_range_are_refused(percent: str) -> None:
 
 
 def test_masses_and_friction_of_urdf_files_are_spread(tmp_path: Path) -> None:
-    urdf = Path(__file__).parents[1] / "arms" / "ur5.urdf"
+    urdf = Path(__file__).parents[2] / "examples" / "ur5.urdf"
     overlay = tmp_path / "arm.toml"
     joint = '[[joints]]\nname = "elbow_joint"\nviscous = 2\n'
     overlay.write_text(f'title = "UR5"\nurdf = "{urdf}"\n{joint}')

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
 from lyapcheck.control.arm_limits import ArmLimits
-from lyapcheck.control.gains import GainFile
+from lyapcheck.control.gains import GainFile, gain_file_of
 
 __all__ = ["DECIDING", "GateAnswer", "GateResult", "gate"]
 
 
 def gate(
-    gain_file: GainFile,
+    gain_file: GainFile | str | Path,
     robot: str | None = None,
     deciding: Sequence[str] = DECIDING,
     gamma: str = "true",
@@ -23,7 +24,7 @@ def gate(
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
     Args:
-        gain_file: what ``read_gain_file`` returned.
+        gain_file: what ``read_gain_file`` returned, or the path of a gain file.
         robot: an arm that replaces the one the file names.
         deciding: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
@@ -40,8 +41,8 @@ def gate(
     References: (10), (19) and Section 4 of reyes2019family.
 
     Example:
-        >>> from lyapcheck import paper_gain_file, read_gain_file
-        >>> [result.verdict for result in gate(read_gain_file(paper_gain_file("table2")))]
+        >>> from lyapcheck import paper_gain_file
+        >>> [result.verdict for result in gate(paper_gain_file("table2"))]
         ['accepted', 'rejected', 'rejected']
     """
-    return GateAnswer(judged_sets(gain_file, robot, deciding, gamma, strict, arms))
+    return GateAnswer(judged_sets(gain_file_of(gain_file), robot, deciding, gamma, strict, arms))

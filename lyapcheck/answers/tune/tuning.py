@@ -71,8 +71,7 @@ def tune(
     wanted = targets or Targets()
     require_usable(wanted, model.n)
     wanted = _for_each_joint(wanted, model.n)
-    limits = arm_limits(robot, model.n, bounds, varies)
-    limits, repeated = _limits(limits, model, wanted, _repeated(bounds or Bounds(), limits, varies))
+    limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
     sets = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
     _confirm(sets, limits)
     compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
@@ -97,8 +96,12 @@ def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bound
     return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
 
 
-def _limits(limits: Limits, model: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
+def _limits(
+    robot: str, model: RobotModel, targets: Targets, bounds: Bounds, varies: tuple[Vary, ...] = ()
+) -> tuple[Limits, Bounds]:
     """The limits to tune to, and those that the gain file must repeat."""
+    limits = arm_limits(robot, model.n, bounds, varies)
+    bounds = _repeated(bounds, limits, varies)
     if all(share == 1 for share in targets.peak_share):
         return limits, bounds
     torque = tuple(

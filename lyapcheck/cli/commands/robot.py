@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.options import add_certificates, add_format
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
+from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import printable
+from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.verdicts import Exit
 
 
 def arguments(parser: Parser) -> None:
@@ -24,6 +25,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--tip", metavar="LINK", help=about)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
     parser.add_whole("--max-boxes", about, least=1)
+    about = "Write the arm as an arm file to be edited, and decide nothing."
+    parser.add_argument("--export", metavar="FILE", type=Path, help=about)
     add_certificates(parser, "Write the certificates of what is decided there")
     add_format(parser)
 
@@ -32,6 +35,7 @@ def run(
     robot: str,
     tip: str | None,
     max_boxes: int | None,
+    export: Path | None,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -47,10 +51,20 @@ def run(
     Examples:
       lyapcheck robot buap3
       lyapcheck robot arm.urdf --tip hand --certificates proof/
+      lyapcheck robot buap3 --export arm.toml
     """
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.robots import load, names
 
+    if export is not None:
+        from lyapcheck.cli.output import require_writable
+        from lyapcheck.robots.export import arm_text
+
+        require_writable("--export", export)
+        if export.exists():
+            raise argument_error("--export", export, "is there already", "name another file")
+        write_whole(export, arm_text(robot, export.parent))
+        return Exit.PROVED
     model = load(robot, tip)
     from lyapcheck.answers.robot import build
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
 
 ONE = (Fraction(1),)
+FEW = 3
 WAYS = ("19", "proof")
 """How stability may be shown."""
 
@@ -42,7 +43,7 @@ FORMATS = (*Format, "toml")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
-    add_members(parser, "1:3")
+    add_members(parser, None, " 1:3 if missing; with targets and more than three joints 1.")
     parser.add_whole("--digits", "Decimal places of the gains.", default=3)
     parser.add_real("--overshoot", "Target: most overshoot, per cent of a joint's step.")
     parser.add_real("--settle", "Target: seconds until each joint stays within 2 %% of its step.")
@@ -73,7 +74,7 @@ def arguments(parser: Parser) -> None:
 
 def run(
     robot: str,
-    m: str,
+    m: str | None,
     digits: int,
     overshoot: float | None,
     settle: float | None,
@@ -115,7 +116,8 @@ def run(
     wrong = Complaints()
     if out is not None:
         wrong.reading(require_writable, "--out", out)
-    members = wrong.reading(parse_m, m)
+    targeted = (overshoot, settle, rest_error) != (None, None, None)
+    members = wrong.reading(parse_m, m or ("1" if targeted and _many(robot) else "1:3"))
     ranges = wrong.reading(varies, vary) or ()
     targets = _targets(wrong, digits, peak_share, kv_share, kv_min, damping)
     bounds = _bounds(wrong, robot, targets, torque, gravity, viscous_min)
@@ -145,6 +147,16 @@ def run(
             for reason in item.reasons:
                 print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
     return tuning.exit
+
+
+def _many(robot: str) -> bool:
+    """Whether an arm has so many joints that one member takes as long as three of a small one."""
+    from lyapcheck.robots import load
+
+    try:
+        return load(robot).n > FEW
+    except InputError:
+        return False  # which is told with all else that is wrong
 
 
 def _tune_for(

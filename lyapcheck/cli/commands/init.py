@@ -1,0 +1,83 @@
+"""``lyapcheck init``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lyapcheck.errors import InputError, Problem
+from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
+
+GAINS, ARM = "gains.toml", "arm.toml"
+GAIN_TEXT = """\
+# Gains for lyapcheck gate; every decimal is read exactly.
+robot = "arm.toml"              # an arm file beside this one, or the name of a built-in arm: lyapcheck robot
+
+[[gains]]
+name = "first"
+m = 1                           # the member of the family: h = tanh for m = 1
+kp = [20, 5]                    # N·m, one a joint
+kv = [0.1, 0.1]                 # N·m
+"""
+ARM_TEXT = """\
+# An arm of two joints in a vertical plane, to be edited. A number that no data sheet prints says so:
+#   viscous = { value = 0.3, assumed = true, low = 0.2, high = 0.5, note = "why" }
+# For a URDF file write instead of the links:  urdf = "arm.urdf"  and [[joints]] with name and friction.
+title = "My arm"
+gravity = [0, 0, -9.81]         # m/s², in the base frame
+
+[[links]]                       # one for each joint with the link that it moves, base first
+name = "shoulder"
+axis = [0, 1, 0]                # of length exactly 1
+origin = [0, 0, 0]              # of the joint, from the joint before (or the base), m
+mass = 6                        # kg
+com = [0, 0, -0.1]              # centre of mass, from the joint, m
+inertia = 0.12                  # about the centre of mass, kg·m²
+viscous = 0.5                   # viscous friction, N·m·s/rad
+coulomb = 1                     # dry friction, N·m; this and the following may be left out
+torque_limit = 80               # N·m
+
+[[links]]
+name = "elbow"
+axis = [0, 1, 0]
+origin = [0, 0, -0.3]
+mass = 2
+com = [0, 0, -0.05]
+inertia = 0.02
+viscous = 0.3
+coulomb = 0.4
+torque_limit = 20
+"""
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    about = "The folder; this one if missing."
+    parser.add_argument("folder", metavar="DIR", nargs="?", type=Path, default=Path(), help=about)
+
+
+def run(folder: Path) -> Exit:
+    """Start a gain file and an arm file, to be edited: gains.toml and arm.toml.
+
+    Files that are there stay as they are.
+
+    Exit code 0: both are written, 2: one is there already, or the folder cannot be written.
+
+    Examples:
+      lyapcheck init bench && lyapcheck gate bench/gains.toml
+    """
+    from lyapcheck.cli.output import open_folder, write_whole
+
+    place = open_folder("DIR", folder)
+    there = [name for name in (GAINS, ARM) if (place / name).exists()]
+    if there:
+        rule, repair = "is there already", "name another folder, or move it away"
+        raise InputError([Problem("argument", None, str(place / name), "", rule, repair) for name in there])
+    for name, text in ((GAINS, GAIN_TEXT), (ARM, ARM_TEXT)):
+        write_whole(place / name, text)
+        print(f"{place / name}")
+    print(f"next: lyapcheck gate {place / GAINS}")
+    return Exit.PROVED

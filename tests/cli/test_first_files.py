@@ -1,0 +1,98 @@
+"""What a newcomer gets: files to begin with, arms to edit, ids to look up, messages that say what to do."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lyapcheck import gate, robots
+from lyapcheck.cli import main as cli
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.errors import InputError
+from lyapcheck.robots.export import arm_text
+from lyapcheck.robots.numeric import NumericModel
+
+ROOT = Path(__file__).parents[2]
+
+
+def leaves(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
+    monkeypatch.setattr(sys, "argv", ["lyapcheck", *words])
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    return int(left.value.code or 0)
+
+
+def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    folder = tmp_path / "bench"
+    assert leaves(monkeypatch, "init", str(folder)) == 0
+    assert leaves(monkeypatch, "gate", str(folder / "gains.toml")) == 0
+    (folder / "gains.toml").write_text("mine")
+    assert leaves(monkeypatch, "init", str(folder)) == 2
+    assert (folder / "gains.toml").read_text() == "mine"
+    assert "is there already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5", "UR5", str(ROOT / "examples" / "panda.toml")])
+def test_an_exported_arm_is_the_arm(name: str, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(arm_text(name, tmp_path))
+    theirs, mine = robots.load(name), robots.load(tmp_path / "mine.toml")
+    q = np.random.default_rng(2).uniform(-3, 3, (4, theirs.n))
+    np.testing.assert_array_equal(NumericModel(mine).mass(q), NumericModel(theirs).mass(q))
+    assert mine.viscous == theirs.viscous
+
+
+def test_a_urdf_file_is_exported_as_an_arm_file_to_be_completed(tmp_path: Path) -> None:
+    text = arm_text(str(ROOT / "examples" / "ur5.urdf"), tmp_path)
+    assert "# viscous = …" in text
+    (tmp_path / "mine.toml").write_text(text.replace("# viscous = …", "viscous = 2"))
+    assert {float(b.value) for b in robots.load(tmp_path / "mine.toml").viscous} == {2.0}
+
+
+def test_export_does_not_write_over_a_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    target = tmp_path / "arm.toml"
+    assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 0
+    assert target.read_text().startswith('title = "Three-joint')
+    assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 2
+
+
+def test_examples_are_known_by_name_and_lean_on_nothing_else() -> None:
+    assert robots.load("ur5").n == 6
+    assert robots.load("Panda").n == 7
+    for file in (ROOT / "examples").glob("*.toml"):
+        assert ".." not in file.read_text()
+
+
+def test_gate_takes_a_path() -> None:
+    assert [one.verdict for one in gate(ROOT / "examples" / "ur5_gains.toml")] == ["accepted"] * 3
+
+
+@pytest.mark.parametrize(
+    ("body", "line", "said"),
+    [
+        ('m = "1"\nkp = [1, 1, 1]\nkv = [1, 1, 1]', 4, 'm = "1": must be a whole number'),
+        ("m = 1\nkp = [1, 1, 1\nkv = [1, 1, 1]", 5, "Unclosed array"),
+        ("m = 1\nkv = [1, 1, 1]\nkp = [1, 1, 1", 6, "Unclosed array"),
+        ("m = 1\nkp = [1, 1]\nkv = [1, 1, 1]", 6, "give both as many gains as the arm has joints"),
+        ("m = 1\nkp = 25\nkv = [1, 1, 1]", 5, "write kp = [25, 25] for two joints"),
+    ],
+)
+def test_messages_name_the_line_the_value_as_written_and_the_repair(
+    tmp_path: Path, body: str, line: int, said: str
+) -> None:
+    path = tmp_path / "g.toml"
+    path.write_text(f'robot = "buap3"\n[[gains]]\nname = "a"\n{body}\n')
+    with pytest.raises(InputError) as refused:
+        read_gain_file(path)
+    (problem,) = refused.value.problems
+    assert problem.line == line
+    assert said in str(problem)
+
+
+def test_a_robot_that_is_not_there_names_the_examples() -> None:
+    with pytest.raises(InputError, match="examples: panda, ur5"):
+        robots.load("UR6")
