@@ -21,8 +21,8 @@ def arm_text(name_or_path: str, folder: Path) -> str:
     """The arm file of an arm as it would stand in a folder.
 
     Args:
-        name_or_path: a built-in arm or an arm file, whose text and comments are kept; or a URDF file, which the
-            new file names, with what it says of friction and limits.
+        name_or_path: a built-in arm or an arm file, whose text is kept; or a URDF file, which the new file
+            names, with what it says of friction and limits.
         folder: where the file will stand.
 
     Raises:
