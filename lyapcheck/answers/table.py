@@ -26,6 +26,10 @@ LIMITS = (
     "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
     "lyapcheck check every_m.py proves it for all m, asymptotics.py --m … how fast for each."
 )
+GROWS = (
+    "As m grows h goes flat at 0, like x^(2m−1), and γ rises: less torque near the goal, a slower end, "
+    "farther rest under dry friction, and less k_p within (10p); lyapcheck tune ROBOT shows it in runs."
+)
 LEADING = (
     "Leading terms for m → ∞: γ ~ √2 (1 − (1 + ln 4m)/(4m)), ρ ~ m − 1/2 + 9/(16m), "
     "L ~ √2/asinh 1 · (1 − κ (1 + ln(m/κ))/m) with κ = (1 + √2/asinh 1)/4."
@@ -147,7 +151,8 @@ class Table(Answer):
             for row in self.rows
             if row.m in PRINTED_GAMMA
         ]
-        return [*printed, LIMITS, *([RESTS] if self.asymptotes else [])]
+        grows = [GROWS] if any(row.m > 1 for row in self.rows) else []
+        return [*printed, LIMITS, *grows, *([RESTS] if self.asymptotes else [])]
 
     def _cells(self, *values: Enclosure | None, digits: int | None = None) -> list[str]:
         shown = self.digits if digits is None else digits

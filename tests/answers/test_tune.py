@@ -328,8 +328,9 @@ def test_json_says_what_the_gain_file_says():
 def test_markdown_tables_have_as_many_cells_as_heads():
     lines = run("buap3", "--format", "markdown").stdout.splitlines()
     tables = [line.count("|") for line in lines if line.startswith("|")]
-    assert len(tables) == 3 * (5 + 5)
-    assert set(tables) == {8}
+    assert len(tables) == 3 * (5 + 5) + 5
+    assert set(tables[:30]) == {8}
+    assert set(tables[30:]) == {7}
 
 
 def test_asking_for_help_or_importing_the_api_loads_no_solver():

@@ -10,6 +10,7 @@ from fractions import Fraction
 from html.parser import HTMLParser
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from lyapcheck.answers.gate import gate
@@ -18,6 +19,9 @@ from lyapcheck.answers.tune.tuning import tune
 from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.robots import load
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.task import Task
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 
@@ -127,7 +131,23 @@ def test_where_there_are_no_gains_a_notebook_says_why():
 
 
 def test_printing_prints_what_the_command_prints():
-    assert f"{tune('reyes-kelly2', [2, 5])}\n" == run("reyes-kelly2", "--m", "2,5").stdout
+    assert f"{tune('reyes-kelly2', [5])}\n" == run("reyes-kelly2", "--m", "5").stdout
+
+
+def test_what_m_does_is_shown_in_runs():
+    task = Task((0.7, 0.7), (0.0, 0.0), (0.0, 0.0), 5.0)
+    tuning = tune("reyes-kelly2", [1, 3], task=task)
+    first, last = tuning.effects
+    for one, item in zip((first, last), tuning.sets, strict=True):
+        run = simulate(item.gains, load("reyes-kelly2"), task.q_d)
+        assert pytest.approx(run.L2) == one.L2
+        assert one.speed == pytest.approx(np.max(np.abs(run.w)))
+        assert one.share == pytest.approx(max(run.peak_torque / [150, 15]))
+    assert last.L2 > first.L2
+    assert last.rest > first.rest
+    said = " ".join(str(tuning).split())
+    assert f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°" in said
+    assert tuning.data()["effects"][0]["m"] == 1
 
 
 @pytest.mark.parametrize("form", FORMATS)

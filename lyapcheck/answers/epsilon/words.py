@@ -65,6 +65,15 @@ def _one(result: EpsilonResult) -> str:
     return f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}"
 
 
+FASTEST = 100
+"""rad/s, beyond which no arm turns."""
+BUYS = (
+    "What ε₀ buys: V with ε = ε₀/(1 + ‖e‖) falls at every state, also where the arm stands still, so that "
+    "times and errors can be certified (lyapcheck bounds); it does not measure damping: gains that swing and "
+    "gains that do not may have the same."
+)
+
+
 def remarks(result: EpsilonResult) -> list[str]:
     """How the certified number was proved, findings, reasons for missing numbers and the witness."""
     said = [_way(result)] if result.certified is not None or result.boxes else []
@@ -74,6 +83,12 @@ def remarks(result: EpsilonResult) -> list[str]:
         said.append(_weighted_text(result.weighted))
     if result.witness is not None:
         said.append(f"falsified {witness_text(result.witness)}.")
+        speed = float(max(map(abs, result.witness.state.w)))
+        if speed > FASTEST:
+            said.append(
+                f"that state moves at {speed:.0e} rad/s, where no arm comes: larger ε₀ fail there, and "
+                "need not fail in any motion."
+            )
     if result.witness is not None and result.corner:
         values = ", ".join(f"{name} = {decimal_text(value)}" for name, value in result.corner.items())
         said.append(f"that state is one of the arm with {values}.")
@@ -125,6 +140,7 @@ def notes(results: Sequence[EpsilonResult]) -> list[str]:
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
     return [
         *LEGEND,
+        BUYS,
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
         *([f"Arm: {robots}, {_extent(results)}. Seed: {seeds}."] if results else []),
         *(f"{text}." for text in assumed),

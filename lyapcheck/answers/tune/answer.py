@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.tune.data import joint_records, tuning_data
 from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, Comparison, TunedSet
@@ -13,8 +13,12 @@ from lyapcheck.control.gains import Bounds
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.tune.effect import Effect
+    from lyapcheck.simulate.task import Task
 
 HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
 DAMPING_HEAD = "ζ"
@@ -41,6 +45,8 @@ class Tuning(Answer):
         limits: what the gains were tuned to, the share of the torque taken off.
         bounds: the limits that the gain file has to repeat, as the arm alone says otherwise.
         sets: one a member.
+        task: a motion on which the members are compared; ``None`` where they are not.
+        effects: its runs.
     """
 
     schema = "lyapcheck/tune/1"
@@ -51,6 +57,8 @@ class Tuning(Answer):
     limits: Limits
     bounds: Bounds
     sets: tuple[TunedSet, ...]
+    task: Task | None = None
+    effects: tuple[Effect, ...] = ()
 
     @property
     def exit(self) -> Exit:
@@ -62,7 +70,11 @@ class Tuning(Answer):
 
     def document(self) -> Document:
         """A table a member, one for what it is compared with, and what it all rests on."""
-        blocks = (_section(item, self.targets.digits) for item in self.sets)
+        blocks: list[Block] = [_section(item, self.targets.digits) for item in self.sets]
+        if self.task is not None and len(self.effects) > 1:
+            from lyapcheck.answers.tune.effect import effect_section
+
+            blocks.append(effect_section(self.effects, self.task))
         return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
 
     def data(self) -> dict[str, Any]:

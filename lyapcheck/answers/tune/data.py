@@ -35,6 +35,7 @@ def tuning_data(tuning: Tuning) -> dict[str, Any]:
         },
         "assumptions": list(limits.assumptions),
         "results": [_set(item, targets.digits) for item in tuning.sets],
+        "effects": [one.data for one in tuning.effects],
     }
 
 

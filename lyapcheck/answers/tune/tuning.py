@@ -25,7 +25,9 @@ from lyapcheck.files.decimals import round_down
 from lyapcheck.robots import RobotModel, load
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.tune.effect import Effect
     from lyapcheck.robots.vary import Vary
+    from lyapcheck.simulate.task import Task
 
 WRITTEN_PLACES = 12
 
@@ -37,6 +39,7 @@ def tune(
     bounds: Bounds | None = None,
     against: GainFile | None = None,
     varies: tuple[Vary, ...] = (),
+    task: Task | None = None,
 ) -> Tuning:
     """The largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets.
 
@@ -47,6 +50,7 @@ def tune(
         bounds: limits to take instead of the arm's.
         against: gains to compare with; see ``lyapcheck.answers.tune.compare``.
         varies: ranges of the arm's numbers that the limits are to hold for.
+        task: a motion on which the members are compared by runs.
 
     Raises:
         InputError: the arm or a target cannot be used.
@@ -75,7 +79,13 @@ def tune(
     sets = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
     _confirm(sets, limits)
     compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
-    return Tuning(robot, model.title, wanted, limits, repeated, compared)
+    tuned = [item.gains for item in sets if item.gains is not None]
+    seen: tuple[Effect, ...] = ()
+    if task is not None and len(tuned) > 1:
+        from lyapcheck.answers.tune.effect import effects
+
+        seen = effects(tuned, model, task)
+    return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen)
 
 
 def _for_each_joint(targets: Targets, n: int) -> Targets:

@@ -27,9 +27,12 @@ if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots.vary import Vary
+    from lyapcheck.simulate.task import Task
 
 ONE = (Fraction(1),)
 FEW = 3
+COMPARED = range(2, 7)
+"""So many members are compared by runs of each."""
 WAYS = ("19", "proof")
 """How stability may be shown."""
 
@@ -136,7 +139,8 @@ def run(
     wrong.tell()
     if wishes and bench is not None:
         return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
-    tuning = tune(robot, members or (), targets, bounds, against, ranges)
+    task = _tasks(robot, None, None)[0] if len(members or ()) in COMPARED else None
+    tuning = tune(robot, members or (), targets, bounds, against, ranges, task)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
     if format != "toml":
@@ -199,18 +203,8 @@ def _bench(
         InputError: a target or an angle that cannot be used.
     """
     from lyapcheck.answers.tune.wishes import Bench, Wishes
-    from lyapcheck.cli.task import task_of
-    from lyapcheck.robots import load
 
-    model = load(robot)
-    start, goals = motion
-    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
-    try:
-        tasks = tuple(task_of(model, goal, start, 5.0) for goal in goals or [default])
-    except InputError as error:
-        raise InputError(
-            [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
-        ) from None
+    tasks = _tasks(robot, *motion)
     shares = parse_decimals("--peak-share", peak_share) or ONE
     if len(set(shares)) > 1:
         raise argument_error(
@@ -218,6 +212,24 @@ def _bench(
         )
     share = None if shares[0] == 1 else float(shares[0])
     return Bench(Wishes(**wishes, peak_share=share), tasks, ways, digits)
+
+
+def _tasks(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
+    """Motions from rest to rest: those asked for, or the paper's, or 45° for each joint.
+
+    Raises:
+        InputError: angles that cannot be used.
+    """
+    from lyapcheck.cli.task import SECONDS, task_of
+    from lyapcheck.robots import load
+
+    model = load(robot)
+    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
+    try:
+        return tuple(task_of(model, goal, start, SECONDS) for goal in goals or [default])
+    except InputError as error:
+        problems = [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
+        raise InputError(problems) from None
 
 
 def _refuse(given: dict[str, object], rule: str, repair: str) -> None:

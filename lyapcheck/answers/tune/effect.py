@@ -1,0 +1,92 @@
+"""What m does, seen in runs: error, torque and speed of the members of the family on one motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.output.document import Block, Paragraph, Section, Table
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.run import SimulationFailed
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.task import Task
+
+HEADS = ("m", "L2 [°]", "error at the end [°]", "torque share", "top speed [rad/s]", "friction leaves [°]")
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One member's run: degrees, the largest share of a motor's limit, rad/s; the worst joint each.
+
+    ``rest`` is how far from the goal dry friction may hold a joint; infinite where it holds it anywhere.
+    """
+
+    m: int
+    L2: float
+    final: float
+    share: float
+    speed: float
+    rest: float
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Numbers to six digits; none for infinity."""
+        return {"m": self.m} | {
+            name: _six(getattr(self, name)) for name in ("L2", "final", "share", "speed", "rest")
+        }
+
+
+def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Effect, ...]:
+    """A run by the equations for each member; one that could not be finished is left out.
+
+    Soundness: floating point; one motion says nothing of others.
+    """
+    found = []
+    for gains in sets:
+        try:
+            run = simulate(gains, model, task.q_d, task.q0, task.w0, task.T, stop=False)
+        except SimulationFailed:
+            continue
+        limits = np.array([np.nan if most is None else most for most in run.torque_limit])
+        share = float(np.nanmax(run.peak_torque / limits)) if not np.all(np.isnan(limits)) else math.nan
+        rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model))
+        final, speed = float(np.max(np.abs(run.indices.final_error))), float(np.max(np.abs(run.w)))
+        found.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
+    return tuple(found)
+
+
+def effect_section(found: Sequence[Effect], task: Task) -> Section:
+    """The runs beside each other, and what they show in one sentence."""
+    rows = tuple(
+        (
+            str(one.m),
+            f"{one.L2:.2f}",
+            f"{one.final:.2f}",
+            "—" if math.isnan(one.share) else f"{one.share:.2f}",
+            f"{one.speed:.2f}",
+            "anywhere" if math.isinf(one.rest) else f"{one.rest:.1f}" if one.rest else "—",
+        )
+        for one in found
+    )
+    goal = ", ".join(f"{math.degrees(x):g}" for x in task.q_d)
+    first, last = found[0], found[-1]
+    says = (
+        f"In {task.T:g} s from rest to ({goal})°, without dry friction, from m = {first.m} to m = {last.m}: "
+        f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°, the error at the end from {first.final:.1f}° to "
+        f"{last.final:.1f}°, the top speed from {first.speed:.1f} to {last.speed:.1f} rad/s. For m ≥ 2 h is "
+        "flat at the goal."
+    )
+    blocks: tuple[Block, ...] = (Table(HEADS, rows), Paragraph(says))
+    return Section("What m does", blocks)
+
+
+def _six(value: float) -> float | None:
+    return float(f"{value:.6g}") if math.isfinite(value) else None
