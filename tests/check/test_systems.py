@@ -271,7 +271,7 @@ def test_a_bound_that_holds_nearby_concludes_nothing_far_away():
     pd = PD()
     below = pd.goal.beta / 2 * pd.b**2 + pd.K.max / 2 * pd.r**2
     assert "is for constant q_d" in why(pd.argued(uniform, below=below, rate=pd.rate + pd.r**2, local=True))
-    assert "attracts what has V below" in pd.argued(local=True).text()
+    assert "attracts where ‖e‖ ≤ R and V is below" in pd.argued(local=True).text()
     assert "globally" not in pd.argued(local=True).text()
 
 

@@ -54,7 +54,9 @@ class Stable(Total):
         origin = ", ".join(f"{name} = 0" for name in system.moving)
         conclusion = known.conclusion
         if argument.local:
-            conclusion = "asymptotically stable, and attracts what has V below the least φ on ‖e‖ = R,"
+            conclusion = (
+                "asymptotically stable, and attracts where ‖e‖ ≤ R and V is below the least φ on ‖e‖ = R,"
+            )
         energy = expression_text(argument.energy)
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
         under = "; ".join([expression_text(system.torque), *about])

@@ -9,7 +9,7 @@ sizes that see every state and that grow without end with it (its coefficients a
 - uniform: as strict, and V <= Φ; as no time stands in φ, Φ and ψ, q_d may depend on it;
 - exponential: as uniform; φ, Φ and ψ are quadratic forms in the norms of all states, with constants.
 
-``local``: dV/dt <= −ψ as long as ‖e‖ <= R. What is below the least value of φ where ‖e‖ = R stays there.
+``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so.
 
 A size sees a state if it is 0 only where the state is: norm_x of the state x, norm_f and sum_Uf of a
 function f of it. norm_x and sum_Uf grow with it without end, norm_f perhaps not. Letters may be changed in φ:
