@@ -12,6 +12,7 @@ from lyapcheck.claims import (
     at_arm,
     every_n,
     exponential,
+    input_to_state,
     moving_goal,
     norm,
     uniform,
@@ -20,26 +21,26 @@ from lyapcheck.robots import load
 
 proof = Proof("slotine_li", "Passivity-based tracking", reference="slotine1987adaptive")
 
-goal = moving_goal()
+goal, shaken = moving_goal(), moving_goal(disturbed=True)
 e, w, M, B, C = goal.e, goal.w, goal.M, goal.B, goal.C
-K, Λ = goal.gains("K Lambda")
+K, Λ = [goal.gains("K Lambda") for goal in (shaken, goal)][-1]
 r, b, β = norm(e), norm(w), goal.beta
 s, y = Λ @ e - w, any_vector("y_w")
 """w = −dq̃/dt; y is s as a letter of its own, so that w = Λq̃ − y."""
 
 reference = goal.velocity + Λ @ e
-loop = goal.under(M @ (goal.acceleration - Λ @ w) + C @ reference + B @ reference + goal.gravity + K @ s)
+torque = M @ (goal.acceleration - Λ @ w) + C @ reference + B @ reference + goal.gravity + K @ s
+loop = goal.under(torque)
 kinetic = s @ M @ s / 2
 V = kinetic + e @ Λ @ K @ e + e @ Λ @ B @ e
 below = β / 2 * (Λ.max * r + b) ** 2
-theorem = exponential(
-    loop,
-    V,
-    changes={"w": Λ @ e - y},
-    above=goal.mu / 2 * norm(y) ** 2 + Λ.min * K.min * r**2,
-    below=below + Λ.max * (K.max + B.max) * r**2,
-    rate=K.min * b**2 + Λ.min**2 * K.min * r**2,
-)
+bounds = {
+    "changes": {"w": Λ @ e - y},
+    "above": goal.mu / 2 * norm(y) ** 2 + Λ.min * K.min * r**2,
+    "below": below + Λ.max * (K.max + B.max) * r**2,
+    "rate": K.min * b**2 + Λ.min**2 * K.min * r**2,
+}
+theorem = exponential(loop, V, **bounds)
 
 proof.add("s", "½sᵀMs has the rate −sᵀ(K + B)s", along(loop, kinetic, -s @ K @ s - s @ B @ s))
 proof.add(
@@ -66,6 +67,12 @@ proof.add(
     "so it is for the Pelican arm with these gains",
     at_arm(theorem, load("pelican2"), K="7 3", Lambda="5 5"),
     uses=["P"],
+)
+
+proof.add_theorem(
+    "P.disturbed",
+    "an unknown torque of at most δ beside τ keeps the errors within a multiple of it in the end",
+    input_to_state(shaken.under(torque), V, **bounds, gain=Λ.max * r + b),
 )
 
 proof.section("What would be too much")

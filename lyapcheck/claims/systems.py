@@ -127,6 +127,7 @@ class Goal:
 
     desired: bool
     friction: str
+    disturbed: bool = False
     _gains: list[str] = field(default_factory=list)
     _functions: list[Entrywise] = field(default_factory=list)
     _states: list[State] = field(default_factory=list)
@@ -230,21 +231,23 @@ class Goal:
             tuple(self._constants),
             self.desired,
             self.friction,
+            self.disturbed,
         )
 
 
-def constant_goal(friction: str = "any") -> Goal:
+def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:
     """A constant q_d: e = q_d − q, w = q̇.
 
     Args:
         friction: ``any``, for arms with or without it; ``positive``, where a proof needs it; ``none``.
+        disturbed: whether an unknown torque of at most delta acts beside that of the controller.
     """
-    return Goal(False, friction)
+    return Goal(False, friction, disturbed)
 
 
-def moving_goal(friction: str = "any") -> Goal:
+def moving_goal(friction: str = "any", disturbed: bool = False) -> Goal:
     """q_d(t) with bounded q̇_d: e = q_d − q, w = q̇ − q̇_d."""
-    return Goal(True, friction)
+    return Goal(True, friction, disturbed)
 
 
 def _gain(name: str) -> Gain:
@@ -271,6 +274,13 @@ def exponential(loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, **m
     return _argued("exponential", loop, V, above, rate, below=below, **more)  # type: ignore[arg-type]
 
 
+def input_to_state(
+    loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, gain: Expr, **more: object
+) -> Stable:
+    """As exponential, with dV/dt <= −rate + delta·gain under any torque of at most delta beside τ."""
+    return _argued("ISS", loop, V, above, rate, below=below, gain=gain, **more)  # type: ignore[arg-type]
+
+
 def _argued(
     theorem: str,
     loop: System,
@@ -285,10 +295,11 @@ def _argued(
     where: Iterable[Relation] = (),
     small: bool = False,
     local: bool = False,
+    gain: Expr | None = None,
 ) -> Stable:
     relations, forms = (
         tuple(where),
-        [one for one in (above, rate, below, rest and rest[1]) if one is not None],
+        [one for one in (above, rate, below, rest and rest[1], gain) if one is not None],
     )
     for one in (*(form.tree for form in forms), *(relation.gap for relation in relations)):
         _require_names(loop, variables(one), [*(changes or ())])
@@ -306,6 +317,7 @@ def _argued(
             relations,
             small,
             local,
+            None if gain is None else form_of(gain),
         )
     )
 

@@ -22,6 +22,7 @@ from lyapcheck.claims.systems import (
     constant_goal,
     exponential,
     form_of,
+    input_to_state,
     lasalle,
     moving_goal,
     norm,
@@ -275,10 +276,42 @@ def test_a_bound_that_holds_nearby_concludes_nothing_far_away():
     assert "globally" not in pd.argued(local=True).text()
 
 
+def shaken(**changed):
+    """The loop of ``slotine_li.py`` under an unknown torque."""
+    goal = moving_goal(disturbed=changed.pop("disturbed", True))
+    e, w, M = goal.e, goal.w, goal.M
+    K, L = goal.gains("K Lambda")
+    s, y, r, b = L @ e - w, any_vector("y_w"), norm(e), norm(w)
+    reference = goal.velocity + L @ e
+    torque = M @ (goal.acceleration - L @ w) + goal.C @ reference + goal.B @ reference + goal.gravity + K @ s
+    own = {
+        "changes": {"w": L @ e - y},
+        "above": goal.mu / 2 * norm(y) ** 2 + L.min * K.min * r**2,
+        "below": goal.beta / 2 * (L.max * r + b) ** 2 + L.max * (K.max + goal.B.max) * r**2,
+        "rate": K.min * b**2 + L.min**2 * K.min * r**2,
+        "gain": L.max * r + b,
+    }
+    V = s @ M @ s / 2 + e @ L @ K @ e + e @ L @ goal.B @ e
+    return input_to_state(goal.under(torque + changed.pop("more", 0 * e)), V, **(own | changed))
+
+
+def test_a_disturbance_is_unknown_and_bounded():
+    assert propose(shaken()).verdict.value == "proved"
+    r, b = var("norm_e"), var("norm_w")
+    assert "must be in the system, the theorem and its gain" in why(shaken(disturbed=False))
+    assert "must be in the system, the theorem and its gain" in why(shaken(gain=None))
+    assert "must be linear in the norms" in why(shaken(gain=r * b))
+    assert "rate:" in why(shaken(gain=b))
+    assert "rate:" in why(shaken(gain=(var("Lambda_max") * r + b) / 2))
+    assert "d: has no meaning" in why(shaken(more=any_vector("d")))
+    uniformly = replace(shaken().argument, theorem="uniform")
+    assert "must be in the system, the theorem and its gain" in why(Stable(uniformly))
+
+
 def test_a_theorem_that_the_checker_does_not_know():
     argument = replace(PD().argued().argument, theorem="magic")
     assert "is not one that the checker knows" in why(Stable(argument))
-    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential"}
+    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS"}
 
 
 def test_proofs_of_other_obligations_show_nothing():

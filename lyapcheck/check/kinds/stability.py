@@ -61,10 +61,11 @@ class Stable(Total):
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
         under = "; ".join([expression_text(system.torque), *about])
         lower, rate = (expression_text(form.tree) for form in (argument.lower, argument.rate))
+        beside = f" + delta·({expression_text(argument.gain.tree)})" if argument.gain is not None else ""
         return (
             f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(system))}"
             f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
-            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate})"
+            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
         )
 
 

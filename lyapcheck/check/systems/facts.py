@@ -17,7 +17,7 @@ from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Variable
-from lyapcheck.check.systems.system import DG, DQD, C, D, E, M, S, System, U
+from lyapcheck.check.systems.system import DG, DISTURBANCE, DQD, C, D, E, M, S, System, U
 
 Norm = tuple[tuple[Tree, ...], Tree]
 Least = tuple[Tree, Tree]
@@ -68,6 +68,7 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
     yield (C,), product(kc, size("w"))
     yield (D,), product(kc, constant("vd"))
     yield (DQD,), constant("vd")
+    yield (DISTURBANCE,), constant("delta")
     yield (DG,), product(constant("kg"), size("e"))
     yield (P,), product(("num", "1/2"), constant("kg"), size("e"))
 
@@ -160,7 +161,13 @@ def constants_of(system: System) -> dict[str, Variable]:
     positive = ["mu", "beta", "R", "eps0", *system.constants, *(f"{name}_min" for name in system.gains)]
     for f in system.functions:
         positive += [f"{f.name}_{bound}" for bound in ("reach", "slope", "secant", "sector")]
-    upper = ["kc", "kg", "vd", *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm"))]
+    upper = [
+        "kc",
+        "kg",
+        "vd",
+        "delta",
+        *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")),
+    ]
     (positive if system.friction == "positive" else upper).append("B_min")
     found = {name: Variable(name, Fraction(0)) for name in positive}
     return found | {name: Variable(name, Fraction(0), strict=False) for name in upper}

@@ -22,39 +22,15 @@ from lyapcheck.check.letters.grammar import letters, require_sort
 from lyapcheck.check.refusal import require
 
 E, W, DW, G, GD, DG, U = (("vec", name) for name in ("e", "w", "dw", "g", "gd", "dg", "u"))
+DISTURBANCE: Tree = ("vec", "d")
 DQD, DDQD = ("vec", "dqd"), ("vec", "ddqd")
 M, C, D = (("mat", name) for name in "MCD")
 S: Tree = ("var", "s")
 B: Tree = ("diag", "B")
 NOTHING: Tree = ("sum",)
 OWN_NAMES = frozenset(
-    (
-        "e",
-        "w",
-        "dw",
-        "g",
-        "gd",
-        "dg",
-        "u",
-        "x",
-        "dqd",
-        "ddqd",
-        "P",
-        "M",
-        "C",
-        "D",
-        "B",
-        "s",
-        "n",
-        "R",
-        "eps0",
-        "mu",
-        "beta",
-        "kc",
-        "kg",
-        "vd",
-    )
-)
+    {"e", "w", "dw", "g", "gd", "dg", "u", "x", "d", "dqd", "ddqd", "P", "M", "C", "D", "B", "s", "n", "R"}
+) | {"eps0", "mu", "beta", "kc", "kg", "vd", "delta"}
 """What an author can name nothing else."""
 FRICTION = ("none", "any", "positive")
 
@@ -110,6 +86,7 @@ class System:
         desired: whether q_d depends on time; it is constant otherwise.
         friction: what the arm has: ``positive`` for a diagonal positive B, ``any`` for one that may vanish,
             ``none`` for B = 0.
+        disturbed: whether an unknown torque d, ‖d‖ <= delta, acts beside τ.
     """
 
     torque: Tree
@@ -119,6 +96,7 @@ class System:
     constants: tuple[str, ...]
     desired: bool
     friction: str
+    disturbed: bool = False
 
     def require_well_formed(self) -> None:
         """Refuse names given twice, letters that nothing is known of, and functions of what is no state."""
@@ -183,7 +161,8 @@ class System:
             needed.append(("apply", M, DDQD))
         needed += [("apply", self.coriolis, speed), self.gravity]
         needed += [] if self.friction == "none" else [("apply", B, speed)]
-        return ("sum", self.torque, *(minus(part) for part in needed))
+        acting = (DISTURBANCE,) if self.disturbed else ()
+        return ("sum", self.torque, *acting, *(minus(part) for part in needed))
 
     @property
     def coriolis(self) -> Tree:

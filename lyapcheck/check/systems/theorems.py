@@ -8,6 +8,7 @@ sizes that see every state and that grow without end with it (its coefficients a
   and xᵀ(M ẇ) >= χ for some x, with χ positive definite in sizes that see all other states;
 - uniform: as strict, and V <= Φ; as no time stands in φ, Φ and ψ, q_d may depend on it;
 - exponential: as uniform; φ, Φ and ψ are quadratic forms in the norms of all states, with constants.
+- ISS: as exponential, with an unknown torque d, ‖d‖ <= delta: dV/dt <= −ψ + delta·ℓ, ℓ linear in these norms.
 
 ``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so.
 
@@ -33,7 +34,7 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Relation, Statement
 from lyapcheck.check.systems.facts import P, at_most, constants_of
 from lyapcheck.check.systems.forms import EPS0, SHARE, ZERO, Form, is_positive
-from lyapcheck.check.systems.system import DG, E, System, W, replaced
+from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, System, W, replaced
 
 Named = Iterator[tuple[str, Statement]]
 TEST: Tree = ("vec", "x")
@@ -48,6 +49,7 @@ class Theorem:
     reference: str
     timed: bool = False
     upper: bool = False
+    disturbed: bool = False
 
 
 THEOREMS = {
@@ -70,6 +72,14 @@ THEOREMS = {
         "khalil2002nonlinear, theorem 4.10",
         timed=True,
         upper=True,
+    ),
+    "ISS": Theorem(
+        "a Lyapunov function for input-to-state stability",
+        "globally input-to-state stable in a torque d with ‖d‖ ≤ delta",
+        "khalil2002nonlinear, chapter 4",
+        timed=True,
+        upper=True,
+        disturbed=True,
     ),
 }
 
@@ -112,6 +122,7 @@ class Argument:
         where: conditions on the constants.
         small: whether some ε₀ > 0 is enough; else it is one of the constants.
         local: whether dV/dt is bounded only where ‖e‖ <= R.
+        gain: ℓ, where the theorem is about a disturbance.
     """
 
     theorem: str
@@ -126,6 +137,7 @@ class Argument:
     where: tuple[Relation, ...]
     small: bool
     local: bool
+    gain: Form | None = None
 
     def require_well_formed(self) -> None:
         """Refuse what is not of the form that the theorem is about."""
@@ -137,9 +149,9 @@ class Argument:
         system.require_letters(self.energy, system.energies, "V")
         require(known.timed or not system.desired, "theorem", self.theorem, "is not for q_d(t)")
         require(known.upper == (self.upper is not None), "upper", "", "must be given where it is asked for")
-        require(
-            not (self.gravity and system.desired), "gravity", "", "has no energy that q_d(t) leaves alone"
-        )
+        disturbed = system.disturbed == known.disturbed == (self.gain is not None)
+        require(disturbed, "disturbance", "", "must be in the system, the theorem and its gain, or in none")
+        require(not (self.gravity and system.desired), "gravity", "", "has no energy where q_d(t) moves")
         require(not self.local or self.theorem in ("strict", "LaSalle"), "local", "", "is for constant q_d")
         allowed = set(constants_of(system))
         for relation in self.where:
@@ -162,7 +174,7 @@ class Argument:
 
     def _forms(self) -> list[Form]:
         rest = self.rest.form if self.rest is not None else None
-        return [form for form in (self.lower, self.upper, self.rate, rest) if form is not None]
+        return [form for form in (self.lower, self.upper, self.rate, rest, self.gain) if form is not None]
 
     def _sees(self) -> dict[str, tuple[str, bool]]:
         """For each size the state that it sees, and whether it grows with it without end."""
@@ -226,13 +238,17 @@ class Argument:
         else:
             require(self.rest is None, "rest", "", "is for LaSalle's theorem alone")
             require(seen == every, "rate", ", ".join(sorted(every - seen)), "must be seen")
-        if self.theorem == "exponential":
+        if self.gain is not None:
+            linear = not self.gain.sizes and all(name[5:] in every for name in self.gain.names)
+            require(linear, "gain", ", ".join(self.gain.sizes), "must be linear in the norms of states")
+        if self.theorem in ("exponential", "ISS"):
             states = {("vec", name) for name in system.moving}
             fixed = {("vec", name) for name in system.diagonal}
             for change in self.changes:  # the new letters are then norms as good as the old ones
                 own = ("vec", change.letter)
                 system.require_letters(change.equals, {*states, *fixed, own}, "a change that must be linear")
-            for form in self._forms():
+            for form in (self.lower, self.upper, self.rate):
+                assert form is not None
                 fits = len(form.sizes) == len(every) and not form.linear
                 fits = fits and not any(
                     size in form.sizes for f in system.functions for size in _sizes(f.name)
@@ -268,11 +284,14 @@ class Argument:
         left: Tree = ("rate", self.energy)
         if self.gravity:
             left = ("add", left, ("dot", DG, W))
-        return at_most(system, left, ("neg", self.rate.tree), rates, local=self.local)
+        right: Tree = ("neg", self.rate.tree)
+        if self.gain is not None:
+            right = ("add", right, ("mul", ("var", "delta"), self.gain.tree))
+        return at_most(system, left, right, rates, local=self.local)
 
     def _origin(self) -> Named:
         system, every = self.system, self.system.moving
-        force = system.at_zero(system.force, every)
+        force = replaced(system.at_zero(system.force, every), {DISTURBANCE: NOTHING})
         yield "origin", EveryN(("dot", TEST, force), ZERO)
         for state in system.states:
             yield f"origin of {state.name}", EveryN(("dot", TEST, system.at_zero(state.rate, every)), ZERO)
