@@ -135,6 +135,14 @@ def test_polynomials_of_long_skew_chains_are_not_written_out(tmp_path: Path) -> 
         _ = arm.mass
 
 
+@pytest.mark.parametrize("seed", [47, 59])
+def test_twelve_skew_joints_load_though_their_numbers_are_long(seed: int, tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(generic(12, seed))
+    mass = NumericModel(robots.load(file)).mass(np.zeros(12))
+    assert np.linalg.eigvalsh(mass)[0] > 0
+
+
 def test_white_space_before_the_declaration_is_read(tmp_path: Path) -> None:
     file = tmp_path / "arm.urdf"
     declared = '\n  <?xml version="1.0"?>\n'
