@@ -63,6 +63,13 @@ Proof.
   - pose proof (h_pos x K). nra.
 Qed.
 
+Theorem dh_even x : dh m (- x) = dh m x.
+Proof.
+  unfold dh, bottom. rewrite sinh_odd.
+  assert (E : forall k, (- sinh x) ^ (2 * k) = sinh x ^ (2 * k)) by (intros k; rewrite !even_pow; f_equal; ring).
+  replace (2 * m - 2)%nat with (2 * (m - 1))%nat by lia. replace (4 * m - 2)%nat with (2 * (2 * m - 1))%nat by lia. now rewrite !E.
+Qed.
+
 (** *** Derivatives *)
 Lemma is_derive_bottom x :
   is_derive (bottom m) x (INR (2 * m) * (sinh x ^ (2 * m - 1) * cosh x)).

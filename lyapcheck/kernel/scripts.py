@@ -13,6 +13,7 @@ from typing import Any
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.decreasing import Decreasing, closure_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
@@ -21,6 +22,8 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
+from lyapcheck.kernel.arms import arm_script, by_norms
+from lyapcheck.kernel.statements import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact_list, identifier, rational
 
 THEOREMS = {
@@ -37,6 +40,8 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     Raises:
         NotPrinted: there is no way to prove it yet.
     """
+    if isinstance(statement, Decreasing) and verdict == "proved":
+        return arm_script(statement, proof)
     if verdict == "proved":
         return facts(statement) + proved(statement)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
@@ -129,7 +134,7 @@ def _(statement: LoopProperty) -> str:
 def _(statement: Theorem) -> str:
     if statement.loop.arm is None:
         return "apply proposition_of_the_paper; lia."
-    raise NotPrinted("a theorem on one arm")
+    return by_norms(closure_of(on_one_arm(statement.loop)))
 
 
 @proved.register

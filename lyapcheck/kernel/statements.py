@@ -19,6 +19,7 @@ from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.kernel.terms import (
     NotPrinted,
     arm,
@@ -127,9 +128,7 @@ def _(statement: Theorem) -> str:
     m = _member(loop)
     if loop.arm is None:
         return f"every_robot_is_stable {loop.n} {m}"
-    data = arm(loop.arm.mass, loop.arm.viscous)
-    gains = f"{exact_list(loop.arm.kp)} {exact_list(loop.arm.kv)}"
-    return f"certified {data} {m} {gains} {exact(dict(loop.numbers)['eps0'])}"
+    return _of_arm("certified", on_one_arm(loop))
 
 
 @proposition.register
@@ -141,6 +140,20 @@ def _(statement: Decreasing) -> str:
 def _(statement: DampingBelow) -> str:
     """The gains κK_v are vectors of real numbers; Coq's ``forall`` is over κ and ε₀."""
     raise NotPrinted("a bound that stability would need")
+
+
+def on_one_arm(loop: ClosedLoop) -> Decreasing:
+    """That dV/dt < 0 for the arm, gains and ε₀ of a loop.
+
+    Raises:
+        NotPrinted: the loop is that of no arm, or its function not of the family.
+    """
+    if loop.arm is None:
+        raise NotPrinted("a loop of no arm")
+    given = loop.arm
+    ends = tuple((b, b) for b in given.viscous)
+    eps0 = dict(loop.numbers)["eps0"]
+    return Decreasing(given.mass, ends, (), "hyperbolic", _member(loop), given.kp, given.kv, eps0, ())
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:
@@ -155,7 +168,7 @@ def _of_arm(name: str, statement: Decreasing) -> str:
     return f"{name} {data} {statement.m} {gains} {exact(statement.eps0)}"
 
 
-def _member(of: LoopProperty | Theorem | object) -> int:
+def _member(of: LoopProperty | ClosedLoop) -> int:
     """The m of which h, h' and U are h_m, h_m' and U_m themselves."""
     h, slope, potential = (getattr(of, name) for name in ("h", "slope", "potential"))
     if h[0] == "h":

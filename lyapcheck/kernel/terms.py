@@ -102,7 +102,7 @@ def quantified(names: Iterable[str], given: Iterable[str], conclusion: str) -> s
 def exact(value: Fraction) -> str:
     """A number of type Q."""
     numerator = f"({value.numerator})" if value < 0 else str(value.numerator)
-    return f"({numerator} # {value.denominator})"
+    return f"({numerator} # {value.denominator})%Q"
 
 
 def exact_list(values: Iterable[Fraction]) -> str:
@@ -124,5 +124,5 @@ def arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str
 
 
 def _entry(terms: Monomials) -> str:
-    shown = (f"([{'; '.join(map(str, powers))}], {exact(value)})" for powers, value in terms)
+    shown = (f"([{'; '.join(map(str, powers))}]%nat, {exact(value)})" for powers, value in terms)
     return f"[{'; '.join(shown)}]"

@@ -109,7 +109,7 @@ class Closure:
         basis: list[tuple[int, ...]] = []
         for signs in product((1, -1), repeat=self.n):
             row = tuple(int(sign < 0) for sign in signs)
-            if not self._symmetric(signs):
+            if not self.symmetric_under(signs):
                 continue
             for kept in basis:
                 if row[kept.index(1)]:
@@ -118,7 +118,8 @@ class Closure:
                 basis = [_xor(kept, row) if kept[row.index(1)] else kept for kept in basis] + [row]
         return tuple(sorted(row.index(1) for row in basis))
 
-    def _symmetric(self, signs: Sequence[int]) -> bool:
+    def symmetric_under(self, signs: Sequence[int]) -> bool:
+        """Whether M(σq) = Σ M(q) Σ."""
         joints = range(self.n)
         return all(
             mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}

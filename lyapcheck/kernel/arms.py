@@ -1,0 +1,140 @@
+"""How Coq is to prove that dV/dt < 0 for one arm, its gains and ε₀: numbers and trees, which it judges."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+
+from lyapcheck._types import Array
+from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, closure_of
+from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop.boxes import Side
+from lyapcheck.check.loop.closure import root_above
+from lyapcheck.check.loop.field import PI_ABOVE
+from lyapcheck.check.loop.proof import MORE_HALVINGS
+from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.numbers.harmonics import largest
+from lyapcheck.check.statement import Proof
+from lyapcheck.kernel.terms import NotPrinted, exact
+
+FUEL = 30
+"""How often a box of angles may be halved until M(q) ≻ 0 shows."""
+LITTLE = Fraction(1, 10**7)
+"""The part of K_p and B that is kept back, so that dV/dt is as far below 0 as convergence asks."""
+SLACK = 2.0**-20
+"""How much wider than the certificate's the box is, so that it reaches far enough after outward rounding."""
+LITERAL = 4000
+"""Longer texts overflow the stack of Coq's parser."""
+
+
+def arm_script(statement: Decreasing, proof: Proof) -> str:
+    """The tactics for ``certified``.
+
+    Raises:
+        NotPrinted: the proof is of a kind, or about a function, that Coq has no theorem for.
+    """
+    closure = closure_of(statement)
+    if certifies(closure.tail, closure.eps0):
+        return by_norms(closure)
+    if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
+        raise NotPrinted("a proof by bounds in ‖e‖")
+    return _script(closure, proof.rate.tree)
+
+
+def by_norms(closure: Closure) -> str:
+    """The tactics for ``certified`` where ε₀ is so small that norms alone show it."""
+    return _script(closure, None)
+
+
+def _script(closure: Closure, tree: str | None) -> str:
+    arm, n = closure.arm, closure.n
+    turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(closure.angles)
+    viscous, stiffest = arm.viscous, min(closure.kp)
+    parts = {
+        "angles": f"[{'; '.join(map(str, closure.angles))}]%nat",
+        "ks": "waves_in A",
+        "alpha": exact(_lowest(closure)),
+        "turn": _sides(turn),
+        "fuel": f"{FUEL}%nat",
+        "beta": exact(max(sum((_size(closure, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
+        "kc": exact(root_above(_squares(closure))),
+        "lo": exact(min(viscous)),
+        "hi": exact(max(viscous)),
+        "f": f"member_{closure.m}",
+        "kmin": exact(stiffest),
+        "vmax": exact(max(closure.kv)),
+        "c1": exact(stiffest * LITTLE),
+        "c2": exact(min(viscous) * LITTLE),
+    }
+    theorem = "certified_by_norms"
+    if tree is not None:
+        theorem = "certified_by_boxes"
+        errors = closure.start[len(turn) : len(turn) + n]
+        signs = "; ".join(f"({j}%nat, {_signs(closure, j)})" for j in closure.one_sided)
+        parts |= {
+            "Lq": exact(closure.member.L),
+            "rad": exact(Fraction(closure.radius).limit_denominator(10**6)),
+            "signs": f"[{signs}]",
+            "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
+            "hI": f"h{closure.m}_I",
+            "dhI": f"dh{closure.m}_I",
+            "more": f"{MORE_HALVINGS}%nat",
+            "tree": _text(tree),
+        }
+    chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
+    return f"match goal with |- certified ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+
+
+def _size(closure: Closure, i: int, j: int) -> Fraction:
+    return sum(map(largest, closure.mass[i][j].values()), Fraction(0))
+
+
+def _squares(closure: Closure) -> Fraction:
+    """Σ c_ijk², of bounds of the Christoffel symbols."""
+    sizes = {
+        place: sum(map(largest, parts.values()), Fraction(0)) for place, parts in closure.symbols.items()
+    }
+    return sum(((1 if j == k else 2) * size**2 for (_, j, k), size in sizes.items()), Fraction(0))
+
+
+def _lowest(closure: Closure) -> Fraction:
+    """About nine tenths of the least eigenvalue of M(q) on a grid; only a proposal."""
+    n, steps = closure.n, 25
+    found = math.inf
+    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(closure.angles)):
+        q = np.zeros(n)
+        q[list(closure.angles)] = place
+        rows = [[_value(closure.arm.mass[i][j], q) for j in range(n)] for i in range(n)]
+        found = min(found, float(np.linalg.eigvalsh(np.array(rows))[0]))
+    return Fraction(0.9 * found).limit_denominator(10**6)
+
+
+def _value(entry: Sequence[tuple[tuple[int, ...], Fraction]], q: Array) -> float:
+    waves = np.concatenate([np.sin(q), np.cos(q)])
+    return math.fsum(float(c) * float(np.prod(waves ** np.array(powers))) for powers, c in entry)
+
+
+def _signs(closure: Closure, joint: int) -> str:
+    """Signs of all joints that leave dV/dt as it is, turn this joint and no other one-sided one."""
+    for signs in product((1, -1), repeat=closure.n):
+        turned = [j for j in closure.one_sided if signs[j] < 0]
+        if turned == [joint] and closure.symmetric_under(signs):
+            return f"[{'; '.join(f'({s})' for s in signs)}]%Z"
+    raise NotPrinted("a symmetry that the checker knows, but not its signs")
+
+
+def _sides(sides: Sequence[Side]) -> str:
+    return f"[{'; '.join(f'({_double(low)}, {_double(high)})' for low, high in sides)}]"
+
+
+def _double(value: float) -> str:
+    return f"({value.hex()})%float"
+
+
+def _text(tree: str) -> str:
+    pieces = [f'"{tree[k : k + LITERAL]}"' for k in range(0, len(tree), LITERAL)]
+    return f"({' ++ '.join(pieces)})%string"
