@@ -4,7 +4,7 @@ From Coquelicot Require Export Coquelicot.
 From Interval Require Export Tactic.
 Require Export Definitions.
 Require Export Family Bounds Stability.
-Require Export Arm Boxes Bridge Certified Members.
+Require Export Arm Boxes Bridge Certified Members Sharp.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.
@@ -47,20 +47,7 @@ Ltac signs x := first
   | match goal with |- context [sinh x ^ ?k] => let j := eval compute in (Nat.div2 k) in
       let E := fresh in assert (E : 0 <= sinh x ^ k) by exact (even_pow_pos (sinh x) j); lra end
   | interval with (i_bisect x, i_autodiff x, i_prec 60) ].
-(** |h_m(x)| <= c |x|: what [secant_at_most] asks near 0, and in between. *)
-Ltac prove_near_zero := let x := fresh "x" in let H := fresh "H" in intros x H; cbv [Nat.mul Nat.sub Nat.add];
-  unfold sinh, cosh; spell 0%nat; interval with (i_bisect x, i_autodiff x, i_prec 60).
-Ltac prove_between := let x := fresh "x" in let H := fresh "H" in intros x H; apply Rminus_le; open_numbers;
-  interval with (i_bisect x, i_autodiff x, i_prec 60, i_depth 40).
-
 (** *** Arms *)
-(** h_1 with gamma = rho = L = 1. *)
-Lemma member_1_h x : Rabs (h 1 x) <= Q2R 1. Proof. unfold Q2R; cbn [Qnum Qden]. revert x. prove_h_at_most. Qed.
-Lemma member_1_dh x : Rabs (dh 1 x) <= Q2R 1. Proof. unfold Q2R; cbn [Qnum Qden]. revert x. prove_dh_at_most. Qed.
-Lemma member_1_L x : Rabs (h 1 x) <= Q2R 1 * Rabs x.
-Proof. pose proof (secant_1 x). pose proof (Rabs_pos x). unfold Q2R; cbn [Qnum Qden]. lra. Qed.
-Definition member_1 : Loop.member := member_of 1 (le_n 1) 1 1 1 member_1_h member_1_dh member_1_L.
-
 (** The waves that M(q) and its derivatives are made of. *)
 Definition waves_in (A : arm) : list (list Z) := nodup (list_eq_dec Z.eq_dec) (map (fun t : harmonic => fst (fst t))
   (flat_map (fun i => flat_map (fun j => (H A i j ++ flat_map (fun k => c_of A i j k) (seq 0 (joints A)))%list) (seq 0 (joints A))) (seq 0 (joints A)))).
@@ -71,8 +58,8 @@ Ltac computed := lazymatch goal with
   | |- (_ < _)%nat => apply PeanoNat.Nat.ltb_lt; reflexivity
   | |- (_ <= _)%nat => lia
   | |- @eq (R -> R) _ _ => reflexivity
-  | |- (Loop.Lf _ <= _)%R => cbn [Loop.Lf member_1 member_of]; apply Rle_refl
-  | |- forall i x, rel i x -> _ => first [exact h1_correct | exact dh1_correct]
-  | |- _ => unfold enough; cbn [Loop.gammaf Loop.rhof Loop.Lf member_1 member_of joints];
+  | |- (Loop.Lf _ <= _)%R => cbn [Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12]; apply Rle_refl
+  | |- forall i x, rel i x -> _ => first [exact h1_correct | exact dh1_correct | apply h_correct; lia | apply dh_correct; lia]
+  | |- _ => unfold enough; cbn [Loop.gammaf Loop.rhof Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12 joints];
       unfold Q2R; cbn [Qnum Qden]; simpl INR; interval with (i_prec 100)
   end.

@@ -76,17 +76,22 @@ def _script(closure: Closure, tree: str | None) -> str:
         errors = closure.start[len(turn) : len(turn) + n]
         signs = "; ".join(f"({j}%nat, {_signs(closure, j)})" for j in closure.one_sided)
         parts |= {
-            "Lq": exact(closure.member.L),
+            "Lq": exact(Fraction(1) if closure.m == 1 else _four_digits(closure.member.L)),
             "rad": exact(Fraction(closure.radius).limit_denominator(10**6)),
             "signs": f"[{signs}]",
             "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
-            "hI": f"h{closure.m}_I",
-            "dhI": f"dh{closure.m}_I",
+            "hI": "h1_I" if closure.m == 1 else f"(h_I {closure.m})",
+            "dhI": "dh1_I" if closure.m == 1 else f"(dh_I {closure.m})",
             "more": f"{MORE_HALVINGS}%nat",
             "tree": _text(tree),
         }
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
     return f"match goal with |- certified ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+
+
+def _four_digits(value: Fraction) -> Fraction:
+    """The bound in ``formal/Sharp.v`` of a number that is known better."""
+    return Fraction(math.ceil(value * 10**4 + Fraction(1, 4)), 10**4)
 
 
 def _size(closure: Closure, i: int, j: int) -> Fraction:

@@ -7,16 +7,24 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
+from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing
+from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.recheck import recheck
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
-from lyapcheck.kernel.judge import Kernel, judged
-from tests.kernel.test_statements import GOOD
+from lyapcheck.kernel.judge import Kernel, judged, theorem_file
+from tests.kernel.test_statements import GOOD, OWN
 
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
 
@@ -98,6 +106,56 @@ def test_the_kernel_refuses_what_is_false(folder: Path) -> None:
     for false in (true.replace("10536", "10535"), true.replace("h 2", "h 3")):
         with pytest.raises(CoqRefused):
             ours.accept("false_one", head + false)
+
+
+def faulty(one: Certificate) -> dict[str, Certificate]:
+    """The certificate of an ε₀ with one thing wrong in each."""
+    statement, proof = one.statement, one.proof
+    assert isinstance(statement, Decreasing)
+    assert isinstance(proof, PositiveAndDecreasing)
+    assert isinstance(proof.rate, BoxTree)
+    tree = proof.rate.tree
+    heavier = tuple(
+        tuple(tuple((powers, 3 * c) for powers, c in entry) for entry in row) for row in statement.mass
+    )
+    statements = {
+        "a wrong number": replace(statement, viscous=((Fraction(1, 10),) * 2, statement.viscous[1])),
+        "a false ε₀": replace(statement, eps0=Fraction(9, 10)),
+        "the M of another arm": replace(statement, mass=heavier),
+    }
+    trees = {"a cut tree": tree[: len(tree) // 2], "a longer tree": tree + "."}
+    return {name: replace(one, statement=false) for name, false in statements.items()} | {
+        name: replace(one, proof=replace(proof, rate=BoxTree(cut))) for name, cut in trees.items()
+    }
+
+
+ONE = certificate_of((OWN / "reyes-kelly2.m1.certified.json").read_bytes())[0]
+
+
+@pytest.mark.parametrize("name", faulty(ONE))
+def test_the_small_checker_refuses_planted_faults(name: str) -> None:
+    with pytest.raises((Refused, BrokenTree)):
+        verify(faulty(ONE)[name].statement, faulty(ONE)[name].proof)
+
+
+@needs_coq
+@pytest.mark.slow
+def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder: Path) -> None:
+    ours = Coq(folder, 600)
+    ours.accept("certified", theorem_file(ONE))
+    printed = ours.accept("asked", "Require Printed.certified.\nPrint Assumptions Printed.certified.claim.\n")
+    assert axioms_of(printed) <= golden("float")
+    for false in map(theorem_file, faulty(ONE).values()):
+        with pytest.raises(CoqRefused):
+            ours.accept("fault", false)
+
+
+@needs_coq
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["buap3.m1.stable", "arms.all.m1", "7a.m2", "h.bounds.m2", "h.odd.m2"])
+def test_claims_of_the_table_are_theorems_of_coqs(folder: Path, name: str) -> None:
+    one = certificate_of((OWN / f"{name}.json").read_bytes())[0]
+    Coq(folder, 600).accept("one_of_the_table", theorem_file(one))
 
 
 @needs_coq

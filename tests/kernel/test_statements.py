@@ -18,6 +18,8 @@ from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
 
 HERE = Path(__file__).parent
 GOOD = HERE.parent / "arena" / "good"
+OWN = HERE / "certificates"
+"""A few more, of claims that the arena has not."""
 GOLDEN = HERE / "statements.txt"
 """To be read by a person: each claim in the checker's words, and below it what Coq is asked."""
 
@@ -25,8 +27,9 @@ GOLDEN = HERE / "statements.txt"
 def certificates() -> list[tuple[str, Certificate]]:
     """The committed certificates by their places."""
     return [
-        (path.relative_to(GOOD).as_posix(), certificate_of(path.read_bytes())[0])
-        for path in sorted(GOOD.rglob("*.json"))
+        (path.relative_to(folder).as_posix(), certificate_of(path.read_bytes())[0])
+        for folder in (GOOD, OWN)
+        for path in sorted(folder.rglob("*.json"))
     ]
 
 
