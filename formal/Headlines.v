@@ -1,5 +1,6 @@
 (** The headline theorems: what each says in the words of Definitions.v, and the axioms it rests on. *)
 Require Import Lyapcheck.Certificates.
+Import Lyapcheck.Definitions.
 Set Printing Width 118.
 Check proposition_of_the_paper.
 Check V_of_the_paper.

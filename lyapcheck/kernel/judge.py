@@ -23,9 +23,11 @@ JOBS = 2
 COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|vm_cast_no_check)\b")
 HEAD = f"""From Coq Require Import Floats.
 Require Import {LIBRARY}.Certificates.
+Import {LIBRARY}.Definitions.
 Import ListNotations.
 Open Scope R_scope.
 """
+"""The page of definitions comes last: no other file's names stand before its own."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
-from lyapcheck.kernel.judge import Kernel, judged, theorem_file
+from lyapcheck.kernel.judge import HEAD, Kernel, judged, theorem_file
 from tests.kernel.test_statements import GOOD, OWN
 
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
@@ -148,6 +148,36 @@ def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folde
     for false in map(theorem_file, faulty(ONE).values()):
         with pytest.raises(CoqRefused):
             ours.accept("fault", false)
+
+
+DEFINED = """h dh U gamma rho L vec norm Arm certified every_robot_is_stable
+V_positive_definite V_radially_unbounded only_equilibrium"""
+REALS = {
+    "Rabs": "Rbasic_fun.Rabs",
+    "sqrt": "R_sqrt.sqrt",
+    "exp": "Rtrigo_def.exp",
+    "ln": "Rpower.ln",
+    "sin": "Rtrigo_def.sin",
+    "cos": "Rtrigo_def.cos",
+    "tan": "Rtrigo1.tan",
+    "asin": "Ratan.asin",
+    "acos": "Ratan.acos",
+    "atan": "Ratan.atan",
+    "sinh": "Rtrigo_def.sinh",
+    "cosh": "Rtrigo_def.cosh",
+    "tanh": "Rtrigo_def.tanh",
+    "PI": "Rtrigo1.PI",
+}
+
+
+@needs_coq
+@pytest.mark.slow
+def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_reals(folder: Path) -> None:
+    """Other files of the library have vectors and norms of their own."""
+    places = {name: f"Lyapcheck.Definitions.{name}" for name in DEFINED.split()}
+    places |= {name: f"Coq.Reals.{place}" for name, place in REALS.items()}
+    checks = (f"Check (eq_refl : @eq _ {name} {place}).\n" for name, place in places.items())
+    Coq(folder, 600).accept("names", HEAD + "".join(checks))
 
 
 @needs_coq
