@@ -31,7 +31,8 @@ class Parser(argparse.ArgumentParser):
     def add_argument(self, *names: str, help: str = "", **settings: Any) -> argparse.Action:  # type: ignore[override]  # noqa: A002
         """Add an argument or an option; its default is told at the end of its help."""
         default = settings.get("default")
-        if default is not None and default is not False:
+        # argparse hides the defaults of arguments without a name while it reads them among options
+        if default is not None and default is not False and names[0].startswith("-"):
             help += " [%(default)s]"  # noqa: A001
         action = super().add_argument(*names, help=help, **settings)
         self.actions.append(action)

@@ -15,7 +15,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.damping import damping_of
 from lyapcheck.answers.tune.gain_file import gain_file_text
 from lyapcheck.answers.tune.program import propose
@@ -171,7 +170,7 @@ def largest_of(function):
 def rooms(robot="buap3", m=2, **targets):
     model = load(robot)
     wanted = _for_each_joint(Targets(**targets), model.n)
-    limits, _ = _limits(arm_limits(robot, model.n), model, wanted, Bounds())
+    limits, _ = _limits(robot, model, wanted, Bounds())
     return _rooms(m, model, limits, wanted)
 
 

@@ -103,6 +103,7 @@ BAD = [
         "bounds TABLE2 --delta nan --disturbance 1,2 --friction a,b,c --start 1,2",
         ["--delta = nan", "--disturbance = 1,2: must be 3", "--friction = a,b,c: must be 3", "--start = 1,2"],
     ),
+    ("init TABLE2", ["DIR = TABLE2: cannot be made"]),
     ("robot", ["the following arguments are required: NAME|FILE"]),
     ("robot nobody", ["robot = nobody: is neither"]),
     ("robot pelican2 --tip hand", ["tip = hand: pelican2 is no URDF file"]),

@@ -20,7 +20,7 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, corners
 from lyapcheck.simulate.task import PAPER_TASK
 
-UR5 = str(Path(__file__).parents[1] / "arms" / "ur5.urdf")
+UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
 
 
 def varied(name: str, *texts: str):
