@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.metadata import version
-from urllib.parse import quote
 
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.proposal import Proposal
 from lyapcheck.claims.statements import Missing
+from lyapcheck.files.names import file_stem
 
 
 def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Certificate]:
@@ -35,7 +35,7 @@ def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Cer
 
 def file_name(claim: str, m: int | None) -> str:
     """``7a.m2.json`` for claim 7a and m = 2; characters that some file system refuses are escaped."""
-    name = quote(claim, safe="") if not claim.startswith(".") else "%2E" + quote(claim[1:], safe="")
+    name = file_stem(claim)
     return f"{name}.json" if m is None else f"{name}.m{m}.json"
 
 

@@ -241,8 +241,8 @@ FAULTS = [
     ("S4.norm.m1", '"0.5934"', '"0.5936"'),
     (
         "2.8",
-        "bounded(g, gravity_bounds(robot))",
-        "bounded(g, [p * Fraction(99, 100) for p in gravity_bounds(robot)])",
+        "bounded(gravity_vector(robot.fixed()), gravity_bounds(robot))",
+        "bounded(gravity_vector(robot.fixed()), [p * Fraction(99, 100) for p in gravity_bounds(robot)])",
     ),
 ]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from importlib.metadata import version
 from typing import TYPE_CHECKING
-from urllib.parse import quote
 
 from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.files.names import file_stem
 from lyapcheck.search.decay_results import AT_REST
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def certificates(found: Comparison) -> dict[str, Certificate]:
     if left.resting is not None:
         made["resting"] = "how far from the goal it can rest", left.resting, AT_REST
     return {
-        f"{quote(settling.name, safe='')}.{kind}.json": _certificate(found, kind, *parts)
+        f"{file_stem(settling.name)}.{kind}.json": _certificate(found, kind, *parts)
         for kind, parts in made.items()
     }
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from importlib.metadata import version
 from typing import TYPE_CHECKING
-from urllib.parse import quote
 
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.statement import Proof
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.names import file_stem
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
@@ -20,7 +20,7 @@ PROOF = "epsilon"
 
 def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     """Certificates by file name: of each ε₀ that is called certified, of the scalar one if it has one."""
-    stem, found = quote(result.name, safe=""), {}
+    stem, found = file_stem(result.name), {}
     if result.proof is not None:
         found[f"{stem}.certified.json"] = _certificate(
             result, result.proof.closure, "proved", result.proof.certificate

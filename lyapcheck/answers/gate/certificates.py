@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING
-from urllib.parse import quote
 
 from lyapcheck.answers.gate.words import RULES, joint_name
 from lyapcheck.check.certificate import About, Certificate
@@ -20,6 +19,7 @@ from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.control.judgement import judged
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.names import file_stem
 from lyapcheck.robots import load
 from lyapcheck.robots.trig import to_terms
 
@@ -109,7 +109,7 @@ def _missing(gravity: Sequence[Certificate | None]) -> Iterator[int]:
 
 
 def _file(certificate: Certificate) -> str:
-    return f"{quote(certificate.claim.id, safe='')}.json"
+    return f"{file_stem(certificate.claim.id)}.json"
 
 
 def _versions() -> dict[str, str]:
