@@ -54,7 +54,7 @@ kernel:
 	@$(MAKE) --no-print-directory -C formal golden
 
 fuzz: .venv/.ready
-	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json
+	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --seed 1122 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json
 
 lint: .venv/.ready
 	$(BIN)/ruff check .

@@ -34,7 +34,7 @@ SAID = {
     "cli.task": (1, "the word of an option"),
     "control.conditions": (2, "names handed on"),
     "control.judgement": (8, "the words of the gate for what the checker says there"),
-    "kernel.statements": (1, "the name of a predicate in Coq"),
+    "kernel.statements": (2, "the name of a predicate in Coq"),
     "output.text": (4, COLOURS),
     "report.compare": (5, SORTING),
     "report.document": (2, HEADING),

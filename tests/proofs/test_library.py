@@ -132,20 +132,14 @@ FAULTS = {
         ),
     ],
     "slotine_li": [
-        ("+ K @ s)", "- K @ s)"),
+        ("+ goal.gravity + K @ s", "+ goal.gravity - K @ s"),
         ("M @ (goal.acceleration - Λ @ w)", "M @ goal.acceleration"),
         ("C @ reference + B", "C @ goal.velocity + B"),
         ("V = kinetic + e @ Λ @ K @ e + e @ Λ @ B @ e", "V = kinetic"),
         ("V = kinetic + e @ Λ @ K @ e + e @ Λ @ B @ e", "V = kinetic + e @ Λ @ K @ e / 2 + e @ Λ @ B @ e"),
-        (
-            "above=goal.mu / 2 * norm(y) ** 2 + Λ.min * K.min * r**2",
-            "above=goal.mu / 2 * b**2 + Λ.min * K.min * r**2",
-        ),
-        (
-            "rate=K.min * b**2 + Λ.min**2 * K.min * r**2,\n)\n\nproof",
-            "rate=2 * K.min * b**2 + Λ.min**2 * K.min * r**2,\n)\n\nproof",
-        ),
-        ('changes={"w": Λ @ e - y},\n    above', 'changes={"w": Λ @ e - 2 * y},\n    above'),
+        ('"above": goal.mu / 2 * norm(y) ** 2', '"above": goal.mu / 2 * b**2'),
+        ('"rate": K.min * b**2', '"rate": 2 * K.min * b**2'),
+        ('"changes": {"w": Λ @ e - y}', '"changes": {"w": Λ @ e - 2 * y}'),
     ],
     "pid": [
         *TURNED,
