@@ -69,6 +69,16 @@ class Tab:
             while not self._loaded:
                 self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
 
+    def arrives(self, ending: str) -> bool:
+        """Whether the tab comes to an address with an ending; no script runs, as a page that leaves ends it."""
+        until = time.monotonic() + PATIENCE
+        while time.monotonic() < until:
+            history = self.send("Page.getNavigationHistory")
+            if history["entries"][history["currentIndex"]]["url"].endswith(ending):
+                return True
+            time.sleep(0.05)
+        return False
+
     def run(self, script: str) -> Any:
         """The value of an expression, or of what it promises."""
         result = self.send(

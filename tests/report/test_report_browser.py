@@ -180,7 +180,4 @@ def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Repor
 
 def test_the_old_page_of_a_member_leads_to_the_new(page: Tab, folder: Path) -> None:
     page.open(folder / "m1.html")
-    for _ in range(20):
-        if page.later("location.href", 250).endswith("index.html#m1"):
-            return
-    pytest.fail("still at the old page")
+    assert page.arrives("index.html#m1")
