@@ -70,7 +70,7 @@ class Tab:
                 self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
 
     def arrives(self, ending: str) -> bool:
-        """Whether the tab comes to an address with an ending; no script runs, as a page that leaves ends it."""
+        """Whether the tab comes to an address with an ending; without a script, which leaving would end."""
         until = time.monotonic() + PATIENCE
         while time.monotonic() < until:
             history = self.send("Page.getNavigationHistory")
