@@ -32,11 +32,11 @@ def modules(path: Iterable[str]) -> tuple[str, ...]:
 def defining(function: str, path: Iterable[str]) -> tuple[str, ...]:
     """The modules in some folders that define a function, sorted; they are read, not imported."""
     start = f"def {function}(".encode()
-    found = set()
+    result = set()
     for folder in filter(os.path.isdir, path):
         for name in os.listdir(folder):
             if name.endswith(".py"):
                 with open(os.path.join(folder, name), "rb") as file:
                     if any(line.startswith(start) for line in file):
-                        found.add(name.removesuffix(".py"))
-    return tuple(sorted(found))
+                        result.add(name.removesuffix(".py"))
+    return tuple(sorted(result))

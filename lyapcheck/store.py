@@ -43,9 +43,9 @@ def home() -> Path:
     return base / "lyapcheck"
 
 
-def kept(room: str, name: str) -> bytes | None:
+def kept(kind: str, name: str) -> bytes | None:
     """The content kept in a room under a name, if it is there, ours alone to write, and whole."""
-    path = home() / room / name
+    path = home() / kind / name
     try:
         if not _private(path.parent) or not _private(path):
             return None
@@ -56,10 +56,10 @@ def kept(room: str, name: str) -> bytes | None:
     return body if body and hashlib.sha256(body).digest() == digest else None
 
 
-def keep(room: str, name: str, body: bytes) -> Path | None:
+def keep(kind: str, name: str, body: bytes) -> Path | None:
     """Put a content under its name in one step; none if the cache cannot be written."""
     try:
-        folder = home() / room
+        folder = home() / kind
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not _private(folder):
             return None
@@ -115,7 +115,7 @@ def source_digest() -> str:
 class Held:
     """How much one room holds."""
 
-    room: str
+    kind: str
     files: int
     bytes: int
 
@@ -123,16 +123,16 @@ class Held:
 def held() -> list[Held]:
     """What is kept, room by room."""
     return [
-        Held(room.name, len(files), sum(path.stat().st_size for path in files))
-        for room in _rooms()
-        for files in [[path for path in room.iterdir() if path.is_file()]]
+        Held(kind.name, len(files), sum(path.stat().st_size for path in files))
+        for kind in _rooms()
+        for files in [[path for path in kind.iterdir() if path.is_file()]]
     ]
 
 
 def clear() -> None:
     """Remove everything that is kept."""
-    for room in _rooms():
-        for path in room.iterdir():
+    for kind in _rooms():
+        for path in kind.iterdir():
             if path.is_file():
                 path.unlink(missing_ok=True)
 

@@ -51,11 +51,11 @@ def exit_code(verdicts: Iterable[Verdict]) -> Exit:
 
     No verdict at all is ``UNDECIDED``: nothing was proved.
     """
-    found = set(verdicts)
-    if Verdict.ERROR in found:
+    result = set(verdicts)
+    if Verdict.ERROR in result:
         return Exit.INTERNAL
-    if Verdict.REFUTED in found:
+    if Verdict.REFUTED in result:
         return Exit.REFUTED
-    if Verdict.UNDECIDED in found or not found:
+    if Verdict.UNDECIDED in result or not result:
         return Exit.UNDECIDED
     return Exit.PROVED

@@ -66,10 +66,10 @@ def argument(goal, functions):
     w, M, B = goal.w, goal.M, goal.B
     K_p, K_v = goal.gains("Kp Kv")
     torque = K_p @ e_h - K_v @ w_k + goal.gravity
-    turning = 0
+    coriolis = 0
     if goal.desired:
         torque = torque + M @ goal.acceleration + goal.C @ goal.velocity + B @ goal.velocity
-        turning = goal.kc * goal.vd
+        coriolis = goal.kc * goal.vd
     ε0, s, β = goal.eps0, goal.s, goal.beta
     ε, y, a, b = ε0 * s, any_vector("y_w"), norm(e_h), norm(w)
     shifted = w - ε * e_h
@@ -77,8 +77,8 @@ def argument(goal, functions):
     c = β * (e_h.slope + e_h.secant) + e_h.reach * goal.kc
     bounds = {
         "above": goal.mu / 2 * norm(y) ** 2 + K_p.min * e_h.sum_U,
-        "rate": ε * (K_p.min - ε * turning) * a**2
-        - ε * (B.max + w_k.secant * K_v.max + turning + ε * c) * a * b
+        "rate": ε * (K_p.min - ε * coriolis) * a**2
+        - ε * (B.max + w_k.secant * K_v.max + coriolis + ε * c) * a * b
         + (B.min - ε * c) * b**2,
         "changes": {"w": y + ε * e_h},
         "small": True,

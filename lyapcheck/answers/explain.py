@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.claims.ask import ask
-from lyapcheck.claims.handover import Given, Request, Told
+from lyapcheck.claims.handover import ClaimData, Given, Request
 from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.run import paper_given
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
@@ -88,10 +88,10 @@ class Explanation(Answer):
 
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
-        found = asdict(self) | {"found": list(self.found)}
+        result = asdict(self) | {"found": list(self.found)}
         for key in ("uses", "used_by"):
-            found[key] = [{"id": known, "says": says} for known, says in found[key]]
-        return found | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
+            result[key] = [{"id": known, "says": says} for known, says in result[key]]
+        return result | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a part, or one that says why there is none."""
@@ -154,8 +154,8 @@ def list_claims(script: str | None = None) -> ClaimList:
     proofs = []
     for name in SHIPPED if script is None else (script,):
         path = find_script(name)
-        told = ask(Request(str(path), path.name))
-        proofs.append((path.name, told.title, tuple(_named(claim) for claim in told.claims)))
+        handover = ask(Request(str(path), path.name))
+        proofs.append((path.name, handover.title, tuple(_named(claim) for claim in handover.claims)))
     return ClaimList(tuple(proofs))
 
 
@@ -179,21 +179,21 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
     """
     script_path, meant = _making(claim_id, script)
     given = paper_given(SHOWN_MEMBER)
-    told = ask(Request(str(script_path), script_path.name, (given,), only=(meant,)))
-    claims = {claim.id: claim for claim in told.claims}
+    handover = ask(Request(str(script_path), script_path.name, (given,), only=(meant,)))
+    claims = {claim.id: claim for claim in handover.claims}
     claim = claims[meant]
     answer = claim.answers[0]
-    stated = told.stated(answer)
+    stated = handover.stated(answer)
     statement = None if isinstance(stated, Missing) else stated
     return Explanation(
         id=claim.id,
         says=claim.says,
         script=script_path.name,
-        title=told.title,
+        title=handover.title,
         place=claim.place,
-        reference=told.reference,
+        reference=handover.reference,
         uses=tuple(_named(claims[used]) for used in claim.uses),
-        used_by=tuple(_named(other) for other in told.claims if claim.id in other.uses),
+        used_by=tuple(_named(other) for other in handover.claims if claim.id in other.uses),
         case=_shown_case(given, answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
@@ -262,7 +262,7 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _named(claim: Told) -> tuple[str, str]:
+def _named(claim: ClaimData) -> tuple[str, str]:
     return claim.id, claim.says
 
 
@@ -275,9 +275,9 @@ def _shown_case(given: Given, read: Collection[str]) -> str:
 def _parts(name: str, statement: Statement) -> list[Part]:
     if isinstance(statement, AllOf):
         return [
-            found
+            result
             for inner, part in statement.parts
-            for found in _parts(f"{name}, {inner}" if name else inner, part)
+            for result in _parts(f"{name}, {inner}" if name else inner, part)
         ]
     return [Part(name, type(statement).__name__, statement.text())]
 

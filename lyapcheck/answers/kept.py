@@ -20,27 +20,27 @@ class Kept(Answer):
     """The rooms of the store.
 
     Args:
-        rooms: what each holds.
+        kinds: what each holds.
         cleared: whether all of it was just removed.
     """
 
     schema = "lyapcheck/store/1"
 
-    rooms: tuple[Held, ...]
+    kinds: tuple[Held, ...]
     cleared: bool = False
 
     def document(self) -> Document:
         """A row a room."""
-        total = sum(room.bytes for room in self.rooms)
+        total = sum(kind.bytes for kind in self.kinds)
         title = "The store is empty" if not total else f"{total} bytes are kept"
         if self.cleared:
             title = "The store was cleared"
         rows = tuple(
-            (room.room, str(room.files), str(room.bytes), WHAT.get(room.room, "")) for room in self.rooms
+            (kind.kind, str(kind.files), str(kind.bytes), WHAT.get(kind.kind, "")) for kind in self.kinds
         )
         table = Table(("room", "files", "bytes", "what"), rows, align="lrrl")
         return Document(title, (table,) if rows else (Paragraph("Nothing is kept yet."),))
 
     def data(self) -> dict[str, Any]:
-        """``results: [{room, files, bytes}]``."""
-        return {"cleared": self.cleared, "results": [vars(room) for room in self.rooms]}
+        """``results: [{kind, files, bytes}]``."""
+        return {"cleared": self.cleared, "results": [vars(kind) for kind in self.kinds]}

@@ -24,14 +24,14 @@ MEANING = (
 )
 
 
-def writer(name: str, seconds: int, folder: Path | None, told: Callable[[str], None]) -> Writer:
+def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str], None]) -> Writer:
     """What writes the outcome of the small checker in a format, once Coq's kernel has judged it as well.
 
     Args:
         name: of the format.
         seconds: the most that one theorem may take.
         folder: where the files for Coq stay; ``None``: nowhere.
-        told: is told what is going on.
+        progress: is told what is going on.
 
     Raises:
         InputError: there is no Coq.
@@ -41,31 +41,31 @@ def writer(name: str, seconds: int, folder: Path | None, told: Callable[[str], N
     def written(outcome: Outcome, trusted: bool) -> str:
         with ExitStack() as stack:
             place = Path(stack.enter_context(temporary_folder())) if folder is None else folder
-            found = judged(outcome, place.absolute(), seconds, told)
-        both = graded(outcome, found)
+            result = judged(outcome, place.absolute(), seconds, progress)
+        both = graded(outcome, result)
         if name == "text":
-            return text(both, trusted) + kernel_text(found)
+            return text(both, trusted) + kernel_text(result)
         if name == "json":
-            return kernel_json(as_json(both, trusted), found)
-        return Recheck(both, trusted, tuple(found)).written(name)
+            return kernel_json(as_json(both, trusted), result)
+        return Recheck(both, trusted, tuple(result)).written(name)
 
     return written
 
 
-def kernel_text(found: list[Kernel]) -> str:
+def kernel_text(result: list[Kernel]) -> str:
     """A line a certificate, what the grade means, and how many have it."""
     lines = [
         "",
-        *(f"{'kernel' if one.accepted else 'no kernel':<{WIDTH}}{one.file}: {said(one)}" for one in found),
+        *(f"{'kernel' if one.accepted else 'no kernel':<{WIDTH}}{one.file}: {said(one)}" for one in result),
     ]
-    counted = Counter(one.accepted for one in found)
+    counted = Counter(one.accepted for one in result)
     return "\n".join([*lines, MEANING, f"{counted[True]} kernel, {counted[False]} without"]) + "\n"
 
 
-def kernel_json(written: str, found: list[Kernel]) -> str:
+def kernel_json(written: str, result: list[Kernel]) -> str:
     """The JSON of the small checker with ``kernel`` in the row of each certificate."""
     data = json.loads(written)
-    for row, one in zip(data["certificates"], found, strict=True):
+    for row, one in zip(data["certificates"], result, strict=True):
         row["kernel"] = {
             "accepted": one.accepted,
             "reason": one.reason,

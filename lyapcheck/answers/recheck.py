@@ -58,8 +58,8 @@ class Recheck(Answer):
 
     def data(self) -> dict[str, Any]:
         """What the checker writes as JSON."""
-        found: dict[str, Any] = json.loads(as_json(self.outcome, self.trusted))
-        return {key: value for key, value in found.items() if key != "schema"}
+        result: dict[str, Any] = json.loads(as_json(self.outcome, self.trusted))
+        return {key: value for key, value in result.items() if key != "schema"}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a certificate."""
@@ -77,10 +77,10 @@ class Recheck(Answer):
         return [*alarms, *map(_annotation, self.outcome.checked)]
 
     def _title(self) -> str:
-        found = {status: self._with(status) for status in SIGNS}
-        worst = next((status for status in SIGNS if found[status]), "undecided")
-        tally = ", ".join(f"{len(ones)} {status}" for status, ones in found.items() if ones)
-        verdicts = [one.verdict for one in found["accepted"]]
+        result = {status: self._with(status) for status in SIGNS}
+        worst = next((status for status in SIGNS if result[status]), "undecided")
+        tally = ", ".join(f"{len(ones)} {status}" for status, ones in result.items() if ones)
+        verdicts = [one.verdict for one in result["accepted"]]
         shown = ", ".join(f"{verdicts.count(v)} {v}" for v in ("proved", "refuted") if v in verdicts)
         counted = f"{tally or 'no certificates'}{f' ({shown})' if shown else ''}"
         return f"✗ ALARM: {ALARM}: {counted}" if self.outcome.alarms else f"{SIGNS[worst]} {counted}"
@@ -98,9 +98,9 @@ class Recheck(Answer):
 
     def _checked(self) -> Iterator[Section]:
         for status in SIGNS:
-            if found := self._with(status):
-                table = _accepted(found) if status == "accepted" else _not_accepted(found)
-                yield Section(f"{status.capitalize()} ({len(found)})", (table,))
+            if result := self._with(status):
+                table = _accepted(result) if status == "accepted" else _not_accepted(result)
+                yield Section(f"{status.capitalize()} ({len(result)})", (table,))
 
     def _with(self, status: str) -> list[Checked]:
         return [one for one in self.outcome.checked if one.status == status]
@@ -149,19 +149,19 @@ class Recheck(Answer):
             yield Section(f"Trusted for all that is {verdict}", (rules, table))
 
 
-def _accepted(found: Sequence[Checked]) -> Table:
+def _accepted(result: Sequence[Checked]) -> Table:
     heads = ("", "file", "verdict", "grade", "statement")
     rows = []
-    for one in found:
+    for one in result:
         rows.append((SIGNS[one.status], one.file, one.verdict, one.grade, one.finding.statement))
         rows.append(("", "", "", "", _words(one)))
     return Table(heads, tuple(rows), align="lllll", keys=4)
 
 
-def _not_accepted(found: Sequence[Checked]) -> Table:
+def _not_accepted(result: Sequence[Checked]) -> Table:
     """Why not; and of those that may still be, what they state."""
     rows = []
-    for one in found:
+    for one in result:
         rows.append((SIGNS[one.status], one.file, one.reason))
         if one.status == "undecided":
             rows += [("", "", text) for text in (_open_statement(one), _words(one))]
@@ -170,10 +170,10 @@ def _not_accepted(found: Sequence[Checked]) -> Table:
 
 def _words(one: Checked) -> str:
     """The mark of the statement, and what its author calls it."""
-    found = one.finding
-    member = f" (m = {found.m})" if found.m is not None else ""
-    mark = found.statement_digest[:12]
-    return f"statement {mark}; the author's words: {found.label}{member}: “{found.says}”"
+    result = one.finding
+    member = f" (m = {result.m})" if result.m is not None else ""
+    mark = result.statement_digest[:12]
+    return f"statement {mark}; the author's words: {result.label}{member}: “{result.says}”"
 
 
 def _open_statement(one: Checked) -> str:

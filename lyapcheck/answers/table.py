@@ -160,16 +160,16 @@ class Table(Answer):
 
     def _row(self, index: int) -> dict[str, Any]:
         row = self.rows[index]
-        found: dict[str, Any] = {"m": row.m}
-        found |= {name: self._ends(getattr(row, name)) for name in CONSTANTS}
+        result: dict[str, Any] = {"m": row.m}
+        result |= {name: self._ends(getattr(row, name)) for name in CONSTANTS}
         printed = PRINTED_GAMMA.get(row.m)
-        found["slope_at_0"] = str(slope_at_zero(row.m))
-        found["gamma_printed"] = (
+        result["slope_at_0"] = str(slope_at_zero(row.m))
+        result["gamma_printed"] = (
             None if printed is None else {"value": f"{float(printed):g}", "bounds_h": printed_bounds(row.m)}
         )
         if self.asymptotes is not None:
             tail = self.asymptotes[index]
-            found["asymptotics"] = {
+            result["asymptotics"] = {
                 name: {
                     "leading": self._ends(getattr(tail, name)),
                     "rest": self._ends(getattr(tail, f"{name}_rest")),
@@ -177,11 +177,11 @@ class Table(Answer):
                 for name in ("gamma", "rho", "L")
             }
         if self.budget is not None:
-            found["budget"] = [
+            result["budget"] = [
                 {"joint": joint, "limit": self._ends(limit)}
                 for joint, limit in zip(self.budget.joints, self.budget.rows[index], strict=True)
             ]
-        return found
+        return result
 
     def _ends(self, value: Enclosure | None) -> dict[str, str] | None:
         return None if value is None else dict(zip(ENDS, value.decimals(self.digits), strict=True))

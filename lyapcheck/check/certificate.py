@@ -177,8 +177,8 @@ def judge(certificate: Certificate) -> Accepted:
     """
     accepted = verify(certificate.statement, certificate.proof)
     for name in ("verdict", "grade"):
-        said, found = getattr(certificate, name), getattr(accepted, name)
-        require(said == found, name, said, f"the proof gives {found}")
+        said, result = getattr(certificate, name), getattr(accepted, name)
+        require(said == result, name, said, f"the proof gives {result}")
     if accepted.verdict == "refuted":
         require(not certificate.uses, "uses", ", ".join(certificate.uses), "a refutation rests on nothing")
         return accepted
@@ -204,6 +204,6 @@ def _integer(text: str) -> int:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    require(len(found) == len(pairs), "object", ", ".join(key for key, _ in pairs), "has a key twice")
-    return found
+    result = dict(pairs)
+    require(len(result) == len(pairs), "object", ", ".join(key for key, _ in pairs), "has a key twice")
+    return result

@@ -54,8 +54,8 @@ def from_json(cls: type[T], data: Any, where: str) -> T:
     Raises:
         Refused: the values do not have exactly the form of that type.
     """
-    found: T = _read(cls, data, where)
-    return found
+    result: T = _read(cls, data, where)
+    return result
 
 
 def _read(hint: Any, data: Any, where: str) -> Any:
@@ -132,21 +132,21 @@ def _one_class(cls: Any, data: Any, where: str) -> Any:
     base = next((base for base in TAGS if issubclass(cls, base)), None)
     if base is None:
         return _dataclass(cls, data, where)
-    found = _tagged(base, data, where)
-    require(isinstance(found, cls), where, data[TAGS[base]], f"must be {name_of(cls)}")
-    return found
+    result = _tagged(base, data, where)
+    require(isinstance(result, cls), where, data[TAGS[base]], f"must be {name_of(cls)}")
+    return result
 
 
 def members(base: type) -> dict[str, Any]:
     """The kinds of statement, rules or pieces of the checker by name; not what others derive."""
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     waiting: list[Any] = base.__subclasses__()
     while waiting:
         cls = waiting.pop()
         waiting += cls.__subclasses__()
         if cls.__module__.startswith(f"{KINDS}.") and not isabstract(cls):
-            found[name_of(cls)] = cls
-    return found
+            result[name_of(cls)] = cls
+    return result
 
 
 READERS: dict[Any, Callable[[Any, Any, str], Any]] = {

@@ -46,18 +46,18 @@ def gather(paths: Iterable[str | Path]) -> list[Document]:
     Raises:
         Unreadable: naming every path that is neither a readable regular file nor a directory of certificates.
     """
-    found: list[Document] = []
+    result: list[Document] = []
     problems: list[tuple[str, str]] = []
     for path in map(Path, paths):
         try:
-            found += _documents(path)
+            result += _documents(path)
         except (OSError, ValueError) as error:
             problems.append((str(path), words(error)))
     if problems:
         raise Unreadable(problems)
-    times = Counter(one.path.name for one in found)
-    shown = (one.path.name if times[one.path.name] == 1 else str(one.path) for one in found)
-    return [Document(plain(name), one.path, one.named) for name, one in zip(shown, found, strict=True)]
+    times = Counter(one.path.name for one in result)
+    shown = (one.path.name if times[one.path.name] == 1 else str(one.path) for one in result)
+    return [Document(plain(name), one.path, one.named) for name, one in zip(shown, result, strict=True)]
 
 
 def _documents(path: Path) -> list[Document]:
@@ -85,10 +85,10 @@ def content(path: Path) -> bytes:
         _require_regular(before.st_mode)
         if before.st_size > MAX_BYTES:
             raise ValueError(f"has {before.st_size} bytes, above {MAX_BYTES}, which no certificate has")
-        found = file.read(MAX_BYTES + 1)
-    if len(found) != before.st_size:
+        result = file.read(MAX_BYTES + 1)
+    if len(result) != before.st_size:
         raise ValueError("changes while it is read; copy it first")
-    return found
+    return result
 
 
 def _require_regular(mode: int) -> None:

@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.finding import Finding
+from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.limits import Limits
 
 ROOT = str(Path(__file__).parents[2])
@@ -52,14 +52,14 @@ class Guard:
     def __exit__(self, *_: object) -> None:
         self._exit.close()
 
-    def judge(self, content: bytes, full: bool) -> Finding:
+    def judge(self, content: bytes, full: bool) -> Judgement:
         """What a certificate shows by itself."""
         answer = self._ask({"task": "judge", "full": full}, [content])
         if "ended" in answer:
-            return Finding().refused(answer["ended"])
-        found = answer["finding"]
-        pairs = {name: tuple(map(tuple, found[name])) for name in ("shows", "rules", "theorems")}
-        return Finding(**{**found, **pairs, "granted": tuple(found["granted"])})
+            return Judgement().refused(answer["ended"])
+        result = answer["finding"]
+        pairs = {name: tuple(map(tuple, result[name])) for name in ("shows", "rules", "theorems")}
+        return Judgement(**{**result, **pairs, "granted": tuple(result["granted"])})
 
     def lacks(self, digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
         """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""
@@ -85,8 +85,8 @@ class Guard:
 
     def _start(self) -> subprocess.Popen[bytes]:
         path = [ROOT, *(entry for entry in sys.path if entry not in ("", "."))]
-        setting = json.dumps([path, self.limits.seconds, self.limits.memory])
-        command = [sys.executable, "-I", "-c", CODE, setting]
+        controlled = json.dumps([path, self.limits.seconds, self.limits.memory])
+        command = [sys.executable, "-I", "-c", CODE, controlled]
         self._process = process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
         )
@@ -148,17 +148,17 @@ def _exchange(
 @contextmanager
 def _terminable() -> Iterator[None]:
     """SIGTERM and SIGHUP end the program as Ctrl-C does, through what is to be cleaned up."""
-    found = []
+    result = []
     if threading.current_thread() is threading.main_thread():
         for name in ("SIGTERM", "SIGHUP"):
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) is signal.SIG_DFL:
                 signal.signal(number, _leave)
-                found.append(number)
+                result.append(number)
     try:
         yield
     finally:
-        for number in found:
+        for number in result:
             signal.signal(number, signal.SIG_DFL)
 
 

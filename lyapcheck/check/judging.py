@@ -9,7 +9,7 @@ from typing import Any
 
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, sealed
 from lyapcheck.check.codec import name_of
-from lyapcheck.check.finding import Finding, shortened
+from lyapcheck.check.judgement import Judgement, shortened
 from lyapcheck.check.refusal import Refused, plain, require
 from lyapcheck.check.statement import Piece, Proof, Statement
 
@@ -25,22 +25,22 @@ def certificate_of(content: bytes) -> tuple[Certificate, Any]:
     return read(data), data
 
 
-def judged(content: bytes, full: bool = False) -> Finding:
+def judged(content: bytes, full: bool = False) -> Judgement:
     """What a certificate shows by itself; whatever goes wrong is the reason why it is refused."""
-    found = Finding()
+    result = Judgement()
     try:
         data = parse(content.decode("utf-8"))
         sealed(data)
-        found = replace(found, digest=data["digest"])
+        result = replace(result, digest=data["digest"])
         certificate = read(data)
-        found = _claimed(certificate, data, full)
-        return _shown(found, certificate, data, judge(certificate).grade, full)
+        result = _claimed(certificate, data, full)
+        return _shown(result, certificate, data, judge(certificate).grade, full)
     except (UnicodeDecodeError, JSONDecodeError) as error:
-        return replace(found.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
+        return replace(result.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
     except Refused as refusal:
-        return found.refused(str(refusal))
+        return result.refused(str(refusal))
     except Exception as error:
-        return found.refused(f"cannot be judged ({type(error).__name__}: {error})")
+        return result.refused(f"cannot be judged ({type(error).__name__}: {error})")
 
 
 def lacking(digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
@@ -61,10 +61,10 @@ def lacking(digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) 
     return plain(certificate.statement.lacks(stated) or "")
 
 
-def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
+def _claimed(certificate: Certificate, data: Any, full: bool) -> Judgement:
     """What it says of itself."""
     claim = certificate.claim
-    return Finding(
+    return Judgement(
         digest=data["digest"],
         claim=claim.id,
         label=plain(claim.id),
@@ -76,14 +76,14 @@ def _claimed(certificate: Certificate, data: Any, full: bool) -> Finding:
     )
 
 
-def _shown(found: Finding, certificate: Certificate, data: Any, grade: str, full: bool) -> Finding:
+def _shown(result: Judgement, certificate: Certificate, data: Any, grade: str, full: bool) -> Judgement:
     """What it shows, now that its proof is accepted."""
     statement = certificate.statement
     decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
     shown = certificate.verdict == "proved"
     shows = tuple((digest_of(part), verdict, where) for part, verdict, where in decided)
     return replace(
-        found,
+        result,
         grade=grade,
         statement=shortened(statement.decided_text(certificate.proof), full),
         statement_digest=shows[0][0],

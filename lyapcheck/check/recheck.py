@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 from lyapcheck.check.files import Document, Unreadable, content, words
-from lyapcheck.check.finding import Finding
 from lyapcheck.check.guard import Guard
+from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.limits import Limits
 from lyapcheck.check.refusal import plain
 
@@ -24,7 +24,7 @@ class Checked:
     """
 
     document: Document
-    finding: Finding
+    finding: Judgement
     status: str
     reason: str = ""
     grade: str = ""
@@ -76,8 +76,8 @@ class Outcome:
     @property
     def code(self) -> int:
         """0: all accepted, 1: some refused, 3: some undecided and none refused, 4: an alarm."""
-        found = {one.status for one in self.checked}
-        return 4 if self.alarms else 1 if "refused" in found else 3 if "undecided" in found else 0
+        result = {one.status for one in self.checked}
+        return 4 if self.alarms else 1 if "refused" in result else 3 if "undecided" in result else 0
 
 
 def recheck(documents: Iterable[Document], limits: Limits | None = None, full: bool = False) -> Outcome:
@@ -107,11 +107,11 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
         settled: dict[str, Checked] = {}
         for one in own:
             _settle(one, known, settled, guard)
-        found = tuple(
+        result = tuple(
             replace(settled[one.finding.digest], document=one.document) if one.finding.digest else one
             for one in own
         )
-        return summed(found, settled, guard.limited)
+        return summed(result, settled, guard.limited)
 
 
 def _own(document: Document, guard: Guard, full: bool) -> Checked:
@@ -119,7 +119,7 @@ def _own(document: Document, guard: Guard, full: bool) -> Checked:
     try:
         finding = guard.judge(content(document.path), full)
     except (OSError, ValueError) as error:
-        finding = replace(Finding().refused(words(error)), unreadable=True)
+        finding = replace(Judgement().refused(words(error)), unreadable=True)
     status = "refused" if finding.reason else "accepted"
     return Checked(document, finding, status, finding.reason, finding.grade)
 
@@ -180,9 +180,9 @@ def _fault(one: Checked, used: Checked, claim: str) -> str | None:
     if its.claim != claim:
         return f"but the certificate is about {its.label}"
     for name in ("m", "n"):
-        wanted, found = getattr(mine, name), getattr(its, name)
-        if found is not None and found != wanted:
-            return f"but the certificate is for {name} = {found}"
+        wanted, result = getattr(mine, name), getattr(its, name)
+        if result is not None and result != wanted:
+            return f"but the certificate is for {name} = {result}"
     return None if its.verdict == "proved" else "which is refuted"
 
 
@@ -208,14 +208,14 @@ def summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: t
 
 def _rests_on(one: Checked, settled: dict[str, Checked]) -> list[Checked]:
     """A certificate and all that it uses, directly or not."""
-    found = {one.finding.digest: one}
+    result = {one.finding.digest: one}
     waiting = [one]
     while waiting:
         for digest in waiting.pop().finding.uses.values():
-            if digest in settled and digest not in found:
-                found[digest] = settled[digest]
+            if digest in settled and digest not in result:
+                result[digest] = settled[digest]
                 waiting.append(settled[digest])
-    return list(found.values())
+    return list(result.values())
 
 
 def _alarms(checked: tuple[Checked, ...]) -> tuple[Alarm, ...]:

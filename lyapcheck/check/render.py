@@ -64,17 +64,17 @@ def as_json(outcome: Outcome, trusted: bool = False) -> str:
 
 
 def _certificate(one: Checked) -> Iterator[str]:
-    found = one.finding
+    result = one.finding
     if one.accepted:
-        yield f"accepted   {one.file}: {found.verdict} [{one.grade}]: {found.statement}"
+        yield f"accepted   {one.file}: {result.verdict} [{one.grade}]: {result.statement}"
     else:
         yield f"{one.status:<9}  {one.file}: {one.reason}"
     if one.status == "undecided":
-        yield f"{INDENT}the statement, if the rest is shown {found.verdict}: {found.statement}"
+        yield f"{INDENT}the statement, if the rest is shown {result.verdict}: {result.statement}"
     if one.status != "refused":
-        member = f" (m = {found.m})" if found.m is not None else ""
-        words = f"{found.label}{member}: “{found.says}”"
-        yield f"{INDENT}statement {found.statement_digest[:12]}; the author's words: {words}"
+        member = f" (m = {result.m})" if result.m is not None else ""
+        words = f"{result.label}{member}: “{result.says}”"
+        yield f"{INDENT}statement {result.statement_digest[:12]}; the author's words: {words}"
 
 
 def _granted(outcome: Outcome) -> Iterator[str]:
@@ -111,28 +111,28 @@ def _trusted(outcome: Outcome) -> Iterator[str]:
 
 def _code(title: str, rules: tuple[tuple[str, str], ...]) -> Iterator[str]:
     """The rules, and the modules with their lines."""
-    found = modules(rules)
+    result = modules(rules)
     yield f"trusted for {title}"
     yield f"  rules: {', '.join(_names(rules))}"
     yield "   code  lines"
-    yield from (f"  {size.code:>5}  {size.lines:>5} {name}" for name, size in found.items())
-    yield "{:>7}  {:>5} of definitions in {} modules".format(*totals(found), len(found))
+    yield from (f"  {size.code:>5}  {size.lines:>5} {name}" for name, size in result.items())
+    yield "{:>7}  {:>5} of definitions in {} modules".format(*totals(result), len(result))
 
 
-def _sizes(found: dict[str, Size]) -> dict[str, dict[str, int]]:
+def _sizes(result: dict[str, Size]) -> dict[str, dict[str, int]]:
     return {
-        "modules": {name: size.lines for name, size in found.items()},
-        "code": {name: size.code for name, size in found.items()},
+        "modules": {name: size.lines for name, size in result.items()},
+        "code": {name: size.code for name, size in result.items()},
     }
 
 
 def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
     """The rules behind all certificates of each verdict."""
-    found: dict[str, set[tuple[str, str]]] = {}
+    result: dict[str, set[tuple[str, str]]] = {}
     for one in outcome.checked:
         if one.accepted:
-            found.setdefault(one.finding.verdict, set()).update(outcome.rules[one.file])
-    return [(verdict, tuple(sorted(rules))) for verdict, rules in sorted(found.items())]
+            result.setdefault(one.finding.verdict, set()).update(outcome.rules[one.file])
+    return [(verdict, tuple(sorted(rules))) for verdict, rules in sorted(result.items())]
 
 
 def _names(rules: tuple[tuple[str, str], ...]) -> list[str]:
@@ -154,23 +154,23 @@ def _tally(outcome: Outcome) -> str:
 
 
 def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
-    found, read = one.finding, bool(one.finding.verdict)
+    result, read = one.finding, bool(one.finding.verdict)
     return {
         "file": one.file,
         "status": one.status,
         "accepted": one.accepted,
         "reason": one.reason,
-        "statement": found.statement if read else None,
-        "statement_digest": found.statement_digest if read else None,
+        "statement": result.statement if read else None,
+        "statement_digest": result.statement_digest if read else None,
         "verdict": one.verdict or None,
         "grade": one.grade if one.accepted else None,
         "granted": list(outcome.granted.get(one.file, ())),
         "rules": _names(outcome.rules.get(one.file, ())),
-        "id": found.label if read else None,
-        "m": found.m,
-        "n": found.n,
-        "comment": found.says if read else None,
-        "uses": [plain(claim) for claim in found.uses],
+        "id": result.label if read else None,
+        "m": result.m,
+        "n": result.n,
+        "comment": result.says if read else None,
+        "uses": [plain(claim) for claim in result.uses],
         "given": [plain(claim) for claim in one.given],
-        "digest": found.digest or None,
+        "digest": result.digest or None,
     }

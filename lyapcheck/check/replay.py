@@ -36,12 +36,12 @@ def coordinates(point: Point, names: Iterable[str]) -> dict[str, Fraction]:
     Raises:
         Refused: a name of the statement is missing, a coordinate is given twice or is of no variable.
     """
-    found = dict(point)
+    result = dict(point)
     wanted = set(names)
     shown = ", ".join(name for name, _ in point)
-    require(len(found) == len(point), "point", shown, "gives one coordinate twice")
-    require(set(found) == wanted, "point", shown, f"must give {', '.join(sorted(wanted)) or 'nothing'}")
-    return found
+    require(len(result) == len(point), "point", shown, "gives one coordinate twice")
+    require(set(result) == wanted, "point", shown, f"must give {', '.join(sorted(wanted)) or 'nothing'}")
+    return result
 
 
 class Pointwise(OfTerms):

@@ -67,13 +67,13 @@ def modules(rules: Iterable[tuple[str, str]]) -> dict[str, Size]:
 
     Lines of imports count where a definition that is reached uses what they import.
     """
-    found = reached(place for _, places in rules for place in places.split())
-    return {name: _size(name, found) for name in sorted({place.split(":")[0] for place in found})}
+    result = reached(place for _, places in rules for place in places.split())
+    return {name: _size(name, result) for name in sorted({place.split(":")[0] for place in result})}
 
 
-def totals(found: dict[str, Size]) -> tuple[int, int]:
+def totals(result: dict[str, Size]) -> tuple[int, int]:
     """Lines of code, and all lines."""
-    return sum(size.code for size in found.values()), sum(size.lines for size in found.values())
+    return sum(size.code for size in result.values()), sum(size.lines for size in result.values())
 
 
 def reached(places: Iterable[str] = ()) -> frozenset[str]:
@@ -83,24 +83,24 @@ def reached(places: Iterable[str] = ()) -> frozenset[str]:
 
 @cache
 def _reached(places: frozenset[str]) -> frozenset[str]:
-    known, found, dots = definitions(), set[str](), set[str]()
+    known, result, dots = definitions(), set[str](), set[str]()
     waiting = {*CORE, *places}
     while waiting:
-        found |= waiting
+        result |= waiting
         new = [known[place] for place in waiting]
         dots |= {name for one in new for name in one.behind_dots}
         named = {name for one in new for name in (*one.names, *_at_import(one.module))}
-        waiting = {*named, *_beside(known, found, dots)} & set(known) - found
-    return frozenset(found)
+        waiting = {*named, *_beside(known, result, dots)} & set(known) - result
+    return frozenset(result)
 
 
-def _beside(known: dict[str, Definition], found: set[str], dots: set[str]) -> Iterator[str]:
+def _beside(known: dict[str, Definition], result: set[str], dots: set[str]) -> Iterator[str]:
     """What is reached without its own name: methods, functions of modules imported by name, and rules."""
     for place, one in known.items():
-        if place in found:
+        if place in result:
             yield from (own for name, own in one.methods.items() if name in dots or name.startswith("__"))
         elif one.judges:
-            yield from [place] * (found >= set(one.judges))
+            yield from [place] * (result >= set(one.judges))
         elif one.name in dots and f"{one.module}.".startswith(tuple(f"{name}." for name in BY_NAME)):
             yield place
 
@@ -108,15 +108,15 @@ def _beside(known: dict[str, Definition], found: set[str], dots: set[str]) -> It
 @cache
 def definitions() -> dict[str, Definition]:
     """All definitions of the checker by place."""
-    found: dict[str, Definition] = {}
+    result: dict[str, Definition] = {}
     for file in ROOT.rglob("*.py"):
         inner = file.relative_to(ROOT).with_suffix("").parts
         module = ".".join((PACKAGE, *(inner[:-1] if inner[-1] == "__init__" else inner)))
-        found |= {one.place: one for one in _defined(module)}
-    for one in found.values():
+        result |= {one.place: one for one in _defined(module)}
+    for one in result.values():
         for node in (node for part in one.code for node in _running(part)):
             _lead(one, node)
-    return found
+    return result
 
 
 def _defined(module: str) -> Iterator[Definition]:
@@ -175,11 +175,11 @@ def _places(module: str, name: str) -> set[str]:
 @cache
 def _imports(module: str) -> dict[str, str]:
     """The place of each name that a module imports from the checker, wherever in its source."""
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for node in ast.walk(tree(module)):
         if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{PACKAGE}."):
-            found |= {part.asname or part.name: f"{node.module}:{part.name}" for part in node.names}
-    return found
+            result |= {part.asname or part.name: f"{node.module}:{part.name}" for part in node.names}
+    return result
 
 
 @cache
@@ -203,8 +203,8 @@ def _running(node: ast.AST) -> Iterator[ast.AST]:
                 waiting += (inner for inner in parts if isinstance(inner, ast.AST))
 
 
-def _size(module: str, found: frozenset[str]) -> Size:
-    known = [one for one in definitions().values() if one.module == module and one.place in found]
+def _size(module: str, result: frozenset[str]) -> Size:
+    known = [one for one in definitions().values() if one.module == module and one.place in result]
     lines = set[int]().union(*(one.lines for one in known))
     used = {
         part.id for one in known for top in one.code for part in ast.walk(top) if isinstance(part, ast.Name)
@@ -220,11 +220,11 @@ def _size(module: str, found: frozenset[str]) -> Size:
 def code_lines(module: str) -> frozenset[int]:
     """The lines of a module with code on them: no documentation, comments or blanks."""
     skipped = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
-    text, found = io.StringIO(source(module).read_text("utf-8")), set[int]()
+    text, result = io.StringIO(source(module).read_text("utf-8")), set[int]()
     for token in tokenize.generate_tokens(text.readline):
         if token.type not in (*skipped, tokenize.ENDMARKER):
-            found.update(range(token.start[0], token.end[0] + 1))
-    return frozenset(found).difference(*(_span(node) for node in ast.walk(tree(module)) if _is_text(node)))
+            result.update(range(token.start[0], token.end[0] + 1))
+    return frozenset(result).difference(*(_span(node) for node in ast.walk(tree(module)) if _is_text(node)))
 
 
 def _is_text(node: ast.AST) -> bool:

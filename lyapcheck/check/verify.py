@@ -88,10 +88,10 @@ def require_proved(statement: Statement, proof: Proof, subject: str) -> str:
     Raises:
         Refused: it is not proved.
     """
-    found = verify(statement, proof)
-    if found.verdict != "proved":
-        raise Refused(subject, found.verdict, "must be proved")
-    return found.grade
+    result = verify(statement, proof)
+    if result.verdict != "proved":
+        raise Refused(subject, result.verdict, "must be proved")
+    return result.grade
 
 
 def weakest(grades: Iterable[str]) -> str:

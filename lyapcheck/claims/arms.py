@@ -62,7 +62,7 @@ def gravity_bounds(robot: RobotModel) -> list[Fraction]:
 
 
 def _known(numbers: Sequence[Number | None], what: str) -> list[Fraction]:
-    found = [number.value for number in numbers if number is not None]
-    if len(found) < len(numbers):
+    result = [number.value for number in numbers if number is not None]
+    if len(result) < len(numbers):
         raise lacking(f"needs a {what} for every joint; add it to the arm file")
-    return found
+    return result

@@ -33,13 +33,13 @@ def ask(request: Request) -> Handover:
     with temporary_folder() as folder:
         answer = Path(folder, "answer.json")
         code = _run(replace(request, answer=str(answer)))
-        told = _read(answer, request, code)
-    if told.problems:
-        raise InputError([Problem(*problem) for problem in told.problems])
-    claims = {claim.id: claim for claim in told.claims}
+        handover = _read(answer, request, code)
+    if handover.problems:
+        raise InputError([Problem(*problem) for problem in handover.problems])
+    claims = {claim.id: claim for claim in handover.claims}
     check_ids(claims, request.only, request.shown)
     in_order(claims, request.shown)
-    return told
+    return handover
 
 
 def _run(request: Request) -> int:

@@ -164,8 +164,8 @@ class ArmBounds:
     def guessed_floor(self) -> Fraction:
         """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""
         postures = ([Fraction(k * (i + 1), 3) for i in range(self.robot.n)] for k in range(7))
-        found = min(float(np.linalg.eigvalsh(_doubles(self.inertia.at(q, ())))[0]) for q in postures)
-        return Fraction(2) ** math.floor(math.log2(found / 2)) if found > 0 else Fraction(1, 2**20)
+        result = min(float(np.linalg.eigvalsh(_doubles(self.inertia.at(q, ())))[0]) for q in postures)
+        return Fraction(2) ** math.floor(math.log2(result / 2)) if result > 0 else Fraction(1, 2**20)
 
     def mass_above(self, low: object = 0) -> MassAbove:
         """M(q) − low·I is positive definite for all q."""

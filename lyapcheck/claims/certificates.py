@@ -17,20 +17,20 @@ def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Cer
 
     A certificate of a claim that uses others names the digests of theirs.
     """
-    found: dict[Key, Certificate] = {}
+    result: dict[Key, Certificate] = {}
     made_with = versions()
     for key, row in proposals.items():
         if row.finding.proof is not None and not isinstance(row.stated, Missing):
-            found[key] = Certificate(
+            result[key] = Certificate(
                 About(row.claim.id, row.claim.says, row.m, row.n, proof),
                 row.stated,
                 row.finding.verdict.value,
                 row.finding.grade.label,
                 row.finding.proof,
-                {used: found[used, m].digest for used, m in row.used} if row.finding.is_proof else {},
+                {used: result[used, m].digest for used, m in row.used} if row.finding.is_proof else {},
                 made_with,
             )
-    return found
+    return result
 
 
 def file_name(claim: str, m: int | None) -> str:

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lyapcheck.check.statement import Proof
-from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.fresh_check import Judged
+from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.verdicts import Grade, Verdict
 
 
@@ -42,7 +42,7 @@ class Decision:
             raise ValueError("a verdict carries the certificate that the checker accepted")
 
 
-def decided(finding: Finding, judged: Judged | None) -> Decision:
+def decided(finding: SearchResult, judged: Judged | None) -> Decision:
     """The decision on a claim.
 
     Args:

@@ -34,8 +34,8 @@ class Judged:
 class Alarm(Exception):
     """One statement is both proved and refuted: the checker is wrong, and no verdict of this run counts."""
 
-    def __init__(self, found: list[tuple[str, list[str], list[str]]]) -> None:
-        self.statements = tuple(statement for statement, _, _ in found)
+    def __init__(self, result: list[tuple[str, list[str], list[str]]]) -> None:
+        self.statements = tuple(statement for statement, _, _ in result)
         super().__init__(
             "one statement is both proved and refuted, so the checker is wrong; trust none of its verdicts, "
             f"and report this: {'; '.join(self.statements)}"

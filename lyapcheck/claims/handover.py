@@ -59,7 +59,7 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Told:
+class ClaimData:
     """A claim as the script tells it, with an answer for each case; none if nobody asked for the claim."""
 
     id: str
@@ -77,7 +77,7 @@ class Handover:
     name: str = ""
     title: str = ""
     reference: str = ""
-    claims: tuple[Told, ...] = ()
+    claims: tuple[ClaimData, ...] = ()
     problems: tuple[tuple[str, int | None, str, str, str, str], ...] = ()
     statements: tuple[Statement | Missing, ...] = ()
 
@@ -116,18 +116,18 @@ def read(text: str, cases: int) -> Handover:
         Refused, ValueError: it is not exactly of that form.
     """
     first, *lines = text.split("\n")
-    told = from_json(Handover, parse(first), "handover")
-    require(not told.statements, "statements", len(told.statements), "are on lines of their own")
-    ids = [claim.id for claim in told.claims]
+    handover = from_json(Handover, parse(first), "handover")
+    require(not handover.statements, "statements", len(handover.statements), "are on lines of their own")
+    ids = [claim.id for claim in handover.claims]
     require(len(set(ids)) == len(ids), "claims", ", ".join(ids), "must have different ids")
     makers: dict[int, str] = {}
-    for claim in told.claims:
+    for claim in handover.claims:
         require(len(claim.answers) in (0, cases), claim.id, len(claim.answers), f"must have {cases} answers")
         for number in (answer.statement for answer in claim.answers if answer.statement is not None):
             require(0 <= number < len(lines), claim.id, number, "is not the number of a statement")
             makers.setdefault(number, claim.id)
     statements = (_statement(line, makers.get(k, "?")) for k, line in enumerate(lines))
-    return replace(told, statements=tuple(statements))
+    return replace(handover, statements=tuple(statements))
 
 
 def _statement(line: str, claim: str) -> Statement | Missing:

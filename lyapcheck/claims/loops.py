@@ -148,10 +148,10 @@ def inertia(s: Loop[V, A]) -> V:
 
 def force(s: Loop[V, A]) -> V:
     """What Mẇ equals in the loop: K_p h − K_v h(w) − Bw − Cw."""
-    pull, minus = scaled(s.kp, s.h), expr(-1)
+    feedback, minus = scaled(s.kp, s.h), expr(-1)
     for resisting in (scaled(s.kv, s.hw), scaled(s.b, s.w), apply(s.C, s.w)):
-        pull = combined(pull, minus, resisting)
-    return pull
+        feedback = combined(feedback, minus, resisting)
+    return feedback
 
 
 def terms(s: Loop[V, A]) -> list[Expr]:

@@ -60,11 +60,11 @@ def in_order(claims: Mapping[str, S], file: str) -> list[S]:
 
 def needed(claims: Mapping[str, S], ids: Iterable[str]) -> set[str]:
     """The ids and everything they use, directly or not."""
-    found: set[str] = set()
+    result: set[str] = set()
     waiting = list(ids)
     while waiting:
         claim = waiting.pop()
-        if claim not in found:
-            found.add(claim)
+        if claim not in result:
+            result.add(claim)
             waiting.extend(claims[claim].uses)
-    return found
+    return result

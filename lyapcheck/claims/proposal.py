@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from lyapcheck.claims.finding import Finding, still_open
-from lyapcheck.claims.handover import Key, Told
+from lyapcheck.claims.handover import ClaimData, Key
+from lyapcheck.claims.search_result import SearchResult, still_open
 from lyapcheck.claims.statements import Missing, Statement
 
 
@@ -17,12 +17,12 @@ class Proposal:
     ``used`` are the rows that it uses, ``finding`` takes them into account.
     """
 
-    claim: Told
+    claim: ClaimData
     m: int | None
     n: int | None
     stated: Statement | Missing
     used: tuple[Key, ...]
-    finding: Finding
+    finding: SearchResult
     seconds: float
 
 
@@ -31,7 +31,7 @@ def rests_on(ids: Iterable[str]) -> str:
     return f"its own step holds, but it rests on {', '.join(ids)}; prove those, or prove it without them"
 
 
-def chained(finding: Finding, statement: Statement | Missing, used: Iterable[Proposal]) -> Finding:
+def chained(finding: SearchResult, statement: Statement | Missing, used: Iterable[Proposal]) -> SearchResult:
     """The finding on a step, open if what it uses does not carry it; a counterexample needs none of that."""
     if not finding.is_proof or isinstance(statement, Missing):
         return finding

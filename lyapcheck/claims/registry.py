@@ -7,9 +7,9 @@ from functools import lru_cache
 from typing import Any, TypeVar
 
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.finding import Finding
+from lyapcheck.claims.search_result import SearchResult
 
-Procedure = Callable[[Any], Finding]
+Procedure = Callable[[Any], SearchResult]
 PROCEDURES: dict[type[Statement], Procedure] = {}
 
 Search = TypeVar("Search", bound=Procedure)
@@ -31,6 +31,6 @@ def procedure_of(kind: type[Statement]) -> Procedure:
 
 
 @lru_cache(maxsize=1024)
-def find(statement: Statement) -> Finding:
+def find(statement: Statement) -> SearchResult:
     """What the search for the kind of a statement finds; not yet judged. Claims share facts: each once."""
     return procedure_of(type(statement))(statement)

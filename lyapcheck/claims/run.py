@@ -18,13 +18,13 @@ from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.decision import decided, undecided
-from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import Given, Handover, Key, Request
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.script import find_script
+from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing, Statement
 from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
@@ -71,17 +71,17 @@ def run_proof(
     joints = n if n is not None else model.n
     sets = _gain_sets(gains, joints)
     asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
-    told = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
-    proposals = _proposals(told, asked, script.name, on_progress or _silent)
-    made = certificates(proposals, told.name)
+    handover = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
+    proposals = _proposals(handover, asked, script.name, on_progress or _silent)
+    made = certificates(proposals, handover.name)
     judged = judge_afresh(made)
     _keep(proposals, judged)
     results = _results(proposals, judged)
-    places = {claim.id: k for k, claim in enumerate(told.claims)}
+    places = {claim.id: k for k, claim in enumerate(handover.claims)}
     every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
     return ProofResult(
-        told.name,
-        told.title,
+        handover.name,
+        handover.title,
         tuple(ms),
         joints,
         model.name if model else None,
@@ -116,37 +116,39 @@ def _others(asked: Sequence[Given]) -> tuple[Given, ...]:
 
 
 def _proposals(
-    told: Handover, asked: Sequence[Given], file: str, on_progress: Progress
+    handover: Handover, asked: Sequence[Given], file: str, on_progress: Progress
 ) -> dict[Key, Proposal]:
     """What the searches propose, each row after those it uses."""
-    found: dict[Key, Proposal] = {}
-    order = [claim for claim in in_order({claim.id: claim for claim in told.claims}, file) if claim.answers]
-    depends = _dependences(told)
+    result: dict[Key, Proposal] = {}
+    order = [
+        claim for claim in in_order({claim.id: claim for claim in handover.claims}, file) if claim.answers
+    ]
+    depends = _dependences(handover)
     for index, (m, n, _, _) in enumerate(asked):
         for step, claim in enumerate(order):
             on_progress((index + step / len(order)) / len(asked), f"m = {m}: {claim.id}")
             key = claim.id, m if "m" in depends[claim.id] else None
-            if key in found:
+            if key in result:
                 continue
             begin = time.perf_counter()
-            stated = told.stated(claim.answers[index])
+            stated = handover.stated(claim.answers[index])
             used = tuple((name, m if "m" in depends[name] else None) for name in claim.uses)
-            finding = chained(_search(stated), stated, [found[one] for one in used])
+            finding = chained(_search(stated), stated, [result[one] for one in used])
             joints = n if "n" in depends[claim.id] else None
-            found[key] = Proposal(claim, key[1], joints, stated, used, finding, time.perf_counter() - begin)
-    return found
+            result[key] = Proposal(claim, key[1], joints, stated, used, finding, time.perf_counter() - begin)
+    return result
 
 
-def _dependences(told: Handover) -> dict[str, set[str]]:
+def _dependences(handover: Handover) -> dict[str, set[str]]:
     """Which of m and n each claim depends on, itself or by what it uses.
 
     A claim is independent of m only if it never looked at m and states the same for every m, the other one
     included; and likewise for n.
     """
     depends: dict[str, set[str]] = {}
-    for claim in in_order({claim.id: claim for claim in told.claims}, ""):
+    for claim in in_order({claim.id: claim for claim in handover.claims}, ""):
         if claim.answers:
-            *own, other_m, other_n = (told.stated(answer) for answer in claim.answers)
+            *own, other_m, other_n = (handover.stated(answer) for answer in claim.answers)
             same = {"m": all(one == other_m for one in own), "n": own[-1] == other_n}
             read = {name for answer in claim.answers[: len(own)] for name in answer.read}
             depends[claim.id] = {name for name in "mn" if name in read or not same[name]}.union(
@@ -155,23 +157,23 @@ def _dependences(told: Handover) -> dict[str, set[str]]:
     return depends
 
 
-def _search(statement: Statement | Missing) -> Finding:
+def _search(statement: Statement | Missing) -> SearchResult:
     """What the search proposes, or has proposed before; the checker judges it either way."""
     try:
         kept = None if isinstance(statement, Missing) else _read(store.take(_question(statement)))
         return kept or propose(statement)
     except Exception as error:
-        return Finding(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
+        return SearchResult(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
 
 def _keep(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> None:
     """Put what the checker has accepted into the store."""
     for key, row in proposals.items():
-        found = row.finding
-        if isinstance(row.stated, Missing) or found.proof is None or not judged[key].accepted:
+        result = row.finding
+        if isinstance(row.stated, Missing) or result.proof is None or not judged[key].accepted:
             continue
         if not store.has(question := _question(row.stated)):
-            written = {**vars(found), "grade": found.grade.label, "proof": to_json(found.proof)}
+            written = {**vars(result), "grade": result.grade.label, "proof": to_json(result.proof)}
             store.put(question, written)
 
 
@@ -179,24 +181,24 @@ def _question(statement: Statement) -> dict[str, str]:
     return {"search": digest_of(to_json(statement))}
 
 
-def _read(kept: Any) -> Finding | None:
+def _read(kept: Any) -> SearchResult | None:
     """A finding as it was written; none if it is not exactly of that form."""
     try:
         proof, grade = from_json(Proof, kept["proof"], "proof"), Grade[kept["grade"].upper()]
-        return Finding(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
+        return SearchResult(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
     except (Refused, KeyError, TypeError, ValueError):
         return None
 
 
 def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[Key, ClaimResult]:
     """What the checker says about each row; what the row uses can only take from that."""
-    found: dict[Key, ClaimResult] = {}
+    result: dict[Key, ClaimResult] = {}
     for key, row in proposals.items():
         claim, decision = row.claim, decided(row.finding, judged.get(key))
-        broken = tuple(used for used, m in row.used if found[used, m].verdict is not Verdict.PROVED)
+        broken = tuple(used for used, m in row.used if result[used, m].verdict is not Verdict.PROVED)
         if decision.verdict is Verdict.PROVED and broken:
             decision = undecided(rests_on(broken), decision.method, **decision.evidence)
-        found[key] = ClaimResult(
+        result[key] = ClaimResult(
             id=claim.id,
             m=row.m,
             n=row.n,
@@ -210,7 +212,7 @@ def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[
             stated=row.stated,
             seconds=row.seconds,
         )
-    return found
+    return result
 
 
 def _robot(robot: Any, n: int | None) -> Any:

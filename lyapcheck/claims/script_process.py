@@ -19,7 +19,16 @@ from typing import BinaryIO
 
 from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
-from lyapcheck.claims.handover import TOO_DEEP, Answer, Given, Handover, Request, Told, statement_json, write
+from lyapcheck.claims.handover import (
+    TOO_DEEP,
+    Answer,
+    ClaimData,
+    Given,
+    Handover,
+    Request,
+    statement_json,
+    write,
+)
 from lyapcheck.claims.order import in_order, needed
 from lyapcheck.claims.script import check_ids, load_proof
 from lyapcheck.claims.statements import Statement
@@ -77,12 +86,12 @@ def _handover(request: Request) -> str:
     in_order(proof.claims, request.shown)
     wanted = needed(proof.claims, request.only or proof.claims)
     statements: Lines = {}
-    told = []
+    handover = []
     for claim in proof.claims.values():
         answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
-        told.append(Told(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
+        handover.append(ClaimData(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
     return write(
-        Handover(proof.name, proof.title, proof.reference, tuple(told)),
+        Handover(proof.name, proof.title, proof.reference, tuple(handover)),
         (line for _, line in statements.values()),
     )
 

@@ -92,21 +92,21 @@ def smallest_witnesses(
         for n in range(1, joints + 1)
         for m, gains in sorted(gain_sets.items())
     ]
-    told = ask(Request(str(path), path.name, tuple(cases), only=tuple(wanted)))
-    found: dict[Key, SmallWitness] = {}
-    for claim in told.claims:
+    handover = ask(Request(str(path), path.name, tuple(cases), only=tuple(wanted)))
+    result: dict[Key, SmallWitness] = {}
+    for claim in handover.claims:
         if claim.id not in wanted:
             continue
         for (m, n, _, gains), answer in zip(cases, claim.answers, strict=True):
-            stated = told.stated(answer)
+            stated = handover.stated(answer)
             if isinstance(stated, Missing) or m not in (wanted[claim.id] or (m,)):
                 continue
-            about = About(claim.id, claim.says, m if "m" in answer.read else None, n, told.name)
+            about = About(claim.id, claim.says, m if "m" in answer.read else None, n, handover.name)
             if (witness := _smallest(stated, values_at_hand(m, n, model, gains), about)) is not None:
-                found[claim.id, None] = witness
+                result[claim.id, None] = witness
                 break
-    judged = judge_afresh({key: one.certificate for key, one in found.items()})
-    return {key[0]: one for key, one in found.items() if judged[key].verdict == "refuted"}
+    judged = judge_afresh({key: one.certificate for key, one in result.items()})
+    return {key[0]: one for key, one in result.items() if judged[key].verdict == "refuted"}
 
 
 def values_at_hand(m: int, n: int, model: Any, gains: Any) -> dict[str, list[Fraction]]:
@@ -217,8 +217,8 @@ def _points(variables: Sequence[Variable], hand: Hand) -> Iterator[Point]:
 
 def _stem(name: str, hand: Hand) -> tuple[str, str]:
     """A letter without the number of its joint, and that number; ε₀ has none."""
-    found = re.fullmatch(r"([a-z]+)([1-9]\d*)", name)
-    return (found[1], found[2]) if found and name not in hand else (name, "")
+    result = re.fullmatch(r"([a-z]+)([1-9]\d*)", name)
+    return (result[1], result[2]) if result and name not in hand else (name, "")
 
 
 def _choices(stem: str, number: str, moved: str, hand: Hand) -> Sequence[Fraction]:

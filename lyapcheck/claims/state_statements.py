@@ -27,14 +27,14 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
         ValueError: ε₀ is no exact number.
     """
     from lyapcheck.check.kinds.decreasing import statement_of
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
     if len(gains.kp) != robot.n:
         raise lacking(f"the gains are for {len(gains.kp)} joints, {robot.name} has {robot.n}")
-    setting = Setting(gains, robot, ranges)
-    if not setting.family.bounded:
+    controlled = ControlledArm(gains, robot, ranges)
+    if not controlled.family.bounded:
         raise lacking("h is unbounded; give gains of a bounded family")
-    return statement_of(setting.closure(exact_value(eps0)))
+    return statement_of(controlled.loop(exact_value(eps0)))
 
 
 def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:

@@ -34,8 +34,8 @@ class Eps0:
         from lyapcheck.check.numbers.enclosure import Enclosure
 
         advance(0.0, f"{gain_set.name}: what ε₀ is certified")
-        found = epsilon(gain_set, model, max_boxes=MAX_BOXES).certified
-        return None if found is None else Enclosure(found, found).float_lower
+        result = epsilon(gain_set, model, max_boxes=MAX_BOXES).certified
+        return None if result is None else Enclosure(result, result).float_lower
 
 
 def eps0_of(text: str | None) -> Eps0:

@@ -13,7 +13,7 @@ def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
     Raises:
         InputError: one problem for every part of the list that cannot be used.
     """
-    found: set[int] = set()
+    result: set[int] = set()
     problems: list[Problem] = []
     for part in text.split(","):
         rule, repair = _complaint(part)
@@ -21,10 +21,10 @@ def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
             problems.append(Problem("argument", None, option, part.strip() or repr(text), rule, repair))
         else:
             ends = [int(end) for end in part.split(":")]
-            found.update(range(ends[0], ends[-1] + 1))
+            result.update(range(ends[0], ends[-1] + 1))
     if problems:
         raise InputError(problems)
-    return tuple(sorted(found))
+    return tuple(sorted(result))
 
 
 def _complaint(part: str) -> tuple[str, str]:

@@ -69,11 +69,11 @@ class Job:
     @property
     def cases(self) -> list[tuple[GainSet, RobotModel]]:
         """Each gain set on the arm, and on the arm at other values, then named after them."""
-        found = []
+        result = []
         for gain_set in self.file.gains:
-            found.append((gain_set, self.model))
-            found += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
-        return found
+            result.append((gain_set, self.model))
+            result += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
+        return result
 
     def each(self) -> list[tuple[GainSet, Advance]]:
         """Each gain set with what tells its share of the progress of all."""
@@ -155,12 +155,12 @@ def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
     from lyapcheck.answers.simulate.starts import RandomStarts
     from lyapcheck.simulate.starts import sweep
 
-    found: list[Sweep] = []
+    result: list[Sweep] = []
     for gain_set, tell in job.each():
         number = job.watching(eps0, gain_set, tell)
-        found.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=tell))
-        left = starts.count - found[-1].finished
+        result.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=tell))
+        left = starts.count - result[-1].finished
         if left:
             job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")
-    answer = RandomStarts(tuple(found), tuple(job.unfinished), job.file)
-    return job.output.write(answer, lambda: starts_csv(found))
+    answer = RandomStarts(tuple(result), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: starts_csv(result))

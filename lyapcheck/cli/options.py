@@ -57,9 +57,9 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     from lyapcheck.robots.vary import Vary
 
     wrong = Complaints()
-    found = [wrong.reading(Vary.parsed, text) for text in texts]
+    result = [wrong.reading(Vary.parsed, text) for text in texts]
     wrong.tell()
-    return tuple(one for one in found if one is not None)
+    return tuple(one for one in result if one is not None)
 
 
 def add_no_store(parser: Parser) -> None:

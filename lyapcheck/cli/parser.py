@@ -131,13 +131,13 @@ class Parser(argparse.ArgumentParser):
             rule = "is not an option here"
             raise InputError([self._problem(word, rule, nearest(word, options)) for word in unknown])
         try:
-            found, surplus = self.parse_known_intermixed_args(words)
+            result, surplus = self.parse_known_intermixed_args(words)
         except argparse.ArgumentError as wrong:
             subject = wrong.argument_name or "arguments"
             raise InputError(self._problem(subject, wrong.message)) from None
         if surplus:
             raise InputError([self._problem(word, "is one argument too many") for word in surplus])
-        return vars(found)
+        return vars(result)
 
     def error(self, message: str) -> NoReturn:
         """Refuse a command line; argparse calls this with what it finds wrong.

@@ -41,12 +41,12 @@ def _bar(label: str) -> Iterator[Advance]:
 
 @contextmanager
 def _lines(label: str) -> Iterator[Advance]:
-    last, told = "", -SILENCE
+    last, shown_at = "", -SILENCE
 
     def advance(fraction: float, note: str) -> None:
-        nonlocal last, told
-        if note and note != last and monotonic() - told >= SILENCE:
+        nonlocal last, shown_at
+        if note and note != last and monotonic() - shown_at >= SILENCE:
             print(f"{label}: {round(100 * fraction):3d} % {note}", file=sys.stderr)
-            last, told = note, monotonic()
+            last, shown_at = note, monotonic()
 
     yield advance

@@ -111,11 +111,11 @@ def _below(ancestor: int) -> set[int]:
                 parents[int(name)] = int(stream.read().rpartition(b")")[2].split()[1])
         except OSError:
             continue  # gone meanwhile
-    found: set[int] = set()
+    result: set[int] = set()
     fresh = {ancestor}
-    while fresh := {process for process, parent in parents.items() if parent in fresh} - found:
-        found |= fresh
-    return found
+    while fresh := {process for process, parent in parents.items() if parent in fresh} - result:
+        result |= fresh
+    return result
 
 
 def _send(process: int, number: int) -> None:

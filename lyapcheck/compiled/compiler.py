@@ -33,7 +33,7 @@ def compiler() -> str | None:
     if os.environ.get(OFF, "") not in ("", "0"):
         return None
     candidates = (os.environ.get("CC", ""), "gcc", "clang", "cc")
-    return next((found for name in candidates if name and (found := shutil.which(name))), None)
+    return next((result for name in candidates if name and (result := shutil.which(name))), None)
 
 
 def compile_library(source: str, path: Path, command: str) -> bool:

@@ -69,10 +69,10 @@ def state_map(formula: Formula, n: int, parameters: int, outputs: int) -> StateM
         source = _source(formula, n, parameters, outputs)
     except TooLong:
         return None
-    found = library(source)
-    if found is None:
+    result = library(source)
+    if result is None:
         return None
-    call = found.map_states
+    call = result.map_states
     call.restype = ctypes.c_int64
     call.argtypes = [ctypes.c_int64] * 2 + [ctypes.c_void_p] * 5
     return StateMap(call, n, outputs)

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from lyapcheck._types import Progress
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.chain import chain_constant
 from lyapcheck.constants.constant import Constant, Task
 from lyapcheck.constants.coriolis import coriolis_task
@@ -57,31 +57,31 @@ def arm_constants(
     """
     fixed, makers = model.fixed(), _makers(model.n)
     along = model.n > FEW and fixed.chain is not None
-    arm = None if along else ArmWaves(fixed)
+    arm = None if along else ArmHarmonics(fixed)
     enough = (GAP if model.n <= FEW else GAP_OF_MANY) if gap is None else gap
     wanted = [name for name in makers if names is None or name in names]
-    found = []
+    result = []
     for step, name in enumerate(wanted):
 
-        def tell(fraction: float, note: str, step: int = step, name: str = name) -> None:
+        def progress(fraction: float, note: str, step: int = step, name: str = name) -> None:
             if on_progress is not None:
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
-        tell(0.0, "sampling")
+        progress(0.0, "sampling")
         if arm is None:
-            found.append(chain_constant(fixed, name, max_boxes * model.n**2 >= THOROUGH))
+            result.append(chain_constant(fixed, name, max_boxes * model.n**2 >= THOROUGH))
         else:
-            found.append(makers[name](arm).solve(max_boxes, enough, tell, from_distances(fixed, name)))
-    return tuple(found)
+            result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))
+    return tuple(result)
 
 
-def _makers(n: int) -> dict[str, Callable[[ArmWaves], Task]]:
+def _makers(n: int) -> dict[str, Callable[[ArmHarmonics], Task]]:
     """How each constant becomes a task, in the order in which they are reported."""
 
-    def component(i: int) -> Callable[[ArmWaves], Task]:
+    def component(i: int) -> Callable[[ArmHarmonics], Task]:
         return lambda arm: gravity_task(arm, f"k_g{i + 1}", [i])
 
-    makers: dict[str, Callable[[ArmWaves], Task]] = {
+    makers: dict[str, Callable[[ArmHarmonics], Task]] = {
         "lambda_min": lambda_min_task,
         "lambda_max": lambda_max_task,
         "k_c": coriolis_task,

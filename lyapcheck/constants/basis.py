@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.constants.waves import Wave
+from lyapcheck.constants.harmonics import Harmonic
 
 Rows = list[dict[int, Fraction]]
 _MOST_SUMS = 20_000
@@ -50,12 +50,14 @@ class Basis(Protocol):
         """The functions at coordinates (count, n)."""
 
 
-def basis_of(entries: Sequence[Mapping[Wave, Fraction]], n: int) -> tuple[Basis, Rows]:
+def basis_of(entries: Sequence[Mapping[Harmonic, Fraction]], n: int) -> tuple[Basis, Rows]:
     """A basis for some polynomials, and each of them as its numbers by the row of the function."""
-    found = sorted({wave for entry in entries for wave in entry}) or [(0,) * n]
-    if sum(2 ** sum(factor > 0 for factor in wave) for wave in found) > _MOST_SUMS:
-        rows = {wave: row for row, wave in enumerate(found)}
-        return Products(np.array(found, dtype=np.intp)), [{rows[w]: x for w, x in e.items()} for e in entries]
+    result = sorted({wave for entry in entries for wave in entry}) or [(0,) * n]
+    if sum(2 ** sum(factor > 0 for factor in wave) for wave in result) > _MOST_SUMS:
+        rows = {wave: row for row, wave in enumerate(result)}
+        return Products(np.array(result, dtype=np.intp)), [
+            {rows[w]: x for w, x in e.items()} for e in entries
+        ]
     sums = [_sums(entry, n) for entry in entries]
     keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
     places = {key: row for row, key in enumerate(keys)}
@@ -117,21 +119,21 @@ class _SumsAt:
 class Products:
     """Products of one factor a joint."""
 
-    def __init__(self, waves: NDArray[np.intp]) -> None:
-        self.waves = waves
-        self.frequency: Array = ((waves + 1) // 2).astype(np.float64)
-        self.back: Array = np.eye(waves.shape[1])
+    def __init__(self, harmonics: NDArray[np.intp]) -> None:
+        self.harmonics = harmonics
+        self.frequency: Array = ((harmonics + 1) // 2).astype(np.float64)
+        self.back: Array = np.eye(harmonics.shape[1])
 
     def at(self, p: Array) -> Values:
         """The functions at coordinates (count, n)."""
-        return _ProductsAt(self.waves, p)
+        return _ProductsAt(self.harmonics, p)
 
 
 class _ProductsAt:
-    def __init__(self, waves: NDArray[np.intp], q: Array) -> None:
-        self._waves, n = waves, q.shape[1]
-        self._basis = _factors(q, int(waves.max()))
-        self._factors = [self._basis[waves[:, i], :, i].T for i in range(n)]
+    def __init__(self, harmonics: NDArray[np.intp], q: Array) -> None:
+        self._harmonics, n = harmonics, q.shape[1]
+        self._basis = _factors(q, int(harmonics.max()))
+        self._factors = [self._basis[harmonics[:, i], :, i].T for i in range(n)]
         self.values: Array = np.prod(self._factors, axis=0)
 
     def bent(self, turn: Array) -> tuple[Array, Array]:
@@ -143,7 +145,7 @@ class _ProductsAt:
         codes = np.arange(len(basis))
         turned = np.where(codes % 2, np.minimum(codes + 1, len(basis) - 1), np.maximum(codes - 1, 0))
         sign = np.where(codes % 2, 1.0, -1.0) * ((codes + 1) // 2)
-        slope = (basis[turned] * sign[:, None])[self._waves[:, i]].T
+        slope = (basis[turned] * sign[:, None])[self._harmonics[:, i]].T
         others = [factor for j, factor in enumerate(self._factors) if j != i]
         return np.asarray(slope * np.prod(others, axis=0) if others else slope)
 
@@ -156,11 +158,11 @@ def _factors(q: Array, last: int) -> Array:
     return np.stack(rows)
 
 
-def _sums(entry: Mapping[Wave, Fraction], n: int) -> dict[tuple[Wave, int], Fraction]:
+def _sums(entry: Mapping[Harmonic, Fraction], n: int) -> dict[tuple[Harmonic, int], Fraction]:
     """The polynomial in cos(k·q), marked 0, and sin(k·q), marked 1; each k leads with a positive entry."""
-    total: dict[tuple[Wave, int], Fraction] = {}
+    total: dict[tuple[Harmonic, int], Fraction] = {}
     for wave, value in entry.items():
-        partial: dict[tuple[Wave, int], Fraction] = {((0,) * n, 0): value}
+        partial: dict[tuple[Harmonic, int], Fraction] = {((0,) * n, 0): value}
         for i, factor in enumerate(wave):
             if factor:
                 partial = _times(partial, i, (factor + 1) // 2, factor % 2 == 1)
@@ -170,10 +172,10 @@ def _sums(entry: Mapping[Wave, Fraction], n: int) -> dict[tuple[Wave, int], Frac
 
 
 def _times(
-    terms: Mapping[tuple[Wave, int], Fraction], i: int, k: int, sine: bool
-) -> dict[tuple[Wave, int], Fraction]:
+    terms: Mapping[tuple[Harmonic, int], Fraction], i: int, k: int, sine: bool
+) -> dict[tuple[Harmonic, int], Fraction]:
     """The product with sin(k q_i) or cos(k q_i), i beyond all angles so far: the sum and the difference."""
-    result: dict[tuple[Wave, int], Fraction] = {}
+    result: dict[tuple[Harmonic, int], Fraction] = {}
     for (multiples, odd), x in terms.items():
         for step, sign in ((k, 1), (-k, -1)):
             place = (*multiples[:i], step, *multiples[i + 1 :])

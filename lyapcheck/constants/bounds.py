@@ -29,10 +29,10 @@ class RobotConstants:
 
 def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
     """The outside bounds that the scalar forms need; see ``robot_constants``."""
-    found = robot_constants(model, max_boxes)
+    result = robot_constants(model, max_boxes)
     viscous = [number.value for number in model.viscous]
     return RobotBounds(
-        found.lambda_max.upper, found.k_c.upper, min(viscous), max(viscous), found.lambda_min.lower
+        result.lambda_max.upper, result.k_c.upper, min(viscous), max(viscous), result.lambda_min.lower
     )
 
 

@@ -7,8 +7,8 @@ from lyapcheck.constants.constant import Constant
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.outside import from_distances
 from lyapcheck.constants.storage.bounds import storage_proof
+from lyapcheck.constants.storage.coriolis import coriolis_bound
 from lyapcheck.constants.storage.hinges import hinges
-from lyapcheck.constants.storage.whirl import whirl_bound
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
@@ -22,7 +22,7 @@ def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
         thorough: whether k_c may take a minute; else masses and distances alone bound it.
 
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, and
-        for k_c see `lyapcheck.constants.storage.whirl`.
+        for k_c see `lyapcheck.constants.storage.coriolis`.
     """
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
@@ -32,7 +32,7 @@ def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
         shown = storage_proof(chain, name)
     outer = from_distances(plant, name) if shown is None else shown.bound
     if name == "k_c" and (thorough or outer is None):
-        forms = whirl_bound(hinges(chain)[0])
+        forms = coriolis_bound(hinges(chain)[0])
         outer = min((x for x in (outer, forms) if x is not None), default=None)
     if outer is None:
         raise argument_error(

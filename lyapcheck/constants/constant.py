@@ -13,7 +13,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.outside import ceiling
 from lyapcheck.constants.storage.bounds import Shown
-from lyapcheck.constants.torus import PI_ABOVE, Reach, Torus
+from lyapcheck.constants.torus import PI_ABOVE, AffineForms, Torus
 
 _SAMPLES = 1024
 _BLOCK = 64
@@ -67,7 +67,7 @@ class Task:
     unit: str
     torus: Torus
     value: Callable[[Array], Array]
-    most: Callable[[Reach], Array]
+    most: Callable[[AffineForms], Array]
     weight: Array
     shown: Callable[[Array], tuple[float, ...]] | None = None
     sign: int = 1
@@ -75,8 +75,8 @@ class Task:
 
     def bounds(self, middle: Array, half: Array) -> tuple[Array, Array]:
         """What the function is at least in the middles of boxes, and at most on them."""
-        reach = self.torus.on(middle, half)
-        return self.value(reach.value), self.most(reach)
+        affine = self.torus.on(middle, half)
+        return self.value(affine.value), self.most(affine)
 
     def at(self, states: Array) -> Array:
         """What the function is at least at states, given by their coordinates."""
@@ -107,18 +107,18 @@ class Task:
         witness = start, float(self.at(start[None])[0])
         most = ceiling(known, self.sign)
         budget = max_boxes // self.cost
-        found = maximise(half, self.bounds, self.influence, witness, budget, gap, most, on_progress)
-        outside = Fraction(self.sign * found.outside)
+        result = maximise(half, self.bounds, self.influence, witness, budget, gap, most, on_progress)
+        outside = Fraction(self.sign * result.outside)
         if known is not None:
             outside = self.sign * min(self.sign * known, self.sign * outside)
-        ends = sorted((Fraction(self.sign * found.inside), outside))
+        ends = sorted((Fraction(self.sign * result.inside), outside))
         # a norm is never negative, however much its bound from below is rounded
         low, high = (max(x, Fraction(0)) for x in ends) if self.sign > 0 else ends
-        coordinates = np.array(found.state)
+        coordinates = np.array(result.state)
         state = tuple(self.torus.angles_at(coordinates).tolist())
         if self.shown is not None:
             state = self.shown(coordinates)
-        return Constant(self.name, self.unit, Enclosure(low, high), state, found.boxes)
+        return Constant(self.name, self.unit, Enclosure(low, high), state, result.boxes)
 
 
 def climb(merit: Callable[[Array], Array], half: Array) -> Array:

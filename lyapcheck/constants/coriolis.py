@@ -17,17 +17,17 @@ from __future__ import annotations
 import numpy as np
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.constant import Task
 from lyapcheck.constants.quartic import quartic
 from lyapcheck.constants.spectrum import ROUNDING, eigenvalues, largest_norm
-from lyapcheck.constants.torus import Reach
+from lyapcheck.constants.torus import AffineForms
 
 _TURNS = 6
 _STARTS = 3
 
 
-def coriolis_task(arm: ArmWaves) -> Task:
+def coriolis_task(arm: ArmHarmonics) -> Task:
     """k_c as a supremum over the angles."""
     torus = arm.symbols
 
@@ -40,19 +40,19 @@ def coriolis_task(arm: ArmWaves) -> Task:
 
     weight = np.ones(len(arm.triples))
     return Task(
-        "k_c", "kg·m²", torus, value, lambda reach: _most(arm, reach), weight, shown=shown, cost=arm.n
+        "k_c", "kg·m²", torus, value, lambda affine: _most(arm, affine), weight, shown=shown, cost=arm.n
     )
 
 
-def _most(arm: ArmWaves, reach: Reach) -> Array:
+def _most(arm: ArmHarmonics, affine: AffineForms) -> Array:
     """What ‖C(q,x)y‖ is at most over boxes of angles, for unit vectors."""
-    forms, tensor = quartic(arm.n), arm.tensor(reach.middle)
+    forms, tensor = quartic(arm.n), arm.tensor(affine.middle)
     relation = forms.relation(_square(forms.stack(tensor)), _pushed(tensor)[0] ** 2)
-    corners = forms.stack(arm.tensor(reach.corners()))
+    corners = forms.stack(arm.tensor(affine.corners()))
     values, distance, _ = eigenvalues(_square(corners) + relation[:, None])
     size = np.sum(corners**2, axis=(-2, -1)) + np.sqrt(np.sum(relation**2, axis=(-2, -1)))[:, None]
     square = values[..., -1] + distance + ROUNDING * arm.n**2 * size
-    rest = _unfolded(arm.tensor(reach.radius))
+    rest = _unfolded(arm.tensor(affine.radius))
     return np.asarray((np.sqrt(np.max(np.maximum(square, 0.0), axis=1)) + rest) * (1 + 1e-12))
 
 

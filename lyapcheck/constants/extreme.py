@@ -48,9 +48,11 @@ def extreme(plant: Plant, name: str) -> Extreme:
     best, least = np.zeros(2 * n), np.inf
     for start in range(STARTS):
         q = rng.uniform(-np.pi, np.pi, n) * (start > 0)
-        found = minimize(merit, np.concatenate([q, rng.normal(size=n)]), jac=True, options={"maxiter": STEPS})
-        if found.fun < least:
-            best, least = found.x, float(found.fun)
+        result = minimize(
+            merit, np.concatenate([q, rng.normal(size=n)]), jac=True, options={"maxiter": STEPS}
+        )
+        if result.fun < least:
+            best, least = result.x, float(result.fun)
     q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
     x = best[n:] / np.linalg.norm(best[n:])
     q_exact, x_exact = _short(q), _short(x) if directed else ()
@@ -80,8 +82,8 @@ def _merit(plant: Plant, name: str) -> tuple[int, Callable[[Array], tuple[float,
     function = ca.Function("merit", [z], [aim, ca.densify(ca.gradient(aim, z))])
 
     def merit(point: Array) -> tuple[float, Array]:
-        found: Any = function(point)
-        return float(found[0]), np.array(found[1])[:, 0]
+        result: Any = function(point)
+        return float(result[0]), np.array(result[1])[:, 0]
 
     return sign, merit
 

@@ -10,20 +10,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.constant import Task
-from lyapcheck.constants.torus import Reach, Torus
+from lyapcheck.constants.torus import AffineForms, Torus
 
 
-def gravity_task(arm: ArmWaves, name: str, joints: Sequence[int]) -> Task:
+def gravity_task(arm: ArmHarmonics, name: str, joints: Sequence[int]) -> Task:
     """sup (Σ g_i(q)²)^½ over some joints, counted from 0."""
     torus = Torus([arm.gravity[i] for i in joints], arm.n)
 
     def value(entries: Array) -> Array:
         return np.asarray(np.sqrt(np.sum(entries**2, axis=1)) * (1 - 1e-14) - torus.lost)
 
-    def most(reach: Reach) -> Array:
-        squares = (np.abs(reach.corners()) + reach.radius[:, None]) ** 2
+    def most(affine: AffineForms) -> Array:
+        squares = (np.abs(affine.corners()) + affine.radius[:, None]) ** 2
         return np.asarray(np.max(np.sqrt(np.sum(squares, axis=2)), axis=1) * (1 + 1e-14))
 
     return Task(name, "N·m", torus, value, most, np.ones(len(joints)))

@@ -18,7 +18,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.constants.basis import basis_of
-from lyapcheck.constants.waves import Wave
+from lyapcheck.constants.harmonics import Harmonic
 
 PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
@@ -27,7 +27,7 @@ _NEAR = 0.5
 
 
 @dataclass(frozen=True)
-class Reach:
+class AffineForms:
     """Polynomials on boxes: middle + Σ_i t_i linear_i with |t_i| ≤ 1, up to the radius.
 
     Args:
@@ -62,7 +62,7 @@ class Torus:
         n: number of joints.
     """
 
-    def __init__(self, entries: Sequence[Mapping[Wave, Fraction]], n: int) -> None:
+    def __init__(self, entries: Sequence[Mapping[Harmonic, Fraction]], n: int) -> None:
         self.n = n
         self._basis, rows = basis_of(entries, n)
         coefficients = np.zeros((len(self._basis.frequency), len(entries)))
@@ -84,7 +84,7 @@ class Torus:
         """Values at states, given by their coordinates (count, n); up to ``slack``."""
         return np.asarray(self._basis.at(states).values @ self._coefficients)
 
-    def on(self, middle: Array, half: Array) -> Reach:
+    def on(self, middle: Array, half: Array) -> AffineForms:
         """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
         at = self._basis.at(middle)
         turn = half @ self._basis.frequency.T
@@ -100,7 +100,7 @@ class Torus:
             ]
             linear = np.stack(parts, axis=1) if parts else linear
         value, middle = at.values @ self._coefficients, middles @ self._coefficients
-        return Reach(value, middle, linear, radius * (1.0 + 1e-9))
+        return AffineForms(value, middle, linear, radius * (1.0 + 1e-9))
 
     def angles_at(self, p: Array) -> Array:
         """The joint angles of coordinates (n,), rad, each within one turn around 0."""

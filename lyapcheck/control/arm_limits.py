@@ -61,13 +61,15 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> ArmLimits:
     Raises:
         InputError: no such arm, or a range of nothing that it has.
     """
-    nominal, found = arm_limits(name), model_limits(load(name, vary=varies))
+    nominal, result = arm_limits(name), model_limits(load(name, vary=varies))
     asked = ", ".join(one.text for one in varies)
-    pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, found.viscous_min)]
+    pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, result.viscous_min)]
     pairs += [
         (f"{what} of {joint}", "N·m", before, after)
         for what, key in (("torque limit", "torque"), ("gravity bound", "gravity"))
-        for joint, before, after in zip(found.joints, getattr(nominal, key), getattr(found, key), strict=True)
+        for joint, before, after in zip(
+            result.joints, getattr(nominal, key), getattr(result, key), strict=True
+        )
     ]
     cost = [
         f"{what} {_shown(after)} instead of {_shown(before)} {unit}"
@@ -75,7 +77,7 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> ArmLimits:
         if before != after and before is not None and after is not None
     ]
     note = f"--vary {asked}: {'; '.join(cost) or 'no limit changes'}"
-    return replace(found, viscous_notes=(note, *found.viscous_notes), varied=True)
+    return replace(result, viscous_notes=(note, *result.viscous_notes), varied=True)
 
 
 def _shown(value: Fraction) -> str:

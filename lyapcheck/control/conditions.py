@@ -148,12 +148,12 @@ class Conditions:
     ) -> Check:
         if threshold is None:
             return Check(name, joint, None, value, None, None, missing)
-        found = threshold.judged(value, places)
+        result = threshold.judged(value, places)
         if not threshold.bounded:
-            return Check(name, joint, found, value, None, None, _UNBOUNDED)
+            return Check(name, joint, result, value, None, None, _UNBOUNDED)
         limit = threshold.apart(value, places)
-        reason = _UNTOLD.format(found.reason) if found.proof is None else ""
-        return Check(name, joint, found, value, limit, threshold.largest(places), reason)
+        reason = _UNTOLD.format(result.reason) if result.proof is None else ""
+        return Check(name, joint, result, value, limit, threshold.largest(places), reason)
 
 
 def _fails(checks: Sequence[Check]) -> bool:

@@ -125,11 +125,11 @@ def _gain_set(table: Fields, index: int) -> GainSet | None:
 def _bounds(table: Fields | None) -> Bounds:
     if table is None:
         return Bounds()
-    found = Bounds(
+    result = Bounds(
         table.number("viscous_min"), table.numbers("torque"), table.numbers("gravity", positive=False)
     )
     table.close()
-    return found
+    return result
 
 
 def _check_names(tables: list[Fields]) -> None:

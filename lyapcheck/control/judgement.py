@@ -45,9 +45,9 @@ def judged(statement: Statement, proofs: Iterable[Proof]) -> Judgement:
     reason = "no proof was tried"
     for proof in proofs:
         try:
-            found = verify(statement, proof)
+            result = verify(statement, proof)
         except Refused as refused:
             reason = str(refused)
         else:
-            return Judgement(statement, proof, found.verdict, found.grade, "")
+            return Judgement(statement, proof, result.verdict, result.grade, "")
     return Judgement(statement, None, UNDECIDED, "", reason)

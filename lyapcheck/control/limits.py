@@ -101,10 +101,10 @@ def _named_arm(gain_file: GainFile, name: str) -> ArmLimits:
         place = None if gain_file.document is None else gain_file.document.place(("robot",))
         line = place.line if place else None
         problems = [
-            Problem(gain_file.path, line, found.key, printable(found.value), found.rule, found.repair)
-            if found.key == "robot"
-            else found
-            for found in error.problems
+            Problem(gain_file.path, line, result.key, printable(result.value), result.rule, result.repair)
+            if result.key == "robot"
+            else result
+            for result in error.problems
         ]
         raise InputError(problems) from None
 

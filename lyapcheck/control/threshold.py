@@ -69,18 +69,18 @@ class Threshold:
         """The number between two others that tell decimals of so many places apart."""
         bits = FIRST_BITS + 4 * (places - places % 16)
         if bits not in self._near:
-            found = self._within(bits)
-            wide = floor(found.width * 10**places).bit_length()
-            self._near[bits] = self._within(bits + wide + 4) if wide else found
+            result = self._within(bits)
+            wide = floor(result.width * 10**places).bit_length()
+            self._near[bits] = self._within(bits + wide + 4) if wide else result
         return self._near[bits]
 
     def apart(self, value: Fraction, places: int = 0) -> Enclosure:
         """As `near`, and without the value, unless the number is known to be it or cannot be told from it."""
-        found, bits = self.near(places), FIRST_BITS + 4 * places
-        while found.lower <= value <= found.upper and found.width and bits < MAX_BITS:
+        result, bits = self.near(places), FIRST_BITS + 4 * places
+        while result.lower <= value <= result.upper and result.width and bits < MAX_BITS:
             bits *= 2
-            found = self._within(bits)
-        return found
+            result = self._within(bits)
+        return result
 
     def largest(self, places: int) -> Written | None:
         """The largest decimal of so many places that the checker proves to pass, of more where it takes more.

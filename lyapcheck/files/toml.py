@@ -89,19 +89,19 @@ def _refused(name: str, rule: str, repair: str) -> InputError:
 
 def _too_long(name: str, text: str) -> InputError:
     """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
-    found = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
-    line = text.count("\n", 0, found.start()) + 1 if found else None
+    result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
+    line = text.count("\n", 0, result.start()) + 1 if result else None
     rule = "is an integer of absurd length"
     return InputError(Problem(name, line, "number", "", rule, "write a number of physical size"))
 
 
 def _syntax(name: str, message: str, text: str) -> InputError:
-    found = re.search(r"\(at line (\d+), column (\d+)\)", message)
+    result = re.search(r"\(at line (\d+), column (\d+)\)", message)
     what = re.sub(r" \(at .*\)$", "", message)
-    line = int(found[1]) if found else _last_assignment(text)
-    if what == "Unclosed array" and found is not None:
-        before = text.splitlines()[: int(found[1])]
-        if "[" not in before[-1][: int(found[2])]:  # it is the next key that does not fit into the array
+    line = int(result[1]) if result else _last_assignment(text)
+    if what == "Unclosed array" and result is not None:
+        before = text.splitlines()[: int(result[1])]
+        if "[" not in before[-1][: int(result[2])]:  # it is the next key that does not fit into the array
             line = _last_assignment("\n".join(before[:-1]))
     return InputError(Problem(name, line, "TOML", "", what, "correct the syntax on this line"))
 

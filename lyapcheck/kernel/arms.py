@@ -10,10 +10,10 @@ from itertools import product
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, closure_of
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, closed_loop_of
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Side
-from lyapcheck.check.loop.closure import root_above
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies
@@ -37,51 +37,51 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     Raises:
         NotPrinted: the proof is of a kind, or about a function, that Coq has no theorem for.
     """
-    closure = closure_of(statement)
-    if certifies(closure.tail, closure.eps0):
-        return by_norms(closure)
+    loop = closed_loop_of(statement)
+    if certifies(loop.tail, loop.eps0):
+        return by_norms(loop)
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
         raise NotPrinted("a proof by bounds in ‖e‖")
-    return _script(closure, proof.rate.tree)
+    return _script(loop, proof.rate.tree)
 
 
-def by_norms(closure: Closure) -> str:
+def by_norms(loop: ClosedLoop) -> str:
     """The tactics for ``certified`` where ε₀ is so small that norms alone show it."""
-    return _script(closure, None)
+    return _script(loop, None)
 
 
-def _script(closure: Closure, tree: str | None) -> str:
-    arm, n = closure.arm, closure.n
-    turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(closure.angles)
-    viscous, stiffest = arm.viscous, min(closure.kp)
+def _script(loop: ClosedLoop, tree: str | None) -> str:
+    arm, n = loop.arm, loop.n
+    turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(loop.angles)
+    viscous, stiffest = arm.viscous, min(loop.kp)
     parts = {
-        "angles": f"[{'; '.join(map(str, closure.angles))}]%nat",
+        "angles": f"[{'; '.join(map(str, loop.angles))}]%nat",
         "ks": "waves_in A",
-        "alpha": exact(_lowest(closure)),
+        "alpha": exact(_lowest(loop)),
         "turn": _sides(turn),
         "fuel": f"{FUEL}%nat",
-        "beta": exact(max(sum((_size(closure, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
-        "kc": exact(root_above(_squares(closure))),
+        "beta": exact(max(sum((_size(loop, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
+        "kc": exact(root_above(_squares(loop))),
         "lo": exact(min(viscous)),
         "hi": exact(max(viscous)),
-        "f": f"member_{closure.m}",
+        "f": f"member_{loop.m}",
         "kmin": exact(stiffest),
-        "vmax": exact(max(closure.kv)),
+        "vmax": exact(max(loop.kv)),
         "c1": exact(stiffest * LITTLE),
         "c2": exact(min(viscous) * LITTLE),
     }
     theorem = "certified_by_norms"
     if tree is not None:
         theorem = "certified_by_boxes"
-        errors = closure.start[len(turn) : len(turn) + n]
-        signs = "; ".join(f"({j}%nat, {_signs(closure, j)})" for j in closure.one_sided)
+        errors = loop.start[len(turn) : len(turn) + n]
+        signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
         parts |= {
-            "Lq": exact(Fraction(1) if closure.m == 1 else _four_digits(closure.member.L)),
-            "rad": exact(Fraction(closure.radius).limit_denominator(10**6)),
+            "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
+            "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
             "signs": f"[{signs}]",
             "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
-            "hI": "h1_I" if closure.m == 1 else f"(h_I {closure.m})",
-            "dhI": "dh1_I" if closure.m == 1 else f"(dh_I {closure.m})",
+            "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m})",
+            "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m})",
             "more": f"{MORE_HALVINGS}%nat",
             "tree": _text(tree),
         }
@@ -94,40 +94,38 @@ def _four_digits(value: Fraction) -> Fraction:
     return Fraction(math.ceil(value * 10**4 + Fraction(1, 4)), 10**4)
 
 
-def _size(closure: Closure, i: int, j: int) -> Fraction:
-    return sum(map(largest, closure.mass[i][j].values()), Fraction(0))
+def _size(loop: ClosedLoop, i: int, j: int) -> Fraction:
+    return sum(map(largest, loop.mass[i][j].values()), Fraction(0))
 
 
-def _squares(closure: Closure) -> Fraction:
+def _squares(loop: ClosedLoop) -> Fraction:
     """Σ c_ijk², of bounds of the Christoffel symbols."""
-    sizes = {
-        place: sum(map(largest, parts.values()), Fraction(0)) for place, parts in closure.symbols.items()
-    }
+    sizes = {place: sum(map(largest, parts.values()), Fraction(0)) for place, parts in loop.symbols.items()}
     return sum(((1 if j == k else 2) * size**2 for (_, j, k), size in sizes.items()), Fraction(0))
 
 
-def _lowest(closure: Closure) -> Fraction:
+def _lowest(loop: ClosedLoop) -> Fraction:
     """About nine tenths of the least eigenvalue of M(q) on a grid; only a proposal."""
-    n, steps = closure.n, 25
-    found = math.inf
-    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(closure.angles)):
+    n, steps = loop.n, 25
+    result = math.inf
+    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(loop.angles)):
         q = np.zeros(n)
-        q[list(closure.angles)] = place
-        rows = [[_value(closure.arm.mass[i][j], q) for j in range(n)] for i in range(n)]
-        found = min(found, float(np.linalg.eigvalsh(np.array(rows))[0]))
-    return Fraction(0.9 * found).limit_denominator(10**6)
+        q[list(loop.angles)] = place
+        rows = [[_value(loop.arm.mass[i][j], q) for j in range(n)] for i in range(n)]
+        result = min(result, float(np.linalg.eigvalsh(np.array(rows))[0]))
+    return Fraction(0.9 * result).limit_denominator(10**6)
 
 
 def _value(entry: Sequence[tuple[tuple[int, ...], Fraction]], q: Array) -> float:
-    waves = np.concatenate([np.sin(q), np.cos(q)])
-    return math.fsum(float(c) * float(np.prod(waves ** np.array(powers))) for powers, c in entry)
+    harmonics = np.concatenate([np.sin(q), np.cos(q)])
+    return math.fsum(float(c) * float(np.prod(harmonics ** np.array(powers))) for powers, c in entry)
 
 
-def _signs(closure: Closure, joint: int) -> str:
+def _signs(loop: ClosedLoop, joint: int) -> str:
     """Signs of all joints that leave dV/dt as it is, turn this joint and no other one-sided one."""
-    for signs in product((1, -1), repeat=closure.n):
-        turned = [j for j in closure.one_sided if signs[j] < 0]
-        if turned == [joint] and closure.symmetric_under(signs):
+    for signs in product((1, -1), repeat=loop.n):
+        turned = [j for j in loop.one_sided if signs[j] < 0]
+        if turned == [joint] and loop.symmetric_under(signs):
             return f"[{'; '.join(f'({s})' for s in signs)}]%Z"
     raise NotPrinted("a symmetry that the checker knows, but not its signs")
 

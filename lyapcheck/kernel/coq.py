@@ -114,17 +114,17 @@ def axioms_of(printed: str) -> set[str]:
     if printed.strip() == "Closed under the global context":
         return set()
     head, *lines = printed.splitlines()
-    found = set()
+    result = set()
     for line in lines:
         if line.startswith(" ") or not line:
             continue
         name = NAME.match(line)
         if name is None or line[name.end() :].strip()[:1] not in ("", ":"):
             raise CoqRefused(f"of its axioms: {line}")
-        found.add(name.group())
+        result.add(name.group())
     if head != "Axioms:":
         raise CoqRefused(f"of its axioms: {head}")
-    return found
+    return result
 
 
 def golden(name: str) -> frozenset[str]:

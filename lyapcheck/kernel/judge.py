@@ -56,52 +56,52 @@ def theorem_file(certificate: Certificate) -> str:
     return f"{HEAD}Theorem claim : {proposition}.\nProof.\n{script(statement, proof, verdict)}\nQed.\n"
 
 
-def judged(outcome: Outcome, folder: Path, seconds: int, told: Callable[[str], None]) -> list[Kernel]:
+def judged(outcome: Outcome, folder: Path, seconds: int, progress: Callable[[str], None]) -> list[Kernel]:
     """What Coq's kernel says of each certificate that the small checker accepted.
 
     Args:
         outcome: of the small checker.
         folder: where the files for Coq are written.
         seconds: the most that one of them may take.
-        told: is told what is going on.
+        progress: is told what is going on.
 
     Raises:
         InputError: there is no Coq.
     """
-    told("compiling the library")
+    progress("compiling the library")
     coq = Coq(folder, seconds)
     with ThreadPoolExecutor(JOBS) as pool:
-        found = dict(enumerate(pool.map(lambda one: _compiled(one, coq, told), outcome.checked)))
-    told("reading the axioms")
+        result = dict(enumerate(pool.map(lambda one: _compiled(one, coq, progress), outcome.checked)))
+    progress("reading the axioms")
     for name in ("real", "float"):
         modules = {
-            k: _module(outcome.checked[k]) for k, one in found.items() if one.accepted and one.axioms == name
+            k: _module(outcome.checked[k]) for k, one in result.items() if one.accepted and one.axioms == name
         }
         within = _within(modules, coq, name)
         for k in modules:
             said = f"its axioms go beyond the golden list {name}"
             if k not in within:
-                found[k] = (
-                    replace(found[k], axioms="float")
+                result[k] = (
+                    replace(result[k], axioms="float")
                     if name == "real"
-                    else Kernel(found[k].file, False, said)
+                    else Kernel(result[k].file, False, said)
                 )
-    return list(found.values())
+    return list(result.values())
 
 
-def graded(outcome: Outcome, found: Iterable[Kernel]) -> Outcome:
+def graded(outcome: Outcome, result: Iterable[Kernel]) -> Outcome:
     """The outcome, with the grade ``kernel`` where Coq's kernel accepted the certificate."""
-    pairs = zip(outcome.checked, found, strict=True)
+    pairs = zip(outcome.checked, result, strict=True)
     return replace(
         outcome,
         checked=tuple(replace(own, grade=GRADE) if one.accepted else own for own, one in pairs),
     )
 
 
-def _compiled(one: Checked, coq: Coq, told: Callable[[str], None]) -> Kernel:
+def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel:
     if not one.accepted:
         return Kernel(one.file, False, f"the small checker says {one.status}")
-    told(one.file)
+    progress(one.file)
     try:
         certificate, data = certificate_of(content(one.document.path))
         require(data["digest"] == one.finding.digest, "digest", data["digest"], "changed while it was judged")

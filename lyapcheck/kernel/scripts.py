@@ -13,7 +13,7 @@ from typing import Any
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.decreasing import Decreasing, closure_of
+from lyapcheck.check.kinds.decreasing import Decreasing, closed_loop_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
@@ -55,20 +55,20 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
 
 def facts(statement: Statement) -> str:
     """Bounds of the suprema γ_m, ρ_m and L_m that occur."""
-    found: set[tuple[str, int]] = set()
-    _collect(statement, found)
-    return "".join(_constant(name, m) for name, m in sorted(found))
+    result: set[tuple[str, int]] = set()
+    _collect(statement, result)
+    return "".join(_constant(name, m) for name, m in sorted(result))
 
 
-def _collect(value: Any, found: set[tuple[str, int]]) -> None:
+def _collect(value: Any, result: set[tuple[str, int]]) -> None:
     if isinstance(value, tuple):
         if len(value) == 2 and value[0] in CONSTANTS and isinstance(value[1], int):
-            found.add(value)
+            result.add(value)
         for part in value:
-            _collect(part, found)
+            _collect(part, result)
     elif hasattr(value, "__dict__"):
         for part in vars(value).values():
-            _collect(part, found)
+            _collect(part, result)
 
 
 AT = {
@@ -134,7 +134,7 @@ def _(statement: LoopProperty) -> str:
 def _(statement: Theorem) -> str:
     if statement.loop.arm is None:
         return "apply proposition_of_the_paper; lia."
-    return by_norms(closure_of(on_one_arm(statement.loop)))
+    return by_norms(closed_loop_of(on_one_arm(statement.loop)))
 
 
 @proved.register

@@ -97,12 +97,12 @@ class Generators:
         """The time derivative of each generator of V that has one, by its place."""
         e, w, h, d, a = (self.vector(name) for name in "ewhda")
         inward = dot(e, w) * self["ri"]
-        found = {"r": -inward, "s": self["s"] ** 2 * inward}
+        result = {"r": -inward, "s": self["s"] ** 2 * inward}
         for i in range(self.n):
             k = i + 1
-            found |= {f"e{k}": -w[i], f"w{k}": a[i], f"h{k}": -d[i] * w[i], f"U{k}": -h[i] * w[i]}
-            found |= {f"M{k}_{j + 1}": self.C[i][j] + self.C[j][i] for j in range(i, self.n)}
-        return {self._index[name]: rate for name, rate in found.items()}
+            result |= {f"e{k}": -w[i], f"w{k}": a[i], f"h{k}": -d[i] * w[i], f"U{k}": -h[i] * w[i]}
+            result |= {f"M{k}_{j + 1}": self.C[i][j] + self.C[j][i] for j in range(i, self.n)}
+        return {self._index[name]: rate for name, rate in result.items()}
 
     def rate(self, value: fmpq_mpoly) -> fmpq_mpoly:
         """The time derivative along (11) of a polynomial in the state, as a normal form.
@@ -122,12 +122,12 @@ class Generators:
     def rules(self) -> tuple[Rule, ...]:
         """The relations as leading monomial and what replaces it."""
         one, r, ri, s = self.ring.constant(1), self["r"], self["ri"], self["s"]
-        found = [(r * ri, one), (r * s, one - s), (s * ri, ri - s)]
+        result = [(r * ri, one), (r * s, one - s), (s * ri, ri - s)]
         a = self.vector("a")
         for j, torque in enumerate(self._torques()):
             others = [self.M[j][i] * a[i] for i in range(self.n) if i != j]
-            found.append((self.M[j][j] * a[j], torque - total(others, self.ring.constant(0))))
-        return tuple((lead.monoms()[0], value) for lead, value in found)
+            result.append((self.M[j][j] * a[j], torque - total(others, self.ring.constant(0))))
+        return tuple((lead.monoms()[0], value) for lead, value in result)
 
     def normal_form(self, value: fmpq_mpoly) -> fmpq_mpoly:
         """The one polynomial that equals ``value`` modulo the relations and holds none of the left sides."""

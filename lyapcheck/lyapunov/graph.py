@@ -113,10 +113,10 @@ def _rate(s: _State) -> Any:
     V = _value(s, r)
     slope = ca.substitute(ca.gradient(V, s.q), r, s.r)
     inward = ca.substitute(ca.gradient(V, s.e), r, s.r)
-    push = ca.substitute(ca.gradient(V, s.w), r, s.r)
+    slope_w = ca.substitute(ca.gradient(V, s.w), r, s.r)
     kink = ca.substitute(ca.gradient(V, r), r, s.r)
     along = ca.dot(slope - inward, s.w)
-    return along + ca.dot(push, _acceleration(s)) - kink * ca.dot(s.e_hat, s.w)
+    return along + ca.dot(slope_w, _acceleration(s)) - kink * ca.dot(s.e_hat, s.w)
 
 
 def _acceleration(s: _State) -> Any:

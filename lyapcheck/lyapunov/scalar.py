@@ -100,13 +100,13 @@ def scalar_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> Scal
     """
     if constants.gamma is None:
         return None
-    reach = root_above(len(gains.kp)) * _up(constants.gamma)
+    norm_h = root_above(len(gains.kp)) * _up(constants.gamma)
     rho, L = _up(constants.rho), _up(constants.L)
-    G = reach * L / (L + reach)
+    G = norm_h * L / (L + norm_h)
     return ScalarForm(
         stiffness=min(gains.kp),
         friction=bounds.viscous_min,
-        drift=_short(bounds.beta_M * (rho + G) + reach * bounds.k_c),
+        drift=_short(bounds.beta_M * (rho + G) + norm_h * bounds.k_c),
         cross=_short(bounds.viscous_max + L * max(gains.kv)),
     )
 
@@ -126,8 +126,8 @@ def sharp_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> Scala
     rho, L = _up(constants.rho), _up(constants.L)
     G = L
     if constants.gamma is not None:
-        reach = root_above(len(gains.kp)) * _up(constants.gamma)
-        G = reach * L / (L + reach)
+        norm_h = root_above(len(gains.kp)) * _up(constants.gamma)
+        G = norm_h * L / (L + norm_h)
     low, high = _PER_DEGREE if gains.angle_unit == "deg" else (Fraction(1), Fraction(1))
     return ScalarForm(
         stiffness=min(gains.kp) * low,

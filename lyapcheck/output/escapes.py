@@ -59,7 +59,7 @@ def _unit_escapes(c: str) -> str:
 
 def markdown_text(text: str) -> str:
     """The text as Markdown that shows it, on one line and in one cell."""
-    return _MARKDOWN.sub(lambda found: _ENTITIES.get(found[0], f"\\{found[0]}"), printable(text))
+    return _MARKDOWN.sub(lambda result: _ENTITIES.get(result[0], f"\\{result[0]}"), printable(text))
 
 
 def html_text(text: str) -> str:
@@ -70,12 +70,12 @@ def html_text(text: str) -> str:
 def latex_text(text: str) -> str:
     """The text as LaTeX outside of formulas; signs of formulas as LaTeX writes them."""
     parts = _ACCENTED.split(normalize("NFD", printable(text)))
-    found = []
+    result = []
     for plain, letter, accent in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""], strict=True):
-        found.append("".join(_LATEX.get(c) or _sign(c) for c in normalize("NFC", plain)))
+        result.append("".join(_LATEX.get(c) or _sign(c) for c in normalize("NFC", plain)))
         if letter:
-            found.append(rf"\ensuremath{{\{_ACCENTS[accent]}{{{letter}}}}}")
-    return "".join(found)
+            result.append(rf"\ensuremath{{\{_ACCENTS[accent]}{{{letter}}}}}")
+    return "".join(result)
 
 
 def _sign(c: str) -> str:

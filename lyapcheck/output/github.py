@@ -13,9 +13,9 @@ COMMANDS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warnin
 
 def render(answer: Answer) -> str:
     """``::error …``, ``::warning …`` and ``::notice …`` lines, the answer's title as the last."""
-    found = answer.annotations()
+    result = answer.annotations()
     order = {Level.REMARK: 1}  # what must be seen first
-    shown = sorted((one for one in found if one.level in COMMANDS), key=lambda one: order.get(one.level, 0))
+    shown = sorted((one for one in result if one.level in COMMANDS), key=lambda one: order.get(one.level, 0))
     title = f"lyapcheck {answer.schema.split('/')[1]}"
     last = f"::notice title={github_property(title)}::{github_text(answer.document().title)}"
     return "\n".join([*map(_line, shown), last]) + "\n"

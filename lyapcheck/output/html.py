@@ -25,15 +25,15 @@ def render(document: Document, level: int = 2) -> str:
     return "\n".join(lines) + "\n"
 
 
-def blocks(found: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:
+def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:
     """Blocks one after the other.
 
     Args:
-        found: the blocks.
+        result: the blocks.
         level: of the headings of sections among them.
         drawn: what becomes of a figure.
     """
-    for block in found:
+    for block in result:
         match block:
             case Paragraph(text):
                 yield element("p", text)

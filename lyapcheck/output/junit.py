@@ -15,27 +15,27 @@ from lyapcheck.output.answer import Answer
 def render(answer: Answer) -> str:
     """Failed cases fail, undecided ones are skipped, remarks are what the suite says."""
     top = ET.Element("testsuites", name=f"lyapcheck {answer.schema.split('/')[1]}")
-    for (path, group), found in groupby(answer.annotations(), key=lambda one: (one.path, one.group)):
-        _suite(top, path, group, list(found))
+    for (path, group), result in groupby(answer.annotations(), key=lambda one: (one.path, one.group)):
+        _suite(top, path, group, list(result))
     ET.indent(top)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(top, encoding="unicode") + "\n"
 
 
-def _suite(top: ET.Element, path: str, group: str, found: list[Annotation]) -> None:
-    levels = [one.level for one in found]
+def _suite(top: ET.Element, path: str, group: str, result: list[Annotation]) -> None:
+    levels = [one.level for one in result]
     suite = ET.SubElement(
         top,
         "testsuite",
         name=group,
-        tests=str(len(found) - levels.count(Level.REMARK)),
+        tests=str(len(result) - levels.count(Level.REMARK)),
         failures=str(levels.count(Level.FAILED)),
         skipped=str(levels.count(Level.UNDECIDED)),
         errors="0",
     )
-    for one in found:
+    for one in result:
         if one.level is not Level.REMARK:
             _case(suite, one, ".".join(part for part in (path, group) if part))
-    said = [one.message for one in found if one.level is Level.REMARK]
+    said = [one.message for one in result if one.level is Level.REMARK]
     if said:
         ET.SubElement(suite, "system-out").text = "\n".join(said)
 

@@ -44,8 +44,8 @@ def sentence(text: str) -> Markup:
     words = normalize("NFC", " ".join(text.split())).split(" ")
     parts: list[str] = []
     for is_formula, group in groupby(zip(words, _formulas(words), strict=True), lambda pair: pair[1]):
-        found = [word for word, _ in group]
-        parts += map(formula, _clauses(found)) if is_formula else [joined(" ".join(found))]
+        result = [word for word, _ in group]
+        parts += map(formula, _clauses(result)) if is_formula else [joined(" ".join(result))]
     return Markup(" ".join(parts))
 
 
@@ -112,11 +112,11 @@ class _Reader:
         return None if base is None else self._with_scripts(base)
 
     def _take(self, pattern: str) -> str:
-        found = re.match(pattern, self.rest)
-        if not found:
+        result = re.match(pattern, self.rest)
+        if not result:
             return ""
-        self.rest = self.rest[found.end() :]
-        return found[0]
+        self.rest = self.rest[result.end() :]
+        return result[0]
 
     def _base(self) -> Markup | None:  # noqa: PLR0911 (a case a line)
         if self._take(r"\s+"):

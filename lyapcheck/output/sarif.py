@@ -17,7 +17,7 @@ LEVELS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warning"
 
 def render(answer: Answer) -> str:
     """A log with one run; regions are lines and columns of the files that were judged."""
-    found = [one for one in answer.annotations() if one.level in LEVELS]
+    result = [one for one in answer.annotations() if one.level in LEVELS]
     texts = {one.rule: one.rule_text for one in answer.annotations()}
     rules = list(texts)
     driver = {
@@ -25,7 +25,7 @@ def render(answer: Answer) -> str:
         "version": version("lyapcheck"),
         "rules": [{"id": rule, "shortDescription": {"text": text}} for rule, text in texts.items()],
     }
-    results = [_result(one, rules.index(one.rule)) for one in found]
+    results = [_result(one, rules.index(one.rule)) for one in result]
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",

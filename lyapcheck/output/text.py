@@ -133,13 +133,13 @@ def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
     keys = list(range(min(table.keys, len(least))))
     used = sum(least[i] + len(GAP) for i in keys)
     sheets: list[list[int]] = [[]]
-    room = WIDTH - used
+    free = WIDTH - used
     for i in range(len(keys), len(least)):
-        if sheets[-1] and least[i] > room:
+        if sheets[-1] and least[i] > free:
             sheets.append([])
-            room = WIDTH - used
+            free = WIDTH - used
         sheets[-1].append(i)
-        room -= least[i] + len(GAP)
+        free -= least[i] + len(GAP)
     return [[*keys, *sheet] for sheet in sheets]
 
 

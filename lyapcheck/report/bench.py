@@ -80,7 +80,7 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
     from lyapcheck.simulate.closed_loop import simulate
 
     gains = replace(one, kv=(kv,) * model.n)
-    found = epsilon(gains, model, max_boxes=BOXES)
+    result = epsilon(gains, model, max_boxes=BOXES)
     run = simulate(gains, model, goal, stop=False)
     times = [math.nan if t is None else float(t) for t in run.settling]
     settling = max(times) if all(map(math.isfinite, times)) else None
@@ -89,10 +89,10 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
     return {
         "m": one.m,
         "kv": f"{float(kv):g}",
-        "eps0": None if found.certified is None else _down(found.certified),
+        "eps0": None if result.certified is None else _down(result.certified),
         "settling": None if settling is None else float(f"{settling:.{DIGITS}g}"),
         "share": float(f"{max(shares):.{DIGITS}g}") if shares else None,
-        "within_19": found.published is not None,
+        "within_19": result.published is not None,
     }
 
 
@@ -108,5 +108,5 @@ def kept_map(model: RobotModel) -> list[Data]:
     from lyapcheck.report.experiment import arm_digest, study_file
 
     path = study_file("gain_map")
-    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return list(found["map"]) if found and found["arm"] == arm_digest(model) else []
+    result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return list(result["map"]) if result and result["arm"] == arm_digest(model) else []

@@ -52,12 +52,12 @@ class Subject:
     @property
     def of_family(self) -> dict[int, Any]:
         """The first gain set of each member."""
-        found: dict[int, Any] = {}
+        result: dict[int, Any] = {}
         for file in self.gain_files:
             for item in file.gains:
                 if item.m in self.ms and item.family == "hyperbolic":
-                    found.setdefault(item.m, item)
-        return found
+                    result.setdefault(item.m, item)
+        return result
 
 
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:
@@ -75,12 +75,12 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     from lyapcheck.robots import load
 
     model, notes = load(subject.robot), published_notes()
-    found = compute(subject, notes, on_progress or (lambda fraction, note: None))
+    result = compute(subject, notes, on_progress or (lambda fraction, note: None))
     gate = tuple(_gate(subject))
     if subject.own:
-        weighed = own_findings(gate, found.epsilon, found.claims)
+        weighed = own_findings(gate, result.epsilon, result.claims)
     else:
-        weighed = findings(notes, found.claims, found.small, found.epsilon, found.sensitivity)
+        weighed = findings(notes, result.claims, result.small, result.epsilon, result.sensitivity)
     return Report(
         notes=notes,
         own=subject.own,
@@ -88,15 +88,15 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         ms=subject.ms,
         table=tuple(_table(subject.ms)),
         gate=gate,
-        epsilon=found.epsilon,
-        claims=found.claims,
-        others=found.others,
-        runs=found.runs,
-        sensitivity=found.sensitivity,
+        epsilon=result.epsilon,
+        claims=result.claims,
+        others=result.others,
+        runs=result.runs,
+        sensitivity=result.sensitivity,
         findings=weighed,
-        bench=_bench(subject, model, found.cells),
-        figures=dict(sorted({**found.figures, **draw_damping(gate)}.items())),
-        certificates=dict(sorted(found.certificates.items())),
+        bench=_bench(subject, model, result.cells),
+        figures=dict(sorted({**result.figures, **draw_damping(gate)}.items())),
+        certificates=dict(sorted(result.certificates.items())),
         versions={name: version(name) for name in PACKAGES},
         seed=SEED,
     )
@@ -112,8 +112,8 @@ def _bench(subject: Subject, model: RobotModel, cells: Sequence[Data]) -> Data:
 def _gate(subject: Subject) -> list[Data]:
     from lyapcheck.answers.gate import gate
 
-    found = [gate(file, subject.robot).data() for file in subject.gain_files]
-    rows = [row for data in found for row in data["results"] if row["m"] is None or row["m"] in subject.ms]
+    result = [gate(file, subject.robot).data() for file in subject.gain_files]
+    rows = [row for data in result for row in data["results"] if row["m"] is None or row["m"] in subject.ms]
     return [{**row, "file": row["file"].rsplit("/", 1)[-1]} for row in rows]
 
 

@@ -111,8 +111,8 @@ def read_report(path: Path) -> dict[str, Any]:
     """
     file = path / "report.json" if path.is_dir() else path
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-        schema = found["schema"] if isinstance(found, dict) else None
+        result = json.loads(file.read_text(encoding="utf-8"))
+        schema = result["schema"] if isinstance(result, dict) else None
     except (OSError, ValueError, KeyError) as error:
         rule = f"cannot be read as a report ({error})"
         repair = "name a report.json, or the folder that holds it"
@@ -121,7 +121,7 @@ def read_report(path: Path) -> dict[str, Any]:
         rule = f"has the schema {schema!r}, known is {SCHEMAS[0]!r}"
         repair = "write the old report again with this version"
         raise InputError(Problem(str(file), None, "--compare", "", rule, repair))
-    return dict(found)
+    return dict(result)
 
 
 def _table(changes: list[Change]) -> Table:

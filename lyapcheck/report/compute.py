@@ -37,29 +37,29 @@ OTHERS = ("scalar.py", "tracking.py")
 WORKERS = 2
 
 
-def compute(subject: Subject, notes: Notes, tell: Progress) -> Computed:
+def compute(subject: Subject, notes: Notes, progress: Progress) -> Computed:
     """The long computations, from the store if all that they decided is decided so again.
 
     Args:
         subject: arm, members and gains.
         notes: on the paper.
-        tell: told the fraction done and a few words.
+        progress: told the fraction done and a few words.
     """
     asked = question(subject)
-    found = read(store.take(asked))
-    if found is None:
-        found = _afresh(subject, notes, tell)
-        store.put(asked, written(found))
-    return found
+    result = read(store.take(asked))
+    if result is None:
+        result = _afresh(subject, notes, progress)
+        store.put(asked, written(result))
+    return result
 
 
-def _afresh(subject: Subject, notes: Notes, tell: Progress) -> Computed:
+def _afresh(subject: Subject, notes: Notes, progress: Progress) -> Computed:
     """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         jobs = _submit(subject, notes, pool)
-        figures = draw_family(subject.ms) | _drawn(jobs, tell)
+        figures = draw_family(subject.ms) | _drawn(jobs, progress)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))
     parts = [job.result() for job in jobs.sets]
@@ -141,14 +141,14 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     return Jobs(sets, paper, others, cells, labels, dict.fromkeys(sets, draw_set))
 
 
-def _drawn(jobs: Jobs, tell: Progress) -> Files:
+def _drawn(jobs: Jobs, progress: Progress) -> Files:
     """The figures of all jobs, each drawn when it is done; the first that fails stops the others."""
     figures: Files = {}
-    tell(0.0, f"{len(jobs.labels)} computations on {WORKERS} processes")
+    progress(0.0, f"{len(jobs.labels)} computations on {WORKERS} processes")
     try:
         for done, job in enumerate(as_completed(jobs.labels), start=1):
             result = job.result()
-            tell(done / len(jobs.labels), f"{jobs.labels[job]} done")
+            progress(done / len(jobs.labels), f"{jobs.labels[job]} done")
             if job in jobs.drawings:
                 figures |= jobs.drawings[job](result)
     except BaseException:

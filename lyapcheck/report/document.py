@@ -95,8 +95,8 @@ class ReportAnswer(Answer):
 
 
 def _finding_data(finding: Finding) -> dict[str, Any]:
-    found = {**vars(finding), "claims": list(finding.claims), "ms": list(finding.ms)}
-    return found | {"witness": vars(finding.witness) if finding.witness else None}
+    result = {**vars(finding), "claims": list(finding.claims), "ms": list(finding.ms)}
+    return result | {"witness": vars(finding.witness) if finding.witness else None}
 
 
 def _front(report: Report) -> Iterator[Block]:
@@ -118,14 +118,14 @@ def _front(report: Report) -> Iterator[Block]:
 
 def _findings(report: Report) -> Iterator[Section]:
     for weight, words in WEIGHTS.items():
-        found = report.weighing(weight)
-        if not found:
+        result = report.weighing(weight)
+        if not result:
             continue
         if weight in "AB":
-            blocks: tuple[Block, ...] = tuple(Section(one.title, tuple(_card(report, one))) for one in found)
+            blocks: tuple[Block, ...] = tuple(Section(one.title, tuple(_card(report, one))) for one in result)
         else:
-            blocks = (Bullets(tuple(_line(one) for one in found)),)
-        title = "What to mend" if report.own else f"{weight}: {words} ({len(found)})"
+            blocks = (Bullets(tuple(_line(one) for one in result)),)
+        title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
         yield Section(title, blocks)
 
 
@@ -206,17 +206,17 @@ def _claims(report: Report) -> Iterator[Section]:
     for name, group in groupby(report.every_claim, key=title):
         lines = []
         for claim, rows in groupby(group, key=lambda row: row["id"]):
-            found = list(rows)
+            result = list(rows)
             shown = ", ".join(
                 f"{SYMBOLS[row['verdict']]} {row['verdict']}" + (f" (m = {row['m']})" if row["m"] else "")
-                for row in found
+                for row in result
             )
-            if len({row["verdict"] for row in found}) == 1:
-                ms = [str(row["m"]) for row in found if row["m"] is not None]
-                shown = f"{SYMBOLS[found[0]['verdict']]} {found[0]['verdict']}" + (
+            if len({row["verdict"] for row in result}) == 1:
+                ms = [str(row["m"]) for row in result if row["m"] is not None]
+                shown = f"{SYMBOLS[result[0]['verdict']]} {result[0]['verdict']}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
-            lines.append((claim, shown, found[0]["grade"], found[0]["comment"]))
+            lines.append((claim, shown, result[0]["grade"], result[0]["comment"]))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))
 
 

@@ -32,22 +32,22 @@ def findings(
 
     A refuted claim breaks the proof if the proposition rests on it.
     """
-    found = [*_refuted(notes, claims, small), *_contradicted(epsilon)]
+    result = [*_refuted(notes, claims, small), *_contradicted(epsilon)]
     if sensitivity is not None:
-        found += _experiment(sensitivity)
-    return tuple(sorted(found, key=lambda finding: finding.weight))
+        result += _experiment(sensitivity)
+    return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
 def own_findings(
     gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[Data]
 ) -> tuple[Finding, ...]:
     """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
-    found = [*_rejected(gate), *_contradicted(epsilon)]
+    result = [*_rejected(gate), *_contradicted(epsilon)]
     for row in claims:
         if row["verdict"] == "refuted" and row["section"].startswith("Section 2"):
             text = witness_words(row)
-            found.append(Finding("A", f"claim {row['id']}", (row["id"],), _ms([row]), row["comment"], text))
-    return tuple(sorted(found, key=lambda finding: finding.weight))
+            result.append(Finding("A", f"claim {row['id']}", (row["id"],), _ms([row]), row["comment"], text))
+    return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
 def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Finding]:

@@ -98,9 +98,9 @@ def paper_job(proof: str, ms: Sequence[int], robot: str, gains: str, notes: Note
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
-    found = claims_job(proof, ms, robot, gains)
+    result = claims_job(proof, ms, robot, gains)
     wanted: dict[str, list[int]] = {}
-    for row in found.rows:
+    for row in result.rows:
         if row["verdict"] == "refuted" and row["section"].startswith(CHAIN):
             wanted.setdefault(row["id"], []).extend([] if row["m"] is None else [row["m"]])
     sets = {one.m: one for one in read_gain_file(gains).gains if one.m is not None and one.m in ms}
@@ -108,7 +108,7 @@ def paper_job(proof: str, ms: Sequence[int], robot: str, gains: str, notes: Note
         if note.ask and sets and not wanted.keys() & set(note.claims):
             wanted |= {name: [note.ask["m"]] for name in note.claims}
             sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return PaperData(found, smallest_witnesses(proof, wanted, load(robot), sets))
+    return PaperData(result, smallest_witnesses(proof, wanted, load(robot), sets))
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:

@@ -34,14 +34,14 @@ def question(subject: Subject) -> dict[str, Any]:
     return {"report": sha256(exact.encode()).hexdigest(), **about}
 
 
-def written(found: Computed) -> dict[str, Any]:
+def written(result: Computed) -> dict[str, Any]:
     """All of it as plain data."""
     figures = {
         name: drawing if isinstance(drawing, str) else {"base64": b64encode(drawing).decode()}
-        for name, drawing in found.figures.items()
+        for name, drawing in result.figures.items()
     }
-    small = {name: asdict(one) for name, one in found.small.items()}
-    return {**vars(found), "figures": figures, "small": small}
+    small = {name: asdict(one) for name, one in result.small.items()}
+    return {**vars(result), "figures": figures, "small": small}
 
 
 def read(kept: Any) -> Computed | None:
@@ -58,35 +58,35 @@ def read(kept: Any) -> Computed | None:
             for name, one in kept["small"].items()
         }
         lists = {name: tuple(kept[name]) for name in ("claims", "others", "epsilon", "runs")}
-        found = Computed(**{**kept, **lists, "figures": figures, "small": small})
-        return found if _holds(found) else None
+        result = Computed(**{**kept, **lists, "figures": figures, "small": small})
+        return result if _holds(result) else None
     except (KeyError, TypeError, ValueError):
         return None
 
 
-def _holds(found: Computed) -> bool:
+def _holds(result: Computed) -> bool:
     """Whether a fresh checker decides all of it as it says."""
-    judged = _judged(found.certificates)
-    digests = {path: json.loads(text)["digest"] for path, text in found.certificates.items()}
+    judged = _judged(result.certificates)
+    digests = {path: json.loads(text)["digest"] for path, text in result.certificates.items()}
 
     def verdict(path: str | None) -> str | None:
         return None if path is None else judged.get(digests[path], {}).get("verdict")
 
-    for row in (*found.claims, *found.others):
+    for row in (*result.claims, *result.others):
         if row["verdict"] not in ("proved", "refuted"):
             continue
         answer = judged.get(row["digest"], {})
         said = [answer.get(key) for key in ("verdict", "grade", "id", "m", "rules")]
         if said != [row[key] for key in ("verdict", "grade", "id", "m", "rules")]:
             return False
-    if any(verdict(one.certificate) != "refuted" for one in found.small.values()):
+    if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
     return all(
         verdict(path) == ("refuted" if kind == "falsified" else "proved")
-        and rounded(_eps0(found.certificates[path]), up=kind == "falsified") == row[kind]
-        for row in found.epsilon
+        and rounded(_eps0(result.certificates[path]), up=kind == "falsified") == row[kind]
+        for row in result.epsilon
         for kind, path in row["certificates"].items()
-    ) and all(row["certified"] is None or "certified" in row["certificates"] for row in found.epsilon)
+    ) and all(row["certified"] is None or "certified" in row["certificates"] for row in result.epsilon)
 
 
 def _eps0(certificate: str) -> Fraction:

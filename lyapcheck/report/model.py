@@ -152,12 +152,12 @@ def anchor(proof: str, claim: str) -> str:
 def behind(claim: str, rows: Iterable[Data]) -> set[str]:
     """The claim, and all that it uses, directly or not."""
     uses = {row["id"]: row["uses"] for row in rows}
-    found, waiting = {claim}, [claim]
+    result, waiting = {claim}, [claim]
     while waiting:
-        fresh = set(uses.get(waiting.pop(), ())) - found
-        found |= fresh
+        fresh = set(uses.get(waiting.pop(), ())) - result
+        result |= fresh
         waiting += fresh
-    return found
+    return result
 
 
 def applies(result: Data) -> bool:

@@ -76,14 +76,14 @@ class Notes:
 
 def published_notes() -> Notes:
     """Those on the paper."""
-    found = tomllib.loads((proofs_folder() / "published.toml").read_text(encoding="utf-8"))
+    result = tomllib.loads((proofs_folder() / "published.toml").read_text(encoding="utf-8"))
     return Notes(
-        paper=Paper(**found["paper"]),
-        chain=tuple(_box(one) for one in found["chain"]),
-        route=tuple(_box(one) for one in found["route"]),
-        findings=tuple(Note(**one | {"claims": tuple(one["claims"])}) for one in found["findings"]),
-        equations=found["equations"],
-        own={proof: tuple(ids) for proof, ids in found["own"].items()},
+        paper=Paper(**result["paper"]),
+        chain=tuple(_box(one) for one in result["chain"]),
+        route=tuple(_box(one) for one in result["route"]),
+        findings=tuple(Note(**one | {"claims": tuple(one["claims"])}) for one in result["findings"]),
+        equations=result["equations"],
+        own={proof: tuple(ids) for proof, ids in result["own"].items()},
     )
 
 

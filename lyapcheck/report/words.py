@@ -39,11 +39,11 @@ def printed_words(number: Data) -> str:
 def beside_words(number: Data) -> str:
     """The nominal arm beside the print."""
     nominal, printed = number["nominal"], number["printed"]
-    found = f"{value_words(nominal, number['unit'])} on the bench with the nominal arm"
+    result = f"{value_words(nominal, number['unit'])} on the bench with the nominal arm"
     if nominal is None:
-        found = "not settled within the run with the nominal arm"
+        result = "not settled within the run with the nominal arm"
     apart = f" ({percent(nominal / printed - 1)})" if number["quantity"] == "L2" and nominal else ""
-    return f"{found}, {printed_words(number)} in the paper{apart}"
+    return f"{result}, {printed_words(number)} in the paper{apart}"
 
 
 def answer_words(number: Data) -> str:
@@ -88,8 +88,8 @@ def tally_words(study: Data) -> str:
 
 def hangs_words(number: Data, study: Data) -> str:
     """Which assumptions a number hangs on, by their share of the variance."""
-    found = leading(number, study)
-    return f"it hangs on {found}" if found else "it hangs on no assumption by itself"
+    result = leading(number, study)
+    return f"it hangs on {result}" if result else "it hangs on no assumption by itself"
 
 
 def leading(number: Data, study: Data, most: int = 2) -> str:
@@ -103,26 +103,26 @@ def leading(number: Data, study: Data, most: int = 2) -> str:
 
 def together_words(study: Data) -> str:
     """One arm for all gain sets at once."""
-    found = study["together"]
-    indices = ", ".join(f"{_short(value)}°" for value in found["values"])
+    result = study["together"]
+    indices = ", ".join(f"{_short(value)}°" for value in result["values"])
     printed = ", ".join(f"{_short(one['numbers'][0]['printed'])}°" for one in study["sets"])
-    ordered = f"{percent(found['ordered'], '')} of them put" if found["ordered"] else "none of them puts"
+    ordered = f"{percent(result['ordered'], '')} of them put" if result["ordered"] else "none of them puts"
     return (
-        f"the L2 indices of all gain sets at one arm: the nearest of {found['arms']} arms in range has "
-        f"{indices} for {printed}, up to {percent(found['worst'], '')} away; "
+        f"the L2 indices of all gain sets at one arm: the nearest of {result['arms']} arms in range has "
+        f"{indices} for {printed}, up to {percent(result['worst'], '')} away; "
         f"{ordered} the gain sets in the printed order"
     )
 
 
 def at_once_words(one: Data) -> str:
     """L2 index and settling times of one gain set at one arm."""
-    found = one["at_once"]
+    result = one["at_once"]
     goals = [number for number in one["numbers"] if number["quantity"] in ("L2", "settling")]
-    values = [value_words(value, goal["unit"]) for goal, value in zip(goals, found["values"], strict=True)]
+    values = [value_words(value, goal["unit"]) for goal, value in zip(goals, result["values"], strict=True)]
     printed = [printed_words(goal) for goal in goals]
     return (
-        f"L2 index and settling times at one arm: the nearest of {found['arms']} has {', '.join(values)} "
-        f"for {', '.join(printed)}; the worst is {percent(found['worst'], '')} away"
+        f"L2 index and settling times at one arm: the nearest of {result['arms']} has {', '.join(values)} "
+        f"for {', '.join(printed)}; the worst is {percent(result['worst'], '')} away"
     )
 
 

@@ -29,10 +29,10 @@ class Body:
 
     def numbers(self, name: str) -> dict[str, Number]:
         """The numbers of the link under the names that reports use; axes and plain zeros are not listed."""
-        found = {f"{name}_mass": self.mass}
+        result = {f"{name}_mass": self.mass}
         for key, vector in (("origin", self.origin), ("com", self.com)):
-            found |= components(f"{name}_{key}", vector)
-        return found | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
+            result |= components(f"{name}_{key}", vector)
+        return result | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
 
 
 def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:

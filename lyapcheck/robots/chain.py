@@ -109,7 +109,7 @@ class MovingPosture(Posture):
     def _moving(self, twists: Sequence[Twist]) -> list[_Moving]:
         """K of each joint."""
         of = self.of
-        found: list[_Moving] = []
+        result: list[_Moving] = []
         for k in reversed(range(self.n)):
             body, (spin, speed) = own_body(of, self.links[k]), twists[k]
             second = [
@@ -117,10 +117,10 @@ class MovingPosture(Posture):
                 for row, s in zip(body.second, body.moment, strict=True)
             ]
             momentum = of.add(of.cross(spin, body.moment), of.scaled(body.mass, speed))
-            if found:
-                turned = of.apply(self.turns[k + 1], found[0].momentum)
-                carried = of.congruent(self.turns[k + 1], found[0].second)
+            if result:
+                turned = of.apply(self.turns[k + 1], result[0].momentum)
+                carried = of.congruent(self.turns[k + 1], result[0].second)
                 second = of.sum(second, carried, of.outer(self.links[k + 1].origin, turned))
                 momentum = of.add(momentum, turned)
-            found.insert(0, _Moving(second, momentum))
-        return found
+            result.insert(0, _Moving(second, momentum))
+        return result

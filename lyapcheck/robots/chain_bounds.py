@@ -62,20 +62,20 @@ def chain_bounds(chain: Chain) -> ChainBounds:
     links = chain.links
     masses, tensors = [link.mass for link in links], [link.inertia for link in links]
     spectra = [_spectrum(tensor) for tensor in tensors]
-    reach = _reach(links)
+    distances = _distances(links)
     return ChainBounds(
         tuple(link.about_axis for link in links),
         _smallest([low for low, _ in spectra]),
-        _largest(masses, [high for _, high in spectra], reach),
+        _largest(masses, [high for _, high in spectra], distances),
         tuple(
             _norm(chain.fall) * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
-            for row in reach
+            for row in distances
         ),
-        _coriolis(masses, [high for _, high in spectra], reach) if all(map(bodily, tensors)) else None,
+        _coriolis(masses, [high for _, high in spectra], distances) if all(map(bodily, tensors)) else None,
     )
 
 
-def _reach(links: Sequence[RigidLink]) -> list[list[Fraction]]:
+def _distances(links: Sequence[RigidLink]) -> list[list[Fraction]]:
     """ρ_ik, 0 for links before the joint; what link i itself holds keeps its distance from axis i."""
     arms = [_norm(link.com) for link in links]
     steps = [_norm(link.origin) for link in links]
@@ -109,27 +109,29 @@ def _smallest(inertia: Sequence[Fraction]) -> Fraction:
 
 
 def _largest(
-    masses: Sequence[Fraction], inertia: Sequence[Fraction], reach: Sequence[Sequence[Fraction]]
+    masses: Sequence[Fraction], inertia: Sequence[Fraction], distances: Sequence[Sequence[Fraction]]
 ) -> Fraction:
     """ρ(B)."""
     joints = range(len(masses))
 
     def entry(i: int, j: int) -> Fraction:
         moved = [k for k in joints if k >= max(i, j)]
-        return sum((masses[k] * reach[i][k] * reach[j][k] + inertia[k] for k in moved), Fraction(0))
+        return sum((masses[k] * distances[i][k] * distances[j][k] + inertia[k] for k in moved), Fraction(0))
 
     return _radius([[entry(i, j) for j in joints] for i in joints])
 
 
 def _coriolis(
-    masses: Sequence[Fraction], inertia: Sequence[Fraction], reach: Sequence[Sequence[Fraction]]
+    masses: Sequence[Fraction], inertia: Sequence[Fraction], distances: Sequence[Sequence[Fraction]]
 ) -> Fraction:
     """ρ(Σ_i N_i²)^½ with N_i = (N_ijk)_jk, which bounds Σ N_ijk z_i x_j y_k for unit vectors."""
     joints = range(len(masses))
 
     def entry(i: int, j: int, k: int) -> Fraction:
         moved = [m for m in joints if m >= max(i, j, k)]
-        return sum((masses[m] * reach[i][m] * reach[max(j, k)][m] + inertia[m] for m in moved), Fraction(0))
+        return sum(
+            (masses[m] * distances[i][m] * distances[max(j, k)][m] + inertia[m] for m in moved), Fraction(0)
+        )
 
     layers = [[[entry(i, j, k) for k in joints] for j in joints] for i in joints]
     squares = [

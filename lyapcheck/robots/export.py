@@ -34,8 +34,8 @@ def arm_text(name_or_path: str, folder: Path) -> str:
         return _overlay(path, folder)
     text = open_document(path).text
 
-    def beside(found: re.Match[str]) -> str:
-        return f"{found[1]}{_from(path.parent / found[2], folder)}{found[3]}"
+    def beside(result: re.Match[str]) -> str:
+        return f"{result[1]}{_from(path.parent / result[2], folder)}{result[3]}"
 
     return _URDF.sub(beside, text)
 

@@ -42,8 +42,8 @@ def viscous(model: Plant) -> ca.DM:
 def solve(matrix: ca.SX, right: ca.SX) -> ca.SX:
     """x (n, 1) with matrix · x = right, for a symmetric positive definite matrix (n, n)."""
     rows = [ca.horzsplit(row) for row in ca.vertsplit(matrix)]
-    found: ca.SX = ca.vertcat(*solve_definite(rows, ca.vertsplit(right)))
-    return found
+    result: ca.SX = ca.vertcat(*solve_definite(rows, ca.vertsplit(right)))
+    return result
 
 
 def _circle(model: Plant, q: ca.SX) -> tuple[list[ca.SX], list[ca.SX]]:

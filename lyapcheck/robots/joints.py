@@ -25,8 +25,8 @@ class Joint:
     def numbers(self) -> dict[str, Number]:
         """The numbers of the joint under the names that reports use."""
         parts = ("viscous", "coulomb", "torque_limit", "gravity_bound")
-        found = {f"{self.name}_{part}": getattr(self, part) for part in parts}
-        return {name: number for name, number in found.items() if number is not None}
+        result = {f"{self.name}_{part}": getattr(self, part) for part in parts}
+        return {name: number for name, number in result.items() if number is not None}
 
 
 def read_joints(tables: list[ArmFields]) -> list[Joint]:

@@ -42,7 +42,7 @@ def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmField
             top.notes.fail(("joints", i, "name"), motor.name, "is no joint of this chain", repair)
     if top.notes.problems:
         raise InputError(top.notes.problems)
-    return _told(
+    return _completed(
         replace(model, name=printable(path.stem), title=title, remarks=(*remarks, *model.remarks)), motors
     )
 
@@ -57,15 +57,15 @@ def _read_motors(top: ArmFields) -> list[Joint]:
     return motors
 
 
-def _told(model: RobotModel, motors: list[Joint]) -> RobotModel:
+def _completed(model: RobotModel, motors: list[Joint]) -> RobotModel:
     """The model with the numbers of the motors in place of its own."""
     parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in _PARTS}
     numbers: dict[str, Number] = dict(model.numbers)
     for motor in motors:
         numbers |= motor.numbers()
         for key in _PARTS:
-            told = getattr(motor, key)
-            if told is not None:
-                parts[key][model.joints.index(motor.name)] = told
+            value = getattr(motor, key)
+            if value is not None:
+                parts[key][model.joints.index(motor.name)] = value
     changed: dict[str, Any] = {key: tuple(values) for key, values in parts.items()}
     return replace(model, numbers=numbers, **changed)

@@ -60,10 +60,10 @@ class ChainPlan:
 
     def numbers(self) -> dict[str, Number]:
         """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
-        found = components("gravity", self.gravity)
+        result = components("gravity", self.gravity)
         for joint, body in zip(self.joints, self.bodies, strict=True):
-            found |= body.numbers(joint.name)
-        return found
+            result |= body.numbers(joint.name)
+        return result
 
     def used(self) -> set[str]:
         """All of them."""

@@ -117,8 +117,8 @@ class Plant:
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> T:
         """The potential energy, J, in any arithmetic."""
-        found: T = self.at(sin, cos, lift, parameters).potential()
-        return found
+        result: T = self.at(sin, cos, lift, parameters).potential()
+        return result
 
     def fixed(self: P, **parameters: Fraction | int) -> P:
         """The same arm with every uncertain parameter of M and the potential at one exact value.

@@ -77,7 +77,7 @@ def read_torques(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed
 
 def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dict[int, Terms]:
     """The terms of one entry of C by the joint whose rate they have."""
-    found: dict[int, Terms] = {}
+    result: dict[int, Terms] = {}
     for place, term in enumerate(term_list(fields, key)):
         path = (*fields.path, key, place)
         words = (
@@ -93,5 +93,5 @@ def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dic
             fields, path, [term[0], rest], n, numbers
         )
         if read is not None:
-            found[rates[0]] = (*found.get(rates[0], ()), read)
-    return found
+            result[rates[0]] = (*result.get(rates[0], ()), read)
+    return result

@@ -38,9 +38,9 @@ def load(
     """
     if tip is not None and not str(name_or_path).lower().endswith(".urdf"):
         raise argument_error("tip", tip, f"{name_or_path} is no URDF file", "leave it out")
-    found = _loaded(name_or_path, tip, spread, vary)
-    require_known(found, vary)
-    return found
+    result = _loaded(name_or_path, tip, spread, vary)
+    require_known(result, vary)
+    return result
 
 
 def arm_file(name_or_path: str | Path) -> Path:

@@ -48,19 +48,19 @@ class Vary:
         Raises:
             InputError: text of another form, or an empty range.
         """
-        found = _FORM.fullmatch(text.replace(" ", "").replace("−", "-"))
+        result = _FORM.fullmatch(text.replace(" ", "").replace("−", "-"))
         repair = "write --vary viscous=-30%..+0%, or --vary payload=0..3"
-        if found is None or bool(found[3]) != bool(found[5]):
+        if result is None or bool(result[3]) != bool(result[5]):
             raise argument_error(OPTION, text, "is not of the form NAME=LO..HI", repair)
         try:
-            low, high = Fraction(found[2]), Fraction(found[4])
+            low, high = Fraction(result[2]), Fraction(result[4])
         except ValueError:
             raise argument_error(OPTION, text, "has an end that is no number", repair) from None
-        if found[3]:
+        if result[3]:
             low, high = 1 + low / 100, 1 + high / 100
         if low > high:
             raise argument_error(OPTION, text, "is an empty range", "give the smaller end first")
-        return cls(found[1], low, high, bool(found[3]))
+        return cls(result[1], low, high, bool(result[3]))
 
     @property
     def text(self) -> str:
@@ -84,10 +84,10 @@ class Vary:
 
 def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dict[str, Number]:
     """The numbers, those that are meant with their ranges."""
-    found = dict(numbers)
+    result = dict(numbers)
     for vary in varies:
-        found |= {key: vary.of(number) for key, number in found.items() if vary.matches(key)}
-    return found
+        result |= {key: vary.of(number) for key, number in result.items() if vary.matches(key)}
+    return result
 
 
 def varied(
@@ -103,7 +103,7 @@ def varied(
     Raises:
         InputError: a range with a friction below 0, or a mass that is not positive.
     """
-    told: dict[str, Number] = {}
+    moved: dict[str, Number] = {}
     changed: dict[str, Any] = {}
     for part in MOTOR:
         keys = [f"{joint}_{part}" for joint in model.joints]
@@ -111,11 +111,11 @@ def varied(
             key: number for key, number in zip(keys, getattr(model, part), strict=True) if number is not None
         }
         now = varied_numbers(known, varies) if part in parts else known
-        told |= {key: number for key, number in now.items() if number is not known[key]}
+        moved |= {key: number for key, number in now.items() if number is not known[key]}
         changed[part] = tuple(now.get(key) for key in keys)
     masses = _masses(model, varies, parts)
-    _require_physical(told | masses)
-    numbers = model.numbers | told | masses
+    _require_physical(moved | masses)
+    numbers = model.numbers | moved | masses
     if masses:
         chain = model.dynamics
         assert isinstance(chain, Chain)
@@ -136,15 +136,15 @@ def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> 
     known = {
         f"{joint}_mass": Number(link.mass, "kg") for joint, link in links if isinstance(link.mass, Fraction)
     }
-    found = varied_numbers(known, varies)
+    result = varied_numbers(known, varies)
     last = f"{model.joints[-1]}_mass"
     for vary in varies:
         if vary.name == PAYLOAD and last in known:
-            own = found[last]
-            found[last] = Number(
+            own = result[last]
+            result[last] = Number(
                 own.value + vary.low, "kg", low=own.bounds[0] + vary.low, high=own.bounds[1] + vary.high
             )
-    return {key: number for key, number in found.items() if number is not known[key] and number.ranged}
+    return {key: number for key, number in result.items() if number is not known[key] and number.ranged}
 
 
 def _require_physical(numbers: Mapping[str, Number]) -> None:

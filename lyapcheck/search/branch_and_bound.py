@@ -42,10 +42,10 @@ def certify(
 
     Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.loop.proves``.
     """
-    closure = problem.closure
-    if certifies(closure.tail, closure.eps0):
+    loop = problem.loop
+    if certifies(loop.tail, loop.eps0):
         return Outcome(True, 0, tree=".")
-    start = np.array(closure.start).T[None]
+    start = np.array(loop.start).T[None]
     sides = Splitter.of(problem).sides
     return cover(start, problem.proved, sides, max_boxes, on_progress, deadline)
 
@@ -57,28 +57,28 @@ class Splitter:
     problem: Problem
     angle_slopes: Array
     inertia: Array
-    whirl: float
+    coriolis: float
 
     @classmethod
     def of(cls, problem: Problem) -> Splitter:
         """Estimates from the sizes of the polynomials, relative to the friction of each joint."""
-        closure, arm = problem.closure, problem.arm
-        root = np.sqrt([float(low) for low, _ in closure.friction])
-        sizes = np.zeros((closure.n, closure.n))
-        slopes = np.zeros(len(closure.angles))
+        loop, arm = problem.loop, problem.arm
+        root = np.sqrt([float(low) for low, _ in loop.friction])
+        sizes = np.zeros((loop.n, loop.n))
+        slopes = np.zeros(len(loop.angles))
         for (i, j), entry in arm.mass.items():
             sizes[i, j] = sizes[j, i] = _size(problem, entry) / (root[i] * root[j])
-            for column, joint in enumerate(closure.angles):
+            for column, joint in enumerate(loop.angles):
                 slope = {p: derivative(terms, joint) for p, terms in entry.items()}
                 slopes[column] = max(slopes[column], _size(problem, slope) / (root[i] * root[j]))
-        whirl = max((_size(problem, t) for t in arm.christoffel.values()), default=0.0) / float(
+        coriolis = max((_size(problem, t) for t in arm.christoffel.values()), default=0.0) / float(
             root.min() ** 2
         )
-        return cls(problem, slopes, sizes.sum(axis=0), whirl)
+        return cls(problem, slopes, sizes.sum(axis=0), coriolis)
 
     def sides(self, boxes: Array) -> NDArray[np.intp]:
         """The side of every box that should be halved."""
-        first, n = len(self.problem.closure.angles), self.problem.closure.n
+        first, n = len(self.problem.loop.angles), self.problem.loop.n
         half = 0.5 * (boxes[:, 1] - boxes[:, 0])
         weights = np.empty_like(half)
         family, e = self.problem.family, self.problem.sides(boxes).e
@@ -86,7 +86,7 @@ class Splitter:
         weights[:, :first] = half[:, :first] * self.angle_slopes * steep
         for i, x in enumerate(e):
             bend, move = dh_range(family, x).radius, h_range(family, x).radius
-            weights[:, first + i] = self.inertia[i] * (bend + half[:, first + i] * 0.5) + self.whirl * move
+            weights[:, first + i] = self.inertia[i] * (bend + half[:, first + i] * 0.5) + self.coriolis * move
         uncertain = boxes[:, :, first + n :]
         middle = np.maximum(np.abs(uncertain.mean(axis=1)), 1e-12)
         weights[:, first + n :] = half[:, first + n :] / middle * self.inertia.max(initial=1.0)
@@ -95,7 +95,7 @@ class Splitter:
 
 def _size(problem: Problem, entry: Uncertain) -> float:
     """A rough bound of the size of a polynomial at the upper ends of its parameters."""
-    ends = [float(max(abs(low), abs(high))) for low, high in problem.closure.parameters]
+    ends = [float(max(abs(low), abs(high))) for low, high in problem.loop.parameters]
     return float(
         sum(float(largest(terms)) * float(np.prod(np.power(ends, powers))) for powers, terms in entry.items())
     )

@@ -10,10 +10,10 @@ from time import monotonic
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 
 SHARES = tuple(Fraction(n, 10_000) for n in (5000, 8000, 9000, 9500, 9800, 9900, 9950, 9980, 9992))
 """Shares of the falsified ε₀ that are tried one after the other."""
@@ -37,11 +37,11 @@ class Certified:
     @property
     def eps0(self) -> Fraction | None:
         """The largest ε₀ proved."""
-        return None if self.proof is None else self.proof.closure.eps0
+        return None if self.proof is None else self.proof.loop.eps0
 
 
 def certified_epsilon(
-    setting: Setting,
+    controlled: ControlledArm,
     ceiling: Fraction,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
@@ -51,7 +51,7 @@ def certified_epsilon(
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
 
     Args:
-        setting: gains and arm, with its ranges where the setting has them.
+        controlled: gains and arm, with its ranges where the setting has them.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
         jobs: processes for the checker.
@@ -63,48 +63,48 @@ def certified_epsilon(
 
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``, in balls.
     """
-    if not setting.family.bounded:
+    if not controlled.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
-    if setting.n > MOST_JOINTS:
+    if controlled.n > MOST_JOINTS:
         return Certified(None, 0, _MANY_JOINTS)
-    tell = on_progress or (lambda fraction, note: None)
+    progress = on_progress or (lambda fraction, note: None)
     deadline = math.inf if seconds is None else monotonic() + seconds
-    found, looked_at, reason = _attempts(setting, ceiling, max_boxes, deadline, tell)
-    while found:
-        proof = found.pop()
-        tell(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
+    result, looked_at, reason = _attempts(controlled, ceiling, max_boxes, deadline, progress)
+    while result:
+        proof = result.pop()
+        progress(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
         if proof.accepted(jobs):
             return Certified(proof, looked_at, reason)
-        reason = f"the boxes found for ε₀ = {float(proof.closure.eps0):.6g} were refused by the checker"
+        reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
     return Certified(None, looked_at, reason)
 
 
 def _attempts(
-    setting: Setting, ceiling: Fraction, max_boxes: int, deadline: float, tell: Progress
+    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, deadline: float, progress: Progress
 ) -> tuple[list[Proof], int, str]:
     """What the search believes to be proofs, of growing ε₀; boxes looked at; why it went no further."""
-    found: list[Proof] = []
+    result: list[Proof] = []
     looked_at = 0
     for index, share in enumerate(SHARES):
-        closure = setting.closure(_rounded_down(ceiling * share))
-        if not closure.admissible:
-            return found, looked_at, f"K_p is too small beside K_v for ε₀ = {float(closure.eps0):.6g}"
-        advance = _part(tell, index, f"{float(share):.1%} of falsified")
+        loop = controlled.loop(_rounded_down(ceiling * share))
+        if not loop.admissible:
+            return result, looked_at, f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
+        advance = _part(progress, index, f"{float(share):.1%} of falsified")
         advance(0.0, "")
-        outcome = certify(Problem(closure), max_boxes - looked_at, advance, deadline)
+        outcome = certify(Problem(loop), max_boxes - looked_at, advance, deadline)
         looked_at += outcome.boxes
         if not outcome.proved:
-            return found, looked_at, _advice(outcome.reason, closure.eps0, max_boxes)
-        found.append(Proof(closure, BoxTree(outcome.tree), setting.inertia_proof))
-    return found, looked_at, ""
+            return result, looked_at, _advice(outcome.reason, loop.eps0, max_boxes)
+        result.append(Proof(loop, BoxTree(outcome.tree), controlled.inertia_proof))
+    return result, looked_at, ""
 
 
-def _part(tell: Progress, index: int, label: str) -> Progress:
+def _part(progress: Progress, index: int, label: str) -> Progress:
     """The progress of one attempt: the share of the volume decided, and the boxes looked at."""
 
     def advance(fraction: float, note: str) -> None:
         decided = f", {note}, {fraction:.1%} of the volume decided" if note else ""
-        tell((index + fraction) / (len(SHARES) + 1), f"{label}{decided}")
+        progress((index + fraction) / (len(SHARES) + 1), f"{label}{decided}")
 
     return advance
 

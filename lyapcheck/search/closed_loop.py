@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.robots.trig import fraction
 
@@ -29,7 +29,7 @@ def closed_loop_of(
     *,
     ranges: bool = False,
     coupling: tuple[Fraction, ...] = (),
-) -> Closure:
+) -> ClosedLoop:
     """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
 
     Args:
@@ -45,7 +45,7 @@ def closed_loop_of(
     used = {
         k for row in mass for entry in row for powers, _ in entry for k, p in enumerate(powers[first:]) if p
     }
-    return Closure(
+    return ClosedLoop(
         arm=Arm(mass, tuple(number.value for number in model.viscous)),
         family=gains.family,
         m=gains.m,

@@ -10,9 +10,9 @@ import numpy as np
 
 from lyapcheck._types import Progress
 from lyapcheck.robots.plant import Plant
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import Witness, falsify
 from lyapcheck.search.sample import States, quadratic
-from lyapcheck.search.setting import Setting
 
 ROUNDS = 4
 """How often the worst corner is looked for at a new witness."""
@@ -22,8 +22,8 @@ Corner = dict[str, Fraction]
 
 
 def falsify_corners(
-    setting: Setting, starts: int, seed: int, on_progress: Progress | None = None
-) -> tuple[Setting, Witness | None]:
+    controlled: ControlledArm, starts: int, seed: int, on_progress: Progress | None = None
+) -> tuple[ControlledArm, Witness | None]:
     """The smallest ε₀ that a state refutes at some corner of the arm's ranges, and the arm at that corner.
 
     From the nominal arm: find a witness, move every uncertain number to the end at which that state refutes
@@ -31,32 +31,32 @@ def falsify_corners(
 
     Soundness: the witness is proved for the arm that is handed back, which is one of those meant.
     """
-    tell = on_progress or (lambda fraction, note: None)
-    best, witness = replace(setting, ranges=False), None
+    progress = on_progress or (lambda fraction, note: None)
+    best, witness = replace(controlled, ranges=False), None
     trial = best
     for turn in range(ROUNDS):
-        found = falsify(trial, starts, seed=seed, on_progress=_part(tell, turn))
-        if found is None or (witness is not None and found.eps0 >= witness.eps0):
+        result = falsify(trial, starts, seed=seed, on_progress=_part(progress, turn))
+        if result is None or (witness is not None and result.eps0 >= witness.eps0):
             break
-        best, witness = trial, found
-        trial = replace(setting, model=worst_corner(setting.model, best, witness), ranges=False)
+        best, witness = trial, result
+        trial = replace(controlled, model=worst_corner(controlled.model, best, witness), ranges=False)
     return best, witness
 
 
-def _part(tell: Progress, turn: int) -> Progress:
-    return lambda fraction, note: tell((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
+def _part(progress: Progress, turn: int) -> Progress:
+    return lambda fraction, note: progress((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
 
 
-def worst_corner(model: Plant, at: Setting, witness: Witness) -> Plant:
+def worst_corner(model: Plant, at: ControlledArm, witness: Witness) -> Plant:
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
     states = _states(witness)
     corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
     chosen, merit = at.model, _merit(at, states)
     for moved in _moves(model, corner):
         trial = at_corner(model, chosen, moved)
-        found = _merit(replace(at, model=trial), states)
-        if found > merit:
-            chosen, merit = trial, found
+        result = _merit(replace(at, model=trial), states)
+        if result > merit:
+            chosen, merit = trial, result
             corner.update(moved)
     return chosen
 
@@ -91,6 +91,6 @@ def _states(witness: Witness) -> States:
     return States(*(np.array([[float(x) for x in part]]) for part in parts))
 
 
-def _merit(setting: Setting, states: States) -> float:
+def _merit(controlled: ControlledArm, states: States) -> float:
     """The 1/ε₀ that the state refutes."""
-    return float(quadratic(setting, states).reciprocal()[0])
+    return float(quadratic(controlled, states).reciprocal()[0])

@@ -18,6 +18,7 @@ from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_arm import not_positive
 from lyapcheck.search.decay_digits import as_written, short_above, short_below
 from lyapcheck.search.decay_input import Start, start_of, torques_of
@@ -25,7 +26,6 @@ from lyapcheck.search.decay_levels import Descent, descent
 from lyapcheck.search.decay_rest import resting
 from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Shown, accepted
 from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
-from lyapcheck.search.setting import Setting
 
 COARSE = 0.6
 FINE = 0.93
@@ -38,7 +38,7 @@ NO_MARGIN = "no margin of dV/dt < 0 was proved"
 
 
 def settling_bound(
-    setting: Setting,
+    controlled: ControlledArm,
     e0: Sequence[float],
     w0: Sequence[float] | None = None,
     delta: float = math.radians(1.0),
@@ -52,7 +52,7 @@ def settling_bound(
     T = Σ (v_k − v_{k+1})/φ_k over levels of V from V at the start down to min k_pi U(δ).
 
     Args:
-        setting: gains and arm, at nominal numbers.
+        controlled: gains and arm, at nominal numbers.
         e0: (n,) q_d − q at the start, rad; it holds for all starts that are no farther, joint by joint.
         w0: (n,) rates at the start, rad/s, and likewise; rest if missing.
         delta: δ > 0, rad.
@@ -67,18 +67,18 @@ def settling_bound(
 
     References: ``reyes2019family`` (11), (12), (15).
     """
-    start = start_of(setting, e0, w0, delta)
-    wanted = _Wanted(setting, Disturbance.none(setting.n), start, short_below(as_written(delta)))
-    shown, reason = None, not_positive(setting)
+    start = start_of(controlled, e0, w0, delta)
+    wanted = _Wanted(controlled, Disturbance.none(controlled.n), start, short_below(as_written(delta)))
+    shown, reason = None, not_positive(controlled)
     if not reason:
         shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
-    gains, robot = setting.gains, setting.model.name
+    gains, robot = controlled.gains, controlled.model.name
     exponential = gains.m in (None, 1)
     return SettlingBound(gains.name, gains.m, robot, shown, reason, as_written(delta), exponential)
 
 
 def disturbance_bound(
-    setting: Setting,
+    controlled: ControlledArm,
     e0: Sequence[float],
     w0: Sequence[float] | None = None,
     torque: Sequence[Fraction | float] = (),
@@ -91,7 +91,7 @@ def disturbance_bound(
     """A level of V, and with it errors, that every motion from a start comes down to under a disturbance.
 
     Args:
-        setting: gains and arm, at nominal numbers.
+        controlled: gains and arm, at nominal numbers.
         e0: (n,) q_d − q at the start, rad; it holds for all starts that are no farther, joint by joint.
         w0: (n,) rates at the start, rad/s, and likewise; rest if missing.
         torque: (n,) bounds of a torque of any sign, N·m; none if empty.
@@ -107,14 +107,14 @@ def disturbance_bound(
 
     References: ``reyes2019family`` (11), (12), (15).
     """
-    start = start_of(setting, e0, w0, 1.0)
-    acting = Disturbance(torques_of(setting, "torque", torque), torques_of(setting, "dry", dry))
-    wanted = _Wanted(setting, acting, start, None)
-    shown, reason, at_rest = None, not_positive(setting), None
+    start = start_of(controlled, e0, w0, 1.0)
+    acting = Disturbance(torques_of(controlled, "torque", torque), torques_of(controlled, "dry", dry))
+    wanted = _Wanted(controlled, acting, start, None)
+    shown, reason, at_rest = None, not_positive(controlled), None
     if not reason:
         shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
-        at_rest = resting(setting, [a + b for a, b in zip(acting.torque, acting.dry, strict=True)])
-    gains, robot = setting.gains, setting.model.name
+        at_rest = resting(controlled, [a + b for a, b in zip(acting.torque, acting.dry, strict=True)])
+    gains, robot = controlled.gains, controlled.model.name
     return DisturbanceBound(gains.name, gains.m, robot, shown, reason, acting.torque, acting.dry, at_rest)
 
 
@@ -122,22 +122,22 @@ def disturbance_bound(
 class _Wanted:
     """What is asked: errors to come below (the goal, rad), or without one the lowest level of V."""
 
-    setting: Setting
+    controlled: ControlledArm
     acting: Disturbance
     start: Start
     goal: Fraction | None
 
-    def shown(self, max_boxes: int, jobs: int, tell: Progress) -> tuple[Shown | None, str]:
+    def shown(self, max_boxes: int, jobs: int, progress: Progress) -> tuple[Shown | None, str]:
         """The best statement that the checker accepts, or why there is none."""
-        tell(0.05, "margins by samples")
-        found = candidates(self.setting, any(self.acting.torque))
-        rows = ((self._worth(margin), margin.friction, margin) for margin in found)
+        progress(0.05, "margins by samples")
+        result = candidates(self.controlled, any(self.acting.torque))
+        rows = ((self._worth(margin), margin.friction, margin) for margin in result)
         ranked = sorted((row for row in rows if row[0] < math.inf), key=lambda row: row[:2])
         if not ranked:
-            return None, NO_MARGIN if not found else NOT_FALLING if self.goal is not None else TOO_LARGE
+            return None, NO_MARGIN if not result else NOT_FALLING if self.goal is not None else TOO_LARGE
         for index, (_, friction, margin) in enumerate(ranked):
-            tell(0.3 + 0.08 * index, f"proving a margin, η = {float(friction):g}")
-            for attempt in attempts(self.setting, margin, max_boxes):
+            progress(0.3 + 0.08 * index, f"proving a margin, η = {float(friction):g}")
+            for attempt in attempts(self.controlled, margin, max_boxes):
                 claim = self._claim(attempt)
                 if claim is not None and accepted(claim.statement, claim.proof, jobs):
                     return claim, ""
@@ -145,39 +145,39 @@ class _Wanted:
 
     def _worth(self, margin: Margin) -> float:
         """The time to the goal, or the level reached; infinite for none."""
-        found = self._descent(margin, COARSE)
-        return math.inf if found is None else float(found.level if self.goal is None else found.time)
+        result = self._descent(margin, COARSE)
+        return math.inf if result is None else float(result.level if self.goal is None else result.time)
 
     def _descent(self, margin: Margin, ratio: float) -> Descent | None:
         try:
             estimate = Estimate(margin, self.acting)
-            return descent(estimate, self.setting.family, self.start, self.goal, ratio)
+            return descent(estimate, self.controlled.family, self.start, self.goal, ratio)
         except ValueError:  # a level of V that allows errors beyond all bounds
             return None
 
     def _claim(self, attempt: Attempt) -> Shown | None:
         """What there is to be judged."""
         margin = attempt.margin
-        found = self._descent(margin, FINE)
-        if found is None:
+        result = self._descent(margin, FINE)
+        if result is None:
             return None
-        estimate, closure, inertia = Estimate(margin, self.acting), margin.closure, margin.inertia
-        largest, last = (_short(estimate.reach(level)) for level in (found.envelope[0][1], found.level))
+        estimate, loop, inertia = Estimate(margin, self.acting), margin.loop, margin.inertia
+        largest, last = (_short(estimate.reach(level)) for level in (result.envelope[0][1], result.level))
         statement = Settling(
-            mass=closure.arm.mass,
-            viscous=closure.arm.viscous,
-            family=closure.family,
-            m=closure.m,
-            kp=closure.kp,
-            kv=closure.kv,
-            eps0=closure.eps0,
+            mass=loop.arm.mass,
+            viscous=loop.arm.viscous,
+            family=loop.family,
+            m=loop.m,
+            kp=loop.kp,
+            kv=loop.kv,
+            eps0=loop.eps0,
             torque=self.acting.torque,
             dry=self.acting.dry,
             errors_at_start=self.start[0],
             rates_at_start=self.start[1],
-            envelope=found.envelope,
+            envelope=result.envelope,
             largest_errors=largest,
-            errors=last if self.goal is None else (self.goal,) * self.setting.n,
+            errors=last if self.goal is None else (self.goal,) * self.controlled.n,
         )
         proof = FallingLevels(
             margin.friction,
@@ -185,8 +185,8 @@ class _Wanted:
             margin.split,
             margin.slack,
             RadialBounds(inertia.weights, inertia.inertia, inertia.lowest, inertia.angles, inertia.tree, ()),
-            PositiveAndDecreasing(self.setting.inertia_proof, attempt.by),
-            found.slopes,
+            PositiveAndDecreasing(self.controlled.inertia_proof, attempt.by),
+            result.slopes,
         )
         return Shown(statement, proof)
 

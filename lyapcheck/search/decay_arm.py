@@ -8,28 +8,29 @@ from math import degrees
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 
 
-def not_positive(setting: Setting) -> str:
+def not_positive(controlled: ControlledArm) -> str:
     """Why nothing is certified of an arm whose M(q) ≻ 0 is not proved; empty where it is."""
     from lyapcheck.claims.procedures.inertia import find_mass_above
 
-    statement = MassAbove(setting.arm.mass, (), Fraction(0))
+    statement = MassAbove(controlled.arm.mass, (), Fraction(0))
     try:
-        if verify(statement, setting.inertia_proof).verdict == "proved":
+        if verify(statement, controlled.inertia_proof).verdict == "proved":
             return ""
     except Refused:
         pass
-    found = find_mass_above(statement)
-    if found.is_proof:
+    result = find_mass_above(statement)
+    if result.is_proof:
         return ""
-    if not isinstance(found.proof, PostureWitness):
+    if not isinstance(result.proof, PostureWitness):
         return (
-            f"M(q) is not shown to be positive definite at every q; check the inertia of {setting.model.name}"
+            f"M(q) is not shown to be positive definite at every q; check the inertia "
+            f"of {controlled.model.name}"
         )
-    posture = ", ".join(f"{degrees(x):.4g}°" for x in found.proof.q)
+    posture = ", ".join(f"{degrees(x):.4g}°" for x in result.proof.q)
     return (
         f"M(q) is not positive definite at q = ({posture}), so V is no energy; "
-        f"correct the inertia of {setting.model.name}"
+        f"correct the inertia of {controlled.model.name}"
     )

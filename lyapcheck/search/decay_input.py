@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import as_written, short_above
-from lyapcheck.search.setting import Setting
 
 Start = tuple[tuple[Fraction, ...], tuple[Fraction, ...]]
 """Bounds of |e_i| in rad and of |w_i| in rad/s."""
@@ -19,15 +19,17 @@ FASTEST = 1e3
 """rad/s, as for simulations."""
 
 
-def start_of(setting: Setting, e0: Sequence[float], w0: Sequence[float] | None, delta: float) -> Start:
+def start_of(
+    controlled: ControlledArm, e0: Sequence[float], w0: Sequence[float] | None, delta: float
+) -> Start:
     """What the start is within, in few digits, or every problem with it at once."""
-    if not setting.family.bounded:
-        rule = f"{setting.gains.name} has an unbounded h, of which no margin is known"
-        raise argument_error("gains", setting.gains.name, rule, "choose gains of a bounded family")
-    if setting.ranges:
+    if not controlled.family.bounded:
+        rule = f"{controlled.gains.name} has an unbounded h, of which no margin is known"
+        raise argument_error("gains", controlled.gains.name, rule, "choose gains of a bounded family")
+    if controlled.ranges:
         raise argument_error("ranges", "", "bounds are for the nominal arm only", "leave the ranges out")
-    rates = (0.0,) * setting.n if w0 is None else w0
-    problems = [*_vector("e0", e0, setting.n, LARGEST), *_vector("w0", rates, setting.n, FASTEST)]
+    rates = (0.0,) * controlled.n if w0 is None else w0
+    problems = [*_vector("e0", e0, controlled.n, LARGEST), *_vector("w0", rates, controlled.n, FASTEST)]
     if not 0.0 < delta <= LARGEST:
         rule = f"must be more than 0 and at most {LARGEST:g} rad"
         problems.append(Problem("argument", None, "delta", str(delta), rule, "give a small angle"))
@@ -49,12 +51,14 @@ def _vector(name: str, values: Sequence[float], n: int, most: float) -> list[Pro
     return [Problem("argument", None, name, text, rule, f"give {n} values, one a joint")]
 
 
-def torques_of(setting: Setting, name: str, values: Sequence[Fraction | float]) -> tuple[Fraction, ...]:
+def torques_of(
+    controlled: ControlledArm, name: str, values: Sequence[Fraction | float]
+) -> tuple[Fraction, ...]:
     """Torques, one a joint and none below 0."""
     if not values:
-        return (Fraction(0),) * setting.n
-    if len(values) != setting.n or not all(math.isfinite(x) and x >= 0 for x in values):
+        return (Fraction(0),) * controlled.n
+    if len(values) != controlled.n or not all(math.isfinite(x) and x >= 0 for x in values):
         text = ", ".join(f"{float(x):g}" for x in values)
-        rule = f"must be {setting.n} finite torques in N·m, none below 0"
+        rule = f"must be {controlled.n} finite torques in N·m, none below 0"
         raise argument_error(name, text, rule, "give one bound a joint")
     return tuple(as_written(x) for x in values)

@@ -64,23 +64,23 @@ def descent(
         return Descent(((Fraction(0), first),), ())
     if last == 0:
         return None
-    found = _descend(estimate, family, first, last, ratio)
-    return found if found.level == last else None
+    result = _descend(estimate, family, first, last, ratio)
+    return result if result.level == last else None
 
 
 def level_within(estimate: Estimate, e: Fraction) -> Fraction:
     """A level, J: V ≤ that is enough for every |e_i| ≤ e. It is min k_pi U(e), from below."""
     with precision(BITS):
-        least = estimate.member.potential(to_arb(e)) * to_arb(min(estimate.margin.closure.kp))
+        least = estimate.member.potential(to_arb(e)) * to_arb(min(estimate.margin.loop.kp))
         return max(Enclosure.from_arb(least).lower, Fraction(0))
 
 
 def _lowest(estimate: Estimate, family: Family, first: Fraction, ratio: float) -> Descent | None:
     """From the first level, or a higher one: near the goal a disturbance may make V rise."""
     for power in range(RISES):
-        found = _descend(estimate, family, first * RISE**power, first * DEEPEST, ratio)
-        if found.slopes:
-            return found
+        result = _descend(estimate, family, first * RISE**power, first * DEEPEST, ratio)
+        if result.slopes:
+            return result
     return None
 
 

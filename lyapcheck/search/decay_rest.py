@@ -11,18 +11,18 @@ from fractions import Fraction
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.loop.decay.rest import rests_within
 from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_above
 from lyapcheck.search.decay_results import AT_REST, accepted
-from lyapcheck.search.setting import Setting
 
 HALVINGS = 50
 FARTHEST = 2**10
 """rad: larger bounds are as good as none."""
 
 
-def resting(setting: Setting, torque: Sequence[Fraction]) -> Resting | None:
+def resting(controlled: ControlledArm, torque: Sequence[Fraction]) -> Resting | None:
     """Bounds of |e_i| at states of rest under torques |d_i| ≤ ``torque``; none where no joint has one."""
-    gains = setting.gains
+    gains = controlled.gains
     h, kp = member(gains.family, gains.m), tuple(gains.kp)
     errors = tuple(_error(h, d / k) for d, k in zip(torque, kp, strict=True))
     statement = Resting(gains.family, gains.m, kp, tuple(torque), errors)

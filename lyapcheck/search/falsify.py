@@ -16,6 +16,7 @@ from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import (
     States,
     fastest_directions,
@@ -25,7 +26,6 @@ from lyapcheck.search.sample import (
     spread,
     worst_rates,
 )
-from lyapcheck.search.setting import Setting
 from lyapcheck.search.worst_states import (
     fast_states,
     finite_states,
@@ -74,7 +74,7 @@ class Witness:
 
 
 def falsify(
-    setting: Setting,
+    controlled: ControlledArm,
     starts: int = STARTS,
     samples: int = SAMPLES,
     seed: int = SEED,
@@ -83,7 +83,7 @@ def falsify(
     """The smallest ε₀ for which a state with dV/dt > 0 was found and confirmed, with that state.
 
     Args:
-        setting: gains and arm.
+        controlled: gains and arm.
         starts: how many starts for each of the optimised programs.
         samples: how many random states they are chosen from.
         seed: of the random numbers.
@@ -95,20 +95,20 @@ def falsify(
     Soundness: the witness is proved by `lyapcheck.check.loop.states` from exact data; nothing says that no
         smaller ε₀ fails.
     """
-    tell = on_progress or (lambda fraction, note: None)
-    found: list[tuple[float, str, State]] = []
-    for share, (kind, states) in enumerate(_candidates(setting, starts, samples, seed), start=1):
-        tell(share / _STEPS, f"{kind} states")
-        found += _best(setting, kind, states)
-    for reciprocal, kind, state in sorted(found, key=lambda entry: -entry[0]):
-        witness = _confirm(setting, reciprocal, kind, state)
+    progress = on_progress or (lambda fraction, note: None)
+    result: list[tuple[float, str, State]] = []
+    for share, (kind, states) in enumerate(_candidates(controlled, starts, samples, seed), start=1):
+        progress(share / _STEPS, f"{kind} states")
+        result += _best(controlled, kind, states)
+    for reciprocal, kind, state in sorted(result, key=lambda entry: -entry[0]):
+        witness = _confirm(controlled, reciprocal, kind, state)
         if witness is not None:
             return witness
     return None
 
 
 def worst_states(
-    setting: Setting,
+    controlled: ControlledArm,
     eps0: float,
     starts: int = STARTS,
     samples: int = SAMPLES,
@@ -119,18 +119,20 @@ def worst_states(
 
     Soundness: none; evidence for a reader.
     """
-    states = sample(setting, samples, seed)
-    merit = steepness(setting, eps0, states)
+    states = sample(controlled, samples, seed)
+    merit = steepness(controlled, eps0, states)
     chosen = spread(states, merit, starts)
-    climbed = steepest_states(setting, eps0, states.take(chosen))
-    return _described(setting, eps0, "sampled", states, keep) + _described(
-        setting, eps0, "optimised", climbed, keep
+    climbed = steepest_states(controlled, eps0, states.take(chosen))
+    return _described(controlled, eps0, "sampled", states, keep) + _described(
+        controlled, eps0, "optimised", climbed, keep
     )
 
 
-def _described(setting: Setting, eps0: float, kind: str, states: States, keep: int) -> tuple[WorstState, ...]:
-    relative = steepness(setting, eps0, states)
-    rates = quadratic(setting, states).at(eps0)
+def _described(
+    controlled: ControlledArm, eps0: float, kind: str, states: States, keep: int
+) -> tuple[WorstState, ...]:
+    relative = steepness(controlled, eps0, states)
+    rates = quadratic(controlled, states).at(eps0)
     order = np.argsort(-relative, kind="stable")[:keep]
     return tuple(
         WorstState(
@@ -150,62 +152,66 @@ def _plain(row: Array) -> tuple[float, ...]:
     return tuple(float(x) for x in row)
 
 
-def _candidates(setting: Setting, starts: int, samples: int, seed: int) -> Iterator[tuple[str, States]]:
+def _candidates(
+    controlled: ControlledArm, starts: int, samples: int, seed: int
+) -> Iterator[tuple[str, States]]:
     """States that refute a small ε₀, from plain sampling to the optimised programs."""
-    states = sample(setting, samples, seed)
-    chosen = _promising(setting, states, starts)
+    states = sample(controlled, samples, seed)
+    chosen = _promising(controlled, states, starts)
     yield "sampled", chosen
-    speed, directions = fastest_directions(setting, states.q, states.e)
+    speed, directions = fastest_directions(controlled, states.q, states.e)
     picked = spread(states, speed, starts)
-    fast = fast_states(setting, States(states.q[picked], states.e[picked], directions[picked]))
+    fast = fast_states(controlled, States(states.q[picked], states.e[picked], directions[picked]))
     yield "fast", fast
-    yield "level", level_states(setting, States(states.q[picked], states.e[picked], directions[picked]))
-    yield "finite", finite_states(setting, chosen)
-    yield "finite", finite_states(setting, _leaving(setting, fast, starts))
-    yield from _slow_candidates(setting, starts, samples, seed)
+    yield "level", level_states(controlled, States(states.q[picked], states.e[picked], directions[picked]))
+    yield "finite", finite_states(controlled, chosen)
+    yield "finite", finite_states(controlled, _leaving(controlled, fast, starts))
+    yield from _slow_candidates(controlled, starts, samples, seed)
 
 
-def _slow_candidates(setting: Setting, starts: int, samples: int, seed: int) -> Iterator[tuple[str, States]]:
+def _slow_candidates(
+    controlled: ControlledArm, starts: int, samples: int, seed: int
+) -> Iterator[tuple[str, States]]:
     """States near the origin, and those of weak gains: there the linear terms in w decide."""
-    states = slow_sample(setting, samples, seed)
-    chosen = _promising(setting, states, starts)
+    states = slow_sample(controlled, samples, seed)
+    chosen = _promising(controlled, states, starts)
     yield "slow", chosen
-    yield "slow", slow_states(setting, chosen, _WIDE)
-    if setting.family.dh(0.0) > 0:
+    yield "slow", slow_states(controlled, chosen, _WIDE)
+    if controlled.family.dh(0.0) > 0:
         near = States(states.q, states.e * _NEAR / 10, states.w * _NEAR / 10)
-        chosen = _promising(setting, worst_rates(setting, near), starts)
+        chosen = _promising(controlled, worst_rates(controlled, near), starts)
         yield "slow", chosen
-        yield "slow", slow_states(setting, chosen, _NEAR)
+        yield "slow", slow_states(controlled, chosen, _NEAR)
 
 
-def _promising(setting: Setting, states: States, count: int) -> States:
-    return states.take(spread(states, quadratic(setting, states).reciprocal(), count))
+def _promising(controlled: ControlledArm, states: States, count: int) -> States:
+    return states.take(spread(states, quadratic(controlled, states).reciprocal(), count))
 
 
-def _leaving(setting: Setting, fast: States, starts: int) -> States:
+def _leaving(controlled: ControlledArm, fast: States, starts: int) -> States:
     """Fast states at moderate rates, both ways, from which the finite program starts."""
-    speed, _ = fastest_directions(setting, fast.q, fast.e)
+    speed, _ = fastest_directions(controlled, fast.q, fast.e)
     best = fast.take(spread(fast, speed, max(1, starts // 6)))
     scales = [sign * t for t in (3.0, 30.0, 300.0) for sign in (1, -1)]
     parts = [best.scaled(scale) for scale in scales]
     return States(*(np.vstack([getattr(part, name) for part in parts]) for name in "qew"))
 
 
-def _best(setting: Setting, kind: str, states: States) -> list[tuple[float, str, State]]:
+def _best(controlled: ControlledArm, kind: str, states: States) -> list[tuple[float, str, State]]:
     """The three best of the states, each with the smallest rates that are as good as any."""
-    reciprocals = np.array([_rounded_reciprocals(setting, states, scale) for scale in _SCALES])
+    reciprocals = np.array([_rounded_reciprocals(controlled, states, scale) for scale in _SCALES])
     best = reciprocals.max(axis=0)
-    found = []
+    result = []
     for i in np.argsort(-best, kind="stable")[:3]:
         if best[i] > 0:
             enough = int(np.argmax(reciprocals[:, i] >= best[i] * (1 - 1e-6)))
             q, e, w = (_exact(part[i]) for part in (states.q, states.e, states.w * _SCALES[enough]))
-            found.append((float(reciprocals[enough, i]), kind, State(q, e, w)))
-    return found
+            result.append((float(reciprocals[enough, i]), kind, State(q, e, w)))
+    return result
 
 
-def _rounded_reciprocals(setting: Setting, states: States, scale: float) -> Array:
-    return quadratic(setting, states.scaled(scale)).reciprocal()
+def _rounded_reciprocals(controlled: ControlledArm, states: States, scale: float) -> Array:
+    return quadratic(controlled, states.scaled(scale)).reciprocal()
 
 
 def _exact(row: Array) -> tuple[Fraction, ...]:
@@ -214,13 +220,13 @@ def _exact(row: Array) -> tuple[Fraction, ...]:
     return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
 
 
-def _confirm(setting: Setting, reciprocal: float, kind: str, state: State) -> Witness | None:
+def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> Witness | None:
     """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
     for slack in _SLACKS:
         eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
-        if confirms_positive(setting.arm, setting.controller, eps0, state):
+        if confirms_positive(controlled.arm, controlled.controller, eps0, state):
             with precision(_SHOWN_BITS):
-                shown = rate(setting.arm, setting.controller, eps0, state, _SHOWN_BITS)
+                shown = rate(controlled.arm, controlled.controller, eps0, state, _SHOWN_BITS)
                 return Witness(eps0, state, Enclosure.from_arb(shown), kind)
     return None
 

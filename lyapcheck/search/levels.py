@@ -28,7 +28,7 @@ class Slopes:
         self.estimate = estimate
         self.steepest = float(estimate.steepest)
         self.family = family
-        self.kp = [float(k) for k in estimate.margin.closure.kp]
+        self.kp = [float(k) for k in estimate.margin.loop.kp]
         self.c = [float(c) for c in estimate.stiffness]
         self.f = [float(f) for f in estimate.disturbance.dry]
 
@@ -45,8 +45,8 @@ class Slopes:
         def inside(slope: float) -> float:
             return slope * float(low) + sum(float(np.min(g - slope * u)) for g, u in parts)
 
-        found = min(Fraction(_peak(inside, self.steepest)), self.estimate.steepest)
-        return found
+        result = min(Fraction(_peak(inside, self.steepest)), self.estimate.steepest)
+        return result
 
 
 def _peak(value: Callable[[float], float], end: float) -> float:

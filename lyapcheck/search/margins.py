@@ -11,14 +11,14 @@ import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.decay import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.radial import holds_radially, radial_data
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 
 FRICTION = tuple(Fraction(k, 100) for k in (8, 15, 25, 40, 60))
 """The η that are weighed against each other: less for the proof allows less ε₀."""
@@ -41,57 +41,57 @@ class Attempt:
     by: BoxTree | RadialBounds
 
 
-def candidates(setting: Setting, disturbed: bool) -> list[Margin]:
+def candidates(controlled: ControlledArm, disturbed: bool) -> list[Margin]:
     """One margin for each η, with the largest ε₀ that samples, or the bounds in ‖e‖, allow.
 
     Args:
-        setting: gains and nominal arm, with a bounded h.
+        controlled: gains and nominal arm, with a bounded h.
         disturbed: whether damping has to be left for disturbances.
     """
-    inertia = radial_data(setting)
+    inertia = radial_data(controlled)
     if inertia is None:
         return []
     slack = SLACK if disturbed else Fraction(0)
-    allows = _by_samples(setting) if setting.n <= MOST_JOINTS else _by_bounds(inertia)
-    found = []
+    allows = _by_samples(controlled) if controlled.n <= MOST_JOINTS else _by_bounds(inertia)
+    result = []
     for friction in FRICTION:
 
         def holds(eps0: Fraction, eta: Fraction = friction) -> bool:
-            return allows(margin_at(setting, eps0, eta, slack, inertia).reduced)
+            return allows(margin_at(controlled, eps0, eta, slack, inertia).reduced)
 
         eps0 = _largest(holds)
         if eps0 > 0:
-            found.append(margin_at(setting, eps0, friction, slack, inertia))
-    return found
+            result.append(margin_at(controlled, eps0, friction, slack, inertia))
+    return result
 
 
 def margin_at(
-    setting: Setting, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: RadialBounds
+    controlled: ControlledArm, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: RadialBounds
 ) -> Margin:
     """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
-    closure = setting.closure(eps0)
-    rows = zip(closure.arm.viscous, closure.kp, strict=True)
+    loop = controlled.loop(eps0)
+    rows = zip(loop.arm.viscous, loop.kp, strict=True)
     split = max(friction * b * eps0 / (4 * LOSS * STIFFNESS * k) for b, k in rows)
-    return Margin(closure, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
+    return Margin(loop, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
 
 
-def attempts(setting: Setting, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
+def attempts(controlled: ControlledArm, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
     """The margin at falling shares of its ε₀, wherever the search finds data; for the checker to judge."""
     for share in SHARES:
-        eps0 = _short(margin.closure.eps0 * share)
-        tried = margin_at(setting, eps0, margin.friction, margin.slack, margin.inertia)
-        by = _data(setting, tried, max_boxes)
+        eps0 = _short(margin.loop.eps0 * share)
+        tried = margin_at(controlled, eps0, margin.friction, margin.slack, margin.inertia)
+        by = _data(controlled, tried, max_boxes)
         if by is not None:
             yield Attempt(tried, by)
 
 
-def _data(setting: Setting, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:
+def _data(controlled: ControlledArm, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:
     """Untrusted data for the reduced closure."""
-    closure = margin.reduced
-    if not closure.admissible:
+    loop = margin.reduced
+    if not loop.admissible:
         return None
-    if setting.n <= MOST_JOINTS:
-        outcome = certify(Problem(closure), max_boxes)
+    if controlled.n <= MOST_JOINTS:
+        outcome = certify(Problem(loop), max_boxes)
         return BoxTree(outcome.tree) if outcome.proved else None
     data = reduced_radial(margin)
     return data
@@ -113,28 +113,28 @@ def _root_below(value: Fraction) -> Fraction:
     return Fraction(math.isqrt(math.floor(value * 10**12)), 10**6)
 
 
-def _by_samples(setting: Setting) -> Callable[[Closure], bool]:
+def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
     """Whether P ≻ 0 at random q and e of all sizes."""
     random = np.random.default_rng(SEED)
-    angles = len(setting.closure(Fraction(1)).angles)
+    angles = len(controlled.loop(Fraction(1)).angles)
     q = random.uniform(-np.pi, np.pi, (SAMPLES, angles))
-    e = random.normal(size=(SAMPLES, setting.n))
+    e = random.normal(size=(SAMPLES, controlled.n))
     e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
     points = np.hstack((q, e))
     boxes = np.stack((points, points), axis=1)
 
-    def allows(closure: Closure) -> bool:
-        return closure.admissible and bool(Problem(closure).proved(boxes).all())
+    def allows(loop: ClosedLoop) -> bool:
+        return loop.admissible and bool(Problem(loop).proved(boxes).all())
 
     return allows
 
 
-def _by_bounds(inertia: RadialBounds) -> Callable[[Closure], bool]:
+def _by_bounds(inertia: RadialBounds) -> Callable[[ClosedLoop], bool]:
     """Whether the inequality in ‖e‖ holds."""
 
-    def allows(closure: Closure) -> bool:
-        rows = zip(closure.arm.viscous, inertia.weights, strict=True)
-        return holds_radially(closure, _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows)))
+    def allows(loop: ClosedLoop) -> bool:
+        rows = zip(loop.arm.viscous, inertia.weights, strict=True)
+        return holds_radially(loop, _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows)))
 
     return allows
 

@@ -12,41 +12,43 @@ from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.inertia import Bisection, Links
-    from lyapcheck.check.loop import Closure
+    from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.check.statement import Ends
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 REFUSED = "the checker accepted no proof"
 UNBOUNDED = "h is unbounded, and the checker needs its bound γ"
 
 
-def norm_epsilon(setting: Setting, viscous: tuple[Ends, ...] | None = None) -> tuple[Proof | None, str]:
+def norm_epsilon(
+    controlled: ControlledArm, viscous: tuple[Ends, ...] | None = None
+) -> tuple[Proof | None, str]:
     """A proof that the checker has accepted, or why there is none.
 
     Args:
-        setting: gains and arm.
+        controlled: gains and arm.
         viscous: the range of each diagonal entry of B that replaces the arm's, N·m·s/rad.
     """
-    if not setting.family.bounded:
+    if not controlled.family.bounded:
         return None, UNBOUNDED
-    closure = setting.closure(Fraction(1))
+    loop = controlled.loop(Fraction(1))
     if viscous is not None:
-        closure = replace(closure, viscous=viscous)
-    return norm_proof(closure, setting.inertia_proof)
+        loop = replace(loop, viscous=viscous)
+    return norm_proof(loop, controlled.inertia_proof)
 
 
 def norm_proof(
-    closure: Closure, inertia: Bisection | Links, *, conic: bool = True
+    loop: ClosedLoop, inertia: Bisection | Links, *, conic: bool = True
 ) -> tuple[Proof | None, str]:
     """The same for a closed loop whose ε₀ is to be found.
 
     Args:
-        closure: the loop.
+        loop: the loop.
         inertia: what shows M(q) ≻ 0.
         conic: propose ε₀ by the conic program, and not by bisection, which loads nothing.
     """
-    found = scalar_epsilon(closure.tail, conic=conic)
-    if found.eps0 is None:
-        return None, found.reason
-    proof = Proof(replace(closure, eps0=found.eps0), BoxTree("."), inertia)
+    result = scalar_epsilon(loop.tail, conic=conic)
+    if result.eps0 is None:
+        return None, result.reason
+    proof = Proof(replace(loop, eps0=result.eps0), BoxTree("."), inertia)
     return (proof, "") if proof.accepted() else (None, REFUSED)

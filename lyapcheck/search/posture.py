@@ -14,22 +14,22 @@ from lyapcheck.check.verify import verify
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 POSTURES = 20_000
 DIGITS = 4
 
 
-def unphysical(setting: Setting) -> str:
+def unphysical(controlled: ControlledArm) -> str:
     """Why no V of this arm is a Lyapunov function, in one sentence; empty where M(q) ≻ 0 is proved."""
-    closure = setting.closure(Fraction(1))
-    statement = MassAbove(closure.arm.mass, closure.parameters, Fraction(0))
+    loop = controlled.loop(Fraction(1))
+    statement = MassAbove(loop.arm.mass, loop.parameters, Fraction(0))
     try:
-        if verify(statement, setting.inertia_proof).verdict == "proved":
+        if verify(statement, controlled.inertia_proof).verdict == "proved":
             return ""
     except Refused:
         pass
-    against = _against(setting, closure.parameters)
+    against = _against(controlled, loop.parameters)
     try:
         refuted = against is not None and verify(statement, against).verdict == "refuted"
     except Refused:
@@ -40,15 +40,17 @@ def unphysical(setting: Setting) -> str:
     return f"M(q) is not positive definite at q = ({q}) rad; correct the masses and inertias"
 
 
-def _against(setting: Setting, parameters: tuple[tuple[Fraction, Fraction], ...]) -> PostureWitness | None:
+def _against(
+    controlled: ControlledArm, parameters: tuple[tuple[Fraction, Fraction], ...]
+) -> PostureWitness | None:
     """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive."""
-    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, setting.n))
+    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, controlled.n))
     q = np.round(q, DIGITS)
-    sizes, vectors = np.linalg.eigh(setting.numeric.mass(q))
+    sizes, vectors = np.linalg.eigh(controlled.numeric.mass(q))
     worst = int(np.argmin(sizes[:, 0]))
     if not sizes[worst, 0] < 0:
         return None
-    nominal = [number.value for number in setting.ranged.parameters.values()]
+    nominal = [number.value for number in controlled.ranged.parameters.values()]
     if len(nominal) != len(parameters):
         return None
     angles, x = (tuple(Fraction(repr(float(v))) for v in row) for row in (q[worst], vectors[worst][:, 0]))

@@ -11,7 +11,7 @@ from lyapcheck.check.kinds.decreasing import (
     statement_of,
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links
-from lyapcheck.check.loop import Closure, shared_between
+from lyapcheck.check.loop import ClosedLoop, shared_between
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -21,7 +21,7 @@ from lyapcheck.check.verify import verify
 class Proof:
     """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it."""
 
-    closure: Closure
+    loop: ClosedLoop
     by: BoxTree | RadialBounds
     inertia: Bisection | Links
 
@@ -33,7 +33,7 @@ class Proof:
     @property
     def statement(self) -> Decreasing:
         """What is proved."""
-        return statement_of(self.closure)
+        return statement_of(self.loop)
 
     @property
     def certificate(self) -> PositiveAndDecreasing:

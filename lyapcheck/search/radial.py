@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, Table
@@ -19,9 +19,9 @@ from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.definite import positive_definite
 from lyapcheck.intervals.functions import cosine, sine
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import cover
 from lyapcheck.search.proof import Proof
-from lyapcheck.search.setting import Setting
 
 SAMPLES = 5_000
 MAX_BOXES = 12_000
@@ -37,67 +37,67 @@ SMALLEST = Fraction(1, 10**9)
 DIGITS = 7
 
 
-def radial_epsilon(setting: Setting) -> Proof | None:
+def radial_epsilon(controlled: ControlledArm) -> Proof | None:
     """The proof of the largest ε₀ that can be had in r alone; ``None`` where there is none.
 
     Args:
-        setting: gains and arm; over ranges there is no such proof yet.
+        controlled: gains and arm; over ranges there is no such proof yet.
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
-    if not setting.family.bounded or setting.ranges:
+    if not controlled.family.bounded or controlled.ranges:
         return None
-    data = radial_data(setting)
+    data = radial_data(controlled)
     if data is None:
         return None
     with precision(BITS):
-        parts = Parts(setting.closure(Fraction(1)), data)
+        parts = Parts(controlled.loop(Fraction(1)), data)
         low, high = Fraction(0), Fraction(1)
-        while _holds(setting, parts, high):
+        while _holds(controlled, parts, high):
             low, high = high, 2 * high
         while high - low > low / 10_000 and high > SMALLEST:
             middle = (low + high) / 2
-            low, high = (middle, high) if _holds(setting, parts, middle) else (low, middle)
+            low, high = (middle, high) if _holds(controlled, parts, middle) else (low, middle)
     if low == 0:
         return None
-    closure = setting.closure(_short(low))
+    loop = controlled.loop(_short(low))
     by = data
-    proof = Proof(closure, by, setting.inertia_proof)
+    proof = Proof(loop, by, controlled.inertia_proof)
     return proof if proof.accepted() else None
 
 
-def _holds(setting: Setting, parts: Parts, eps0: Fraction) -> bool:
+def _holds(controlled: ControlledArm, parts: Parts, eps0: Fraction) -> bool:
     """Whether the inequality in r holds; the tree is looked at only once, at the end."""
-    closure = setting.closure(eps0)
-    return closure.admissible and Inequality(closure, parts).shown()
+    loop = controlled.loop(eps0)
+    return loop.admissible and Inequality(loop, parts).shown()
 
 
-def holds_radially(closure: Closure, data: RadialBounds) -> bool:
+def holds_radially(loop: ClosedLoop, data: RadialBounds) -> bool:
     """Whether the inequality in r holds for a closure; its tree is not looked at."""
     with precision(BITS):
-        return closure.admissible and Inequality(closure, Parts(closure, data)).shown()
+        return loop.admissible and Inequality(loop, Parts(loop, data)).shown()
 
 
-def radial_data(setting: Setting) -> RadialBounds | None:
+def radial_data(controlled: ControlledArm) -> RadialBounds | None:
     """Weights, μ, ν and the tree behind them: the tightest that the checker accepts within the budget."""
-    closure = setting.closure(Fraction(1))
+    loop = controlled.loop(Fraction(1))
     # where boxes of the leading angles are too many, all angles are bounded by the sizes of their harmonics
-    for angles in (_leading_angles(closure), ()):
-        found = _Attempts(closure, angles).tightest()
-        if found is not None:
-            return found
+    for angles in (_leading_angles(loop), ()):
+        result = _Attempts(loop, angles).tightest()
+        if result is not None:
+            return result
     return None
 
 
 class _Attempts:
     """Trees of boxes of some angles for ever tighter μ."""
 
-    def __init__(self, closure: Closure, angles: tuple[int, ...]) -> None:
-        weights = tuple(_root_below(low) for low, _ in closure.friction)
-        self.closure = closure
+    def __init__(self, loop: ClosedLoop, angles: tuple[int, ...]) -> None:
+        weights = tuple(_root_below(low) for low, _ in loop.friction)
+        self.loop = loop
         # μ and ν do not matter yet
         self.blank = RadialBounds(weights, Fraction(1), Fraction(1), angles, ".", CUTS)
-        self.parts = Parts(closure, self.blank)
+        self.parts = Parts(loop, self.blank)
         self.largest = Fraction(_largest(self.parts))
 
     def tightest(self) -> RadialBounds | None:
@@ -113,14 +113,14 @@ class _Attempts:
         mu = _short(self.largest * margin + self.parts.far)
         lowest = min(_short(self.largest * share + self.parts.far), mu)
         data = replace(self.blank, inertia=mu, lowest=lowest)
-        tree = _tree(self.closure, data)
+        tree = _tree(self.loop, data)
         return None if tree is None else replace(data, tree=tree)
 
 
-def _tree(closure: Closure, data: RadialBounds) -> str | None:
+def _tree(loop: ClosedLoop, data: RadialBounds) -> str | None:
     """A tree of boxes of the chosen angles that shows μ, or ``None`` within the budget."""
     with precision(BITS):
-        parts = Parts(closure, data)
+        parts = Parts(loop, data)
 
         def prove(boxes: Array) -> NDArray[np.bool_]:
             proved = _between(parts, boxes)
@@ -141,11 +141,11 @@ def _sides(box: Array) -> Box:
 
 def _between(parts: Parts, boxes: Array) -> NDArray[np.bool_]:
     """Where −ν < M̃ < μ over boxes of the chosen angles, as ``Parts.shown_over`` finds it box by box."""
-    q = [Interval.exact(0.0)] * parts.closure.n
+    q = [Interval.exact(0.0)] * parts.loop.n
     for column, joint in enumerate(parts.radial.angles):
         q[joint] = Interval(boxes[:, 0, column], boxes[:, 1, column])
-    waves = {k: _wave(k, q) for k in {k for row in parts.near for entry in row for k in entry}}
-    M = [[_sum_of(entry, waves) for entry in row[: i + 1]] for i, row in enumerate(parts.near)]
+    harmonics = {k: _wave(k, q) for k in {k for row in parts.near for entry in row for k in entry}}
+    M = [[_sum_of(entry, harmonics) for entry in row[: i + 1]] for i, row in enumerate(parts.near)]
     limits = (Interval.of(x - parts.far) for x in (parts.radial.inertia, parts.radial.lowest))
     above, below = (
         [[sign * x + limit if i == j else sign * x for j, x in enumerate(row)] for i, row in enumerate(M)]
@@ -159,10 +159,10 @@ def _wave(k: Harmonic, q: list[Interval]) -> tuple[Interval, Interval]:
     return cosine(angle), sine(angle)
 
 
-def _sum_of(terms: Harmonics, waves: dict[Harmonic, tuple[Interval, Interval]]) -> Interval:
+def _sum_of(terms: Harmonics, harmonics: dict[Harmonic, tuple[Interval, Interval]]) -> Interval:
     total = Interval.exact(0.0)
     for k, (a, b) in terms.items():
-        total = total + waves[k][0] * Interval.of(a) + waves[k][1] * Interval.of(b)
+        total = total + harmonics[k][0] * Interval.of(a) + harmonics[k][1] * Interval.of(b)
     return total
 
 
@@ -170,18 +170,18 @@ def _widest(boxes: Array) -> NDArray[np.intp]:
     return np.asarray(np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
 
 
-def _leading_angles(closure: Closure) -> tuple[int, ...]:
+def _leading_angles(loop: ClosedLoop) -> tuple[int, ...]:
     """The angles in which most of M varies: added one by one, that which leaves the least to the others."""
     chosen: tuple[int, ...] = ()
-    while len(chosen) < min(MOST_ANGLES, len(closure.angles)):
-        left = [i for i in closure.angles if i not in chosen]
-        chosen = min(((*chosen, i) for i in left), key=lambda angles: _rest(closure, angles))
+    while len(chosen) < min(MOST_ANGLES, len(loop.angles)):
+        left = [i for i in loop.angles if i not in chosen]
+        chosen = min(((*chosen, i) for i in left), key=lambda angles: _rest(loop, angles))
     return tuple(sorted(chosen))
 
 
-def _rest(closure: Closure, chosen: tuple[int, ...]) -> float:
+def _rest(loop: ClosedLoop, chosen: tuple[int, ...]) -> float:
     """How much of M turns with other angles than the chosen ones, roughly."""
-    parts = (part for row in closure.mass for entry in row for part in entry.values())
+    parts = (part for row in loop.mass for entry in row for part in entry.values())
     return sum(
         float(a * a + b * b)
         for part in parts
@@ -193,14 +193,14 @@ def _rest(closure: Closure, chosen: tuple[int, ...]) -> float:
 def _largest(parts: Parts) -> float:
     """The largest eigenvalue of M̃ in the chosen angles alone: at random, then ever nearer to the best."""
     random = np.random.default_rng(SEED)
-    best = random.uniform(-np.pi, np.pi, (SAMPLES, parts.closure.n))
+    best = random.uniform(-np.pi, np.pi, (SAMPLES, parts.loop.n))
     best[0] = 0.0
-    found = 0.0
+    result = 0.0
     for spread in NEARER:
         largest = np.linalg.eigvalsh(_values(parts.near, best))[:, -1]
-        found = max(found, float(largest.max()))
-        best = best[np.argmax(largest)] + spread * random.normal(size=(SAMPLES // 10, parts.closure.n))
-    return found
+        result = max(result, float(largest.max()))
+        best = best[np.argmax(largest)] + spread * random.normal(size=(SAMPLES // 10, parts.loop.n))
+    return result
 
 
 def _values(table: Table, q: Array) -> Array:

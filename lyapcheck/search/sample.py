@@ -18,7 +18,7 @@ from typing import cast
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 
 _STEPS = 6
 """Fixed-point steps towards the worst w."""
@@ -63,35 +63,35 @@ class Quadratic:
         return np.where(np.isfinite(root) & (root > 0), root, 0.0)
 
 
-def quadratic(setting: Setting, states: States) -> Quadratic:
+def quadratic(controlled: ControlledArm, states: States) -> Quadratic:
     """The coefficients of dV/dt in ε₀ at each state."""
-    family, w = setting.family, states.w
+    family, w = controlled.family, states.w
     h, dh, hw = family.h(states.e), family.dh(states.e), family.h(w)
     s, along = _nearness(states.e)
-    mass = setting.numeric.mass(states.q)
-    turning = setting.numeric.coriolis(states.q, h)
-    mw, mh, cw = _times(mass, w), _times(mass, h), _times(turning, w)
+    mass = controlled.numeric.mass(states.q)
+    coriolis = controlled.numeric.coriolis(states.q, h)
+    mw, mh, cw = _times(mass, w), _times(mass, h), _times(coriolis, w)
     ew = _dot(along, w)
-    damping = setting.viscous * w + setting.kv * hw
+    damping = controlled.viscous * w + controlled.kv * hw
     fast = _dot(dh * w, mw) - s * ew * _dot(h, mw) - _dot(w, cw)
-    slow = _dot(h, damping) - _dot(h, setting.kp * h)
+    slow = _dot(h, damping) - _dot(h, controlled.kp * h)
     last = _dot(h, cw) + s * ew * _dot(h, mh) - _dot(mh, dh * w)
     return Quadratic(_dot(w, damping), s * (fast + slow), s * s * last)
 
 
-def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Array]:
+def fastest_directions(controlled: ControlledArm, q: Array, e: Array) -> tuple[Array, Array]:
     """The 1/ε₀ that fast states refute at each (q, e), and the directions of w that do so.
 
         1/ε₀ = λmax(B^(−½) S B^(−½)) / (1 + r),   S = sym(H'M − ê(Mh)ᵀ/(1 + r) − C(q,h))
 
     with B replaced by B + K_v for the linear function; directions are of unit length.
     """
-    h, dh = setting.family.h(e), setting.family.dh(e)
+    h, dh = controlled.family.h(e), controlled.family.dh(e)
     s, along = _nearness(e)
-    mass = setting.numeric.mass(q)
-    form = dh[:, :, None] * mass - setting.numeric.coriolis(q, h)
+    mass = controlled.numeric.mass(q)
+    form = dh[:, :, None] * mass - controlled.numeric.coriolis(q, h)
     form -= s[:, None, None] * along[:, :, None] * _times(mass, h)[:, None, :]
-    scale = 1 / np.sqrt(setting.fast_damping)
+    scale = 1 / np.sqrt(controlled.fast_damping)
     symmetric = (form + np.swapaxes(form, 1, 2)) / 2 * scale[:, None] * scale
     values, vectors = np.linalg.eigh(symmetric)
     directions = vectors[:, :, -1] * scale
@@ -99,68 +99,68 @@ def fastest_directions(setting: Setting, q: Array, e: Array) -> tuple[Array, Arr
     return np.asarray(s * values[:, -1]), directions
 
 
-def sample(setting: Setting, count: int, seed: int) -> States:
+def sample(controlled: ControlledArm, count: int, seed: int) -> States:
     """Random states: q on the torus, ‖w‖ log-uniform, half of the w in the fastest direction.
 
     In every other pair of states |e_i| is uniform up to 2.5 rad, where h and h' do all they do; in the rest
     it is log-uniform from 0.001 to 10 rad.
 
     Args:
-        setting: gains and arm.
+        controlled: gains and arm.
         count: how many states.
         seed: of the random numbers; the same seed gives the same states.
     """
     random = np.random.default_rng(seed)
-    shape = (count, setting.n)
+    shape = (count, controlled.n)
     order = np.arange(count)[:, None]
     q = random.uniform(-np.pi, np.pi, shape)
     e = np.where(order % 4 < 2, random.uniform(0, 2.5, shape), 10 ** random.uniform(-3, 1, shape))
     e *= random.choice([-1.0, 1.0], shape)
-    directions = fastest_directions(setting, q, e)[1] * random.choice([-1.0, 1.0], (count, 1))
+    directions = fastest_directions(controlled, q, e)[1] * random.choice([-1.0, 1.0], (count, 1))
     free = random.normal(size=shape)
     free /= np.linalg.norm(free, axis=1, keepdims=True)
     chosen = np.where(order % 2 == 0, directions, free)
     return States(q, e, chosen * 10 ** random.uniform(-2, 5, (count, 1)))
 
 
-def slow_sample(setting: Setting, count: int, seed: int) -> States:
+def slow_sample(controlled: ControlledArm, count: int, seed: int) -> States:
     """Random states whose w is the worst for their (q, e), as far as fixed-point steps find it.
 
     They start with ‖w‖ between a hundredth and a hundred times ‖h(e)‖; see `worst_rates`.
     """
     random = np.random.default_rng((seed, 1))
-    states = sample(setting, count, seed)
+    states = sample(controlled, count, seed)
     w = random.normal(size=states.w.shape)
-    length = np.linalg.norm(setting.family.h(states.e), axis=1, keepdims=True)
+    length = np.linalg.norm(controlled.family.h(states.e), axis=1, keepdims=True)
     w *= length * 10 ** random.uniform(-2, 2, (count, 1)) / np.linalg.norm(w, axis=1, keepdims=True)
-    found = States(states.q, states.e, w)
+    result = States(states.q, states.e, w)
     for _ in range(_STEPS):
-        found = worst_rates(setting, found)
-    return found
+        result = worst_rates(controlled, result)
+    return result
 
 
-def worst_rates(setting: Setting, states: States) -> States:
+def worst_rates(controlled: ControlledArm, states: States) -> States:
     """The states with w moved to where dV/dt is largest at the ε₀ refuted now, if that refutes a smaller one.
 
     With D = diag(h(w_i)/w_i) held, dV/dt is a quadratic in w with the maximum ½ ε Y⁻¹Xᵀh wherever Y ≻ 0.
     Where no ε₀ is refuted yet, it is twice the 4 k_p/(b + k_v) at which one joint fails near the origin.
     """
-    family = setting.family
-    now = quadratic(setting, states).reciprocal()
+    family = controlled.family
+    now = quadratic(controlled, states).reciprocal()
     s, along = _nearness(states.e)
-    slowest = np.max((setting.viscous + setting.kv) / setting.kp) / 8
+    slowest = np.max((controlled.viscous + controlled.kv) / controlled.kp) / 8
     eps = s / np.maximum(now, slowest)
     h, dh = family.h(states.e), family.dh(states.e)
-    mass, turning = setting.numeric.mass(states.q), setting.numeric.coriolis(states.q, h)
+    mass, coriolis = controlled.numeric.mass(states.q), controlled.numeric.coriolis(states.q, h)
     mh = _times(mass, h)
-    damping = setting.viscous + setting.kv * family.secant(states.w)
-    form = dh[:, :, None] * mass - turning - s[:, None, None] * along[:, :, None] * mh[:, None, :]
-    Y = damping[:, :, None] * np.eye(setting.n) - eps[:, None, None] * (form + np.swapaxes(form, 1, 2)) / 2
-    push = damping * h - eps[:, None] * _times(np.swapaxes(form, 1, 2), h)
+    damping = controlled.viscous + controlled.kv * family.secant(states.w)
+    form = dh[:, :, None] * mass - coriolis - s[:, None, None] * along[:, :, None] * mh[:, None, :]
+    Y = damping[:, :, None] * np.eye(controlled.n) - eps[:, None, None] * (form + np.swapaxes(form, 1, 2)) / 2
+    balance = damping * h - eps[:, None] * _times(np.swapaxes(form, 1, 2), h)
     safe = np.abs(np.linalg.det(Y)) > 1e-12
-    Y = np.where(safe[:, None, None], Y, np.eye(setting.n))
-    moved = States(states.q, states.e, eps[:, None] / 2 * np.linalg.solve(Y, push[:, :, None])[:, :, 0])
-    better = safe & (quadratic(setting, moved).reciprocal() > now)
+    Y = np.where(safe[:, None, None], Y, np.eye(controlled.n))
+    moved = States(states.q, states.e, eps[:, None] / 2 * np.linalg.solve(Y, balance[:, :, None])[:, :, 0])
+    better = safe & (quadratic(controlled, moved).reciprocal() > now)
     return States(states.q, states.e, np.where(better[:, None], moved.w, states.w))
 
 
@@ -189,9 +189,9 @@ def _corners(states: States) -> Array:
     return np.asarray(np.abs(errors) * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
 
 
-def size(setting: Setting, eps0: float, states: States) -> Array:
+def size(controlled: ControlledArm, eps0: float, states: States) -> Array:
     """‖z‖² = ε‖h(e)‖² + ‖w‖², by which dV/dt is made comparable between slow and fast states."""
-    h = setting.family.h(states.e)
+    h = controlled.family.h(states.e)
     return eps0 * _nearness(states.e)[0] * _dot(h, h) + _dot(states.w, states.w)
 
 

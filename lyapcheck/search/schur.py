@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmIntervals, coriolis
@@ -37,16 +37,16 @@ class Problem:
     """One controller on one arm at one ε₀, ready to be enclosed over boxes.
 
     Args:
-        closure: what is to be proved; its ``start`` says which side is which.
+        loop: what is to be proved; its ``start`` says which side is which.
     """
 
-    closure: Closure
+    loop: ClosedLoop
     arm: ArmIntervals = field(init=False)
     family: Family = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "arm", ArmIntervals(self.closure.mass))
-        object.__setattr__(self, "family", named(self.closure.family, self.closure.m))
+        object.__setattr__(self, "arm", ArmIntervals(self.loop.mass))
+        object.__setattr__(self, "family", named(self.loop.family, self.loop.m))
 
     def proved(self, boxes: Array) -> NDArray[np.bool_]:
         """Where P ≻ 0 on the whole box, or all of the box lies beyond the radius of the tail.
@@ -56,47 +56,49 @@ class Problem:
         sides = self.sides(boxes)
         inside: NDArray[np.bool_] = positive_definite(self.schur(sides))
         ordered: NDArray[np.bool_] = np.all(boxes[:, 0] <= boxes[:, 1], axis=1)
-        beyond = norm(sides.e).lo >= self.closure.radius
+        beyond = norm(sides.e).lo >= self.loop.radius
         return np.asarray(ordered & (inside | beyond))
 
     def sides(self, boxes: Array) -> Sides:
         """Boxes taken apart."""
         columns = [Interval(boxes[:, 0, k], boxes[:, 1, k]) for k in range(boxes.shape[2])]
-        first, last = len(self.closure.angles), len(self.closure.angles) + self.closure.n
-        q = [Interval.exact(0.0)] * self.closure.n
-        for joint, column in zip(self.closure.angles, columns[:first], strict=True):
+        first, last = len(self.loop.angles), len(self.loop.angles) + self.loop.n
+        q = [Interval.exact(0.0)] * self.loop.n
+        for joint, column in zip(self.loop.angles, columns[:first], strict=True):
             q[joint] = column
         free = iter(columns[last:])
-        ranges = (*self.closure.parameters, *self.closure.friction)
+        ranges = (*self.loop.parameters, *self.loop.friction)
         filled = [next(free) if low < high else Interval.of(low) for low, high in ranges]
-        count = len(self.closure.parameters)
+        count = len(self.loop.parameters)
         return Sides(q, columns[first:last], filled[:count], filled[count:])
 
     def schur(self, sides: Sides) -> Rows:
         """P: the entries on and below the diagonal."""
         shrink = inverse_one_plus(norm(sides.e))
-        eps = shrink * Interval.of(self.closure.eps0)
+        eps = shrink * Interval.of(self.loop.eps0)
         S = self._coupling(sides, shrink)
         X = _plus(sides.viscous, S, eps)
         quarter = eps * 0.25
-        inverse = [quarter * Interval.of(k).reciprocal() for k in self.closure.stiffness]
-        joints = range(self.closure.n)
+        inverse = [quarter * Interval.of(k).reciprocal() for k in self.loop.stiffness]
+        joints = range(self.loop.n)
         return [[_entry(i, j, sides.viscous, S, X, eps, inverse) for j in joints[: i + 1]] for i in joints]
 
     def _coupling(self, sides: Sides, shrink: Interval) -> list[list[Entry]]:
         """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
         box = self.arm.at(sides.q, sides.parameters)
         M = box.mass()
-        weights = [Interval.of(scale) for scale in self.closure.Lambda]
+        weights = [Interval.of(scale) for scale in self.loop.Lambda]
         h, dh = (
             [f(self.family, x) * scale for x, scale in zip(sides.e, weights, strict=True)]
             for f in (h_range, dh_range)
         )
         Ch = coriolis(box.symbols(), h)
         pushed = [_dot(row, h) for row in M]
-        pull = [unit * shrink for unit in unit_vector(sides.e)]
-        joints = range(self.closure.n)
-        return [[Ch[i][j] + pushed[i] * pull[j] - _product(M[i][j], dh[j]) for j in joints] for i in joints]
+        direction = [unit * shrink for unit in unit_vector(sides.e)]
+        joints = range(self.loop.n)
+        return [
+            [Ch[i][j] + pushed[i] * direction[j] - _product(M[i][j], dh[j]) for j in joints] for i in joints
+        ]
 
 
 def _plus(B: list[Interval], S: list[list[Entry]], eps: Interval) -> Rows:

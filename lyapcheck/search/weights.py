@@ -24,9 +24,9 @@ from lyapcheck._types import Array, Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 
 SAMPLES = 20_000
 KEPT = 12
@@ -55,8 +55,8 @@ class Weighted:
     @property
     def products(self) -> tuple[Fraction, ...]:
         """ε₀Λ, joint by joint."""
-        closure = self.proof.closure
-        return tuple(closure.eps0 * scale for scale in closure.Lambda)
+        loop = self.proof.loop
+        return tuple(loop.eps0 * scale for scale in loop.Lambda)
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class States:
 
 
 def weighted_epsilon(
-    setting: Setting,
+    controlled: ControlledArm,
     eps0: Fraction,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
@@ -86,7 +86,7 @@ def weighted_epsilon(
     """Weights whose ε₀Λ is as large as possible in the sense of Σ ln(ε₀λ_i), with a proof; ``None`` if none.
 
     Args:
-        setting: gains and arm, at its nominal numbers.
+        controlled: gains and arm, at its nominal numbers.
         eps0: an ε₀ certified with Λ = I, where the search begins.
         max_boxes: budget of all attempts together.
         jobs: processes for the checker.
@@ -95,17 +95,17 @@ def weighted_epsilon(
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
-    tell = on_progress or (lambda fraction, note: None)
-    found, states = _proposal(setting, float(eps0), seed, lambda f, note: tell(0.5 * f, note))
+    progress = on_progress or (lambda fraction, note: None)
+    result, states = _proposal(controlled, float(eps0), seed, lambda f, note: progress(0.5 * f, note))
     looked_at = 0
     for index, share in enumerate(SHARES):
-        tell(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")
-        closure = setting.closure(*_rounded([Fraction(float(x)) * share for x in found]))
-        if not closure.admissible:
+        progress(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")
+        loop = controlled.loop(*_rounded([Fraction(float(x)) * share for x in result]))
+        if not loop.admissible:
             continue
-        outcome = certify(Problem(closure), max(0, max_boxes // len(SHARES)))
+        outcome = certify(Problem(loop), max(0, max_boxes // len(SHARES)))
         looked_at += outcome.boxes
-        proof = Proof(closure, BoxTree(outcome.tree), setting.inertia_proof) if outcome.proved else None
+        proof = Proof(loop, BoxTree(outcome.tree), controlled.inertia_proof) if outcome.proved else None
         if proof is not None and proof.accepted(jobs):
             return Weighted(proof, states, looked_at)
     return None
@@ -117,41 +117,41 @@ def _rounded(products: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
     return eps0, tuple(max(Fraction(1), Fraction(int(x / eps0 * 1000), 1000)) for x in products)
 
 
-def _proposal(setting: Setting, eps0: float, seed: int, tell: Progress) -> tuple[Array, int]:
+def _proposal(controlled: ControlledArm, eps0: float, seed: int, progress: Progress) -> tuple[Array, int]:
     """λ = ε₀Λ, and how many states it was made for."""
     random = np.random.default_rng(seed)
-    q, e = _sample(setting, random)
-    states = _evaluated(setting, q, e)
-    found = np.full(setting.n, eps0)
-    active = states.at(_worst(setting, states, found))
+    q, e = _sample(controlled, random)
+    states = _evaluated(controlled, q, e)
+    result = np.full(controlled.n, eps0)
+    active = states.at(_worst(controlled, states, result))
     for turn in range(TURNS):
-        tell(turn / TURNS, f"convex program over {len(active.s)} states")
-        found = _program(setting, active, found)
-        chosen = _worst(setting, states, found)
-        climbed = _climbed(setting, q[chosen], e[chosen], found, random)
+        progress(turn / TURNS, f"convex program over {len(active.s)} states")
+        result = _program(controlled, active, result)
+        chosen = _worst(controlled, states, result)
+        climbed = _climbed(controlled, q[chosen], e[chosen], result, random)
         seen = states.at(chosen).joined(climbed)
-        failing = _smallest(setting, seen, found) < MARGIN / 2
+        failing = _smallest(controlled, seen, result) < MARGIN / 2
         if not failing.any() and turn > 2:
             break
         active = active.joined(seen.at(np.flatnonzero(failing)))
-    return found, len(active.s)
+    return result, len(active.s)
 
 
-def _program(setting: Setting, states: States, near: Array) -> Array:
+def _program(controlled: ControlledArm, states: States, near: Array) -> Array:
     """The weights that the convex program gives for some states, starting from ``near``."""
     import cvxpy as cp
 
-    B, k = np.diag(setting.viscous), setting.kp
+    B, k = np.diag(controlled.viscous), controlled.kp
     x = B + states.s[:, None, None] * np.einsum("i,cijk->cjk", near, states.S)
-    weights = cp.Variable(setting.n, pos=True)
+    weights = cp.Variable(controlled.n, pos=True)
     constraints: list[Any] = [weights <= 3 * near, weights >= near / 3]
-    root = np.sqrt(setting.viscous)
+    root = np.sqrt(controlled.viscous)
     for S, s, rows in zip(states.S, states.s, x, strict=True):
         P = B
-        for i in range(setting.n):
+        for i in range(controlled.n):
             linear = s * (S[i] + S[i].T) / 2 - s / (4 * k[i]) * np.outer(rows[i], rows[i])
             P = P + weights[i] * linear
-        constraints.append((P / np.outer(root, root)) - MARGIN * np.eye(setting.n) >> 0)
+        constraints.append((P / np.outer(root, root)) - MARGIN * np.eye(controlled.n) >> 0)
     problem = cp.Problem(cp.Maximize(cp.sum(cp.log(weights))), constraints)
     problem.solve(solver=cp.CLARABEL)
     if problem.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE) or weights.value is None:
@@ -159,55 +159,57 @@ def _program(setting: Setting, states: States, near: Array) -> Array:
     return np.asarray(weights.value)
 
 
-def _smallest(setting: Setting, states: States, weights: Array) -> Array:
+def _smallest(controlled: ControlledArm, states: States, weights: Array) -> Array:
     """λmin(B^−½ P B^−½) at each state."""
-    B, root = np.diag(setting.viscous), np.sqrt(setting.viscous)
+    B, root = np.diag(controlled.viscous), np.sqrt(controlled.viscous)
     S = np.einsum("i,cijk->cjk", weights, states.S)
     s = states.s[:, None, None]
     X = B + s * S
-    L = float(setting.family.constants().L.upper)
-    compliance = 1 / np.maximum(setting.kp / weights - L * setting.kv / 4, 1e-12)
+    L = float(controlled.family.constants().L.upper)
+    compliance = 1 / np.maximum(controlled.kp / weights - L * controlled.kv / 4, 1e-12)
     P = B + s * (S + np.swapaxes(S, 1, 2)) / 2 - s / 4 * np.einsum("cki,k,ckj->cij", X, compliance, X)
     return np.asarray(np.linalg.eigvalsh(P / np.outer(root, root))[:, 0])
 
 
-def _worst(setting: Setting, states: States, weights: Array) -> NDArray[np.intp]:
-    return np.asarray(np.argsort(_smallest(setting, states, weights), kind="stable")[:KEPT])
+def _worst(controlled: ControlledArm, states: States, weights: Array) -> NDArray[np.intp]:
+    return np.asarray(np.argsort(_smallest(controlled, states, weights), kind="stable")[:KEPT])
 
 
-def _climbed(setting: Setting, q: Array, e: Array, weights: Array, random: np.random.Generator) -> States:
+def _climbed(
+    controlled: ControlledArm, q: Array, e: Array, weights: Array, random: np.random.Generator
+) -> States:
     """The states after random steps towards smaller eigenvalues; the steps shrink."""
-    value = _smallest(setting, _evaluated(setting, q, e), weights)
+    value = _smallest(controlled, _evaluated(controlled, q, e), weights)
     for step in range(CLIMBS):
         size = 0.3 * 0.85**step
         moved = q + size * random.normal(size=q.shape), e * np.exp(size * random.normal(size=e.shape))
         moved = moved[0], moved[1] + 0.1 * size * random.normal(size=e.shape)
-        found = _smallest(setting, _evaluated(setting, *moved), weights)
-        better = found < value
+        result = _smallest(controlled, _evaluated(controlled, *moved), weights)
+        better = result < value
         q, e = np.where(better[:, None], moved[0], q), np.where(better[:, None], moved[1], e)
-        value = np.where(better, found, value)
-    return _evaluated(setting, q, e)
+        value = np.where(better, result, value)
+    return _evaluated(controlled, q, e)
 
 
-def _sample(setting: Setting, random: np.random.Generator) -> tuple[Array, Array]:
+def _sample(controlled: ControlledArm, random: np.random.Generator) -> tuple[Array, Array]:
     """Random states, errors of all sizes in each joint."""
-    shape = (SAMPLES, setting.n)
+    shape = (SAMPLES, controlled.n)
     e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 0.7, shape)
     return random.uniform(-np.pi, np.pi, shape), e
 
 
-def _evaluated(setting: Setting, q: Array, e: Array) -> States:
+def _evaluated(controlled: ControlledArm, q: Array, e: Array) -> States:
     """S of each unit weight: (M e_i h_i) êᵀ s + C(q, e_i h_i) − M e_i h_i' e_iᵀ."""
-    h, dh, r = setting.family.h(e), setting.family.dh(e), np.linalg.norm(e, axis=1)
+    h, dh, r = controlled.family.h(e), controlled.family.dh(e), np.linalg.norm(e, axis=1)
     s, unit = 1 / (1 + r), e / np.maximum(r, 1e-300)[:, None]
-    M = setting.numeric.mass(q)
+    M = controlled.numeric.mass(q)
     parts = []
-    for i in range(setting.n):
+    for i in range(controlled.n):
         only = np.zeros_like(h)
         only[:, i] = h[:, i]
-        turning = setting.numeric.coriolis(q, only)
+        coriolis = controlled.numeric.coriolis(q, only)
         pushed = M[:, :, i] * h[:, i : i + 1]
-        S = turning + pushed[:, :, None] * unit[:, None, :] * s[:, None, None]
+        S = coriolis + pushed[:, :, None] * unit[:, None, :] * s[:, None, None]
         S[:, :, i] -= M[:, :, i] * dh[:, i : i + 1]
         parts.append(S)
     return States(np.stack(parts, axis=1), s)

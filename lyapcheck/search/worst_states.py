@@ -22,8 +22,8 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.robots import graph
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import States, fastest_directions, quadratic, size
-from lyapcheck.search.setting import Setting
 
 _OPTIONS: dict[str, Any] = {
     "print_time": False,
@@ -74,76 +74,76 @@ class Expressions:
     """wᵀSw / (1 + r): what of a₁ is left for fast states."""
 
 
-def expressions(setting: Setting) -> Expressions:
+def expressions(controlled: ControlledArm) -> Expressions:
     """a₀, a₁, a₂ of `lyapcheck.search.sample` and wᵀSw/(1 + r) as CasADi expressions."""
-    n = setting.n
+    n = controlled.n
     q, e, w = (ca.SX.sym(name, n) for name in "qew")
-    forms, rates = setting.family.casadi_smooth(e), setting.family.casadi_smooth(w)
+    forms, rates = controlled.family.casadi_smooth(e), controlled.family.casadi_smooth(w)
     h, dh = forms.h, forms.dh
     r = ca.sqrt(ca.dot(e, e) + 1e-24)
     s, ew = 1 / (1 + r), ca.dot(e, w) / r
-    mass = graph.mass(setting.fixed, q)
-    mw, mh, cw = mass @ w, mass @ h, graph.coriolis(setting.fixed, q, h) @ w
-    damping = ca.DM(setting.viscous) * w + ca.DM(setting.kv) * rates.h
+    mass = graph.mass(controlled.fixed, q)
+    mw, mh, cw = mass @ w, mass @ h, graph.coriolis(controlled.fixed, q, h) @ w
+    damping = ca.DM(controlled.viscous) * w + ca.DM(controlled.kv) * rates.h
     fast = s * (ca.dot(dh * w, mw) - s * ew * ca.dot(h, mw) - ca.dot(w, cw))
-    slow = s * (ca.dot(h, damping) - ca.dot(h, ca.DM(setting.kp) * h))
+    slow = s * (ca.dot(h, damping) - ca.dot(h, ca.DM(controlled.kp) * h))
     last = s * s * (ca.dot(h, cw) + s * ew * ca.dot(h, mh) - ca.dot(mh, dh * w))
     return Expressions(q, e, w, s, h, ca.dot(w, damping), fast + slow, last, fast)
 
 
-def fast_states(setting: Setting, starts: States) -> States:
+def fast_states(controlled: ControlledArm, starts: States) -> States:
     """Where the fast program ends from each start; w has unit length."""
-    x = expressions(setting)
-    n = setting.n
-    damping = ca.dot(x.w, ca.DM(setting.fast_damping) * x.w)
+    x = expressions(controlled)
+    n = controlled.n
+    damping = ca.dot(x.w, ca.DM(controlled.fast_damping) * x.w)
     bound = _bound(n, 2.0)
-    found = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
-    return _unit(setting, States(*_parts(found, n)))
+    result = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
+    return _unit(controlled, States(*_parts(result, n)))
 
 
-def level_states(setting: Setting, starts: States) -> States:
+def level_states(controlled: ControlledArm, starts: States) -> States:
     """Where the fast program ends with e held at 0."""
-    n = setting.n
+    n = controlled.n
     q, w = ca.SX.sym("q", n), ca.SX.sym("w", n)
-    slopes = ca.DM(setting.family.dh(np.zeros(n)))
-    top = ca.dot(slopes * w, graph.mass(setting.fixed, q) @ w)
+    slopes = ca.DM(controlled.family.dh(np.zeros(n)))
+    top = ca.dot(slopes * w, graph.mass(controlled.fixed, q) @ w)
     program = Program(
         ca.vertcat(q, w),
-        top / ca.dot(w, ca.DM(setting.fast_damping) * w),
+        top / ca.dot(w, ca.DM(controlled.fast_damping) * w),
         np.concatenate([np.full(n, 2 * np.pi), np.full(n, 2.0)]),
     )
-    found = program.climb(np.hstack([starts.q, starts.w]))
-    return _unit(setting, States(found[:, :n], np.zeros_like(found[:, :n]), found[:, n:]))
+    result = program.climb(np.hstack([starts.q, starts.w]))
+    return _unit(controlled, States(result[:, :n], np.zeros_like(result[:, :n]), result[:, n:]))
 
 
-def finite_states(setting: Setting, starts: States) -> States:
+def finite_states(controlled: ControlledArm, starts: States) -> States:
     """Where the finite program ends from each start."""
-    x = expressions(setting)
-    bound = _bound(setting.n, _FASTEST)
-    first = quadratic(setting, starts).reciprocal()
-    return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), setting.n))
+    x = expressions(controlled)
+    bound = _bound(controlled.n, _FASTEST)
+    first = quadratic(controlled, starts).reciprocal()
+    return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), controlled.n))
 
 
-def slow_states(setting: Setting, starts: States, reach: float) -> States:
-    """Where the slow program ends from each start, with |e_i| up to ``reach``.
+def slow_states(controlled: ControlledArm, starts: States, radius: float) -> States:
+    """Where the slow program ends from each start, with |e_i| up to ``radius``.
 
     A small reach finds the worst direction in which the origin can be left; where h'(0) > 0 all smaller
     multiples of such a state are about as bad.
     """
-    x, n = expressions(setting), setting.n
+    x, n = expressions(controlled), controlled.n
     d, u = ca.SX.sym("d", n), ca.SX.sym("u", n)
-    unit = reach / _LONGEST_ERROR
-    lengths = _length(setting.family.h(starts.e))[:, None]
+    unit = radius / _LONGEST_ERROR
+    lengths = _length(controlled.family.h(starts.e))[:, None]
     e = unit * d
-    w = ca.sqrt(ca.sumsqr(setting.family.casadi_smooth(e).h) + 1e-300) * u
+    w = ca.sqrt(ca.sumsqr(controlled.family.casadi_smooth(e).h) + 1e-300) * u
     inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
     program = _reciprocal_program(
         replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), _bound(n, _FASTEST)
     )
-    first = quadratic(setting, starts).reciprocal()
-    found = program.climb(_with(States(starts.q, starts.e / unit, starts.w / lengths), first))
-    ends = found[:, n : 2 * n] * unit
-    return States(found[:, :n], ends, found[:, 2 * n : 3 * n] * _length(setting.family.h(ends))[:, None])
+    first = quadratic(controlled, starts).reciprocal()
+    result = program.climb(_with(States(starts.q, starts.e / unit, starts.w / lengths), first))
+    ends = result[:, n : 2 * n] * unit
+    return States(result[:, :n], ends, result[:, 2 * n : 3 * n] * _length(controlled.family.h(ends))[:, None])
 
 
 def _reciprocal_program(x: Expressions, bound: Array) -> Program:
@@ -161,13 +161,13 @@ def _length(rows: Array) -> Array:
     return np.asarray(np.maximum(np.linalg.norm(rows, axis=1), 1e-150))
 
 
-def steepest_states(setting: Setting, eps0: float, starts: States) -> States:
+def steepest_states(controlled: ControlledArm, eps0: float, starts: States) -> States:
     """Where max dV/dt / ‖z‖² ends from each start, for one ε₀."""
-    x = expressions(setting)
+    x = expressions(controlled)
     rate = -x.a0 + eps0 * (x.a1 + eps0 * x.a2)
     objective = rate / (eps0 * x.near * ca.dot(x.h, x.h) + ca.dot(x.w, x.w))
-    program = Program(ca.vertcat(x.q, x.e, x.w), objective, _bound(setting.n, _FASTEST))
-    return States(*_parts(program.climb(_stack(starts)), setting.n))
+    program = Program(ca.vertcat(x.q, x.e, x.w), objective, _bound(controlled.n, _FASTEST))
+    return States(*_parts(program.climb(_stack(starts)), controlled.n))
 
 
 def _bound(n: int, rate: float) -> Array:
@@ -182,13 +182,13 @@ def _parts(rows: Array, n: int) -> tuple[Array, Array, Array]:
     return rows[:, :n], rows[:, n : 2 * n], rows[:, 2 * n : 3 * n]
 
 
-def _unit(setting: Setting, states: States) -> States:
+def _unit(controlled: ControlledArm, states: States) -> States:
     """The same (q, e) with the direction of w that is worst there."""
-    return States(states.q, states.e, fastest_directions(setting, states.q, states.e)[1])
+    return States(states.q, states.e, fastest_directions(controlled, states.q, states.e)[1])
 
 
-def steepness(setting: Setting, eps0: float, states: States) -> Array:
+def steepness(controlled: ControlledArm, eps0: float, states: States) -> Array:
     """dV/dt / ‖z‖² at each state; −∞ at the origin, where it has no value."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = quadratic(setting, states).at(eps0) / size(setting, eps0, states)
-    return np.where(np.isnan(found), -np.inf, found)
+        result = quadratic(controlled, states).at(eps0) / size(controlled, eps0, states)
+    return np.where(np.isnan(result), -np.inf, result)

@@ -57,13 +57,13 @@ def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
     if not has_plain_forms(family):
         return None
     try:
-        found = library(_source(model, family))
+        result = library(_source(model, family))
     except TooLong:
         return None
-    if found is None:
+    if result is None:
         return None
     whole, number, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
-    call = found.integrate_runs
+    call = result.integrate_runs
     call.restype = None
     call.argtypes = [whole, whole, place, place, number, number, number, whole, place, place, place]
     return CompiledRuns(call)

@@ -14,7 +14,7 @@ from lyapcheck.simulate.confirm import Sample, exceeds, rises
 
 if TYPE_CHECKING:
     from lyapcheck.robots import Number
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 
 RATE_NOISE = 1e-12
@@ -49,8 +49,8 @@ class Breach:
         if self.at.speed:
             state.append(f"q̇_d = {_row(self.at.speed)} rad/s")
         grade = "confirmed in balls" if self.confirmed else "seen in floating point"
-        found = f"{self.value:.6g} {self.unit}, at most {self.limit:.6g} was promised"
-        return f"{self.promise} is broken at t = {self.t:.6g} s: {found}; {', '.join(state)} ({grade})"
+        result = f"{self.value:.6g} {self.unit}, at most {self.limit:.6g} was promised"
+        return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 
     @property
     def data(self) -> dict[str, Any]:
@@ -74,7 +74,7 @@ class Breach:
 class Watched:
     """The samples of a run as the monitors see them: ``t``, ``V``, ``dV`` (N,), the rest (N, n)."""
 
-    setting: Setting
+    controlled: ControlledArm
     eps0: float
     t: Array
     q: Array
@@ -91,9 +91,9 @@ class Watched:
     def sample(self, i: int) -> Sample:
         """The state of one sample."""
         moving = () if self.speed is None else tuple(self.speed[i].tolist())
-        turning = () if self.acceleration is None else tuple(self.acceleration[i].tolist())
+        accelerating = () if self.acceleration is None else tuple(self.acceleration[i].tolist())
         q, e, w = (tuple(x[i].tolist()) for x in (self.q, self.e, self.w))
-        return Sample(q, e, w, moving, turning)
+        return Sample(q, e, w, moving, accelerating)
 
     def breach(self, promise: str, i: int, value: float, limit: float, unit: str, sure: bool) -> Breach:
         """What is said of a promise that broke at sample ``i``."""
@@ -105,8 +105,8 @@ Monitor = Callable[[Watched], Breach | None]
 
 def first_breach(run: Watched, monitors: Sequence[Monitor]) -> Breach | None:
     """The earliest breach that any monitor finds."""
-    found = [breach for monitor in monitors if (breach := monitor(run)) is not None]
-    return min(found, key=lambda breach: breach.index, default=None)
+    result = [breach for monitor in monitors if (breach := monitor(run)) is not None]
+    return min(result, key=lambda breach: breach.index, default=None)
 
 
 def rate_monitor(run: Watched) -> Breach | None:
@@ -115,7 +115,7 @@ def rate_monitor(run: Watched) -> Breach | None:
         return None
     high = np.flatnonzero(run.dV > RATE_NOISE * np.max(np.abs(run.dV)))
     for i in high[:CANDIDATES].tolist():
-        if rises(run.setting, run.eps0, run.sample(i)):
+        if rises(run.controlled, run.eps0, run.sample(i)):
             return run.breach(f"dV/dt ≤ 0 for ε₀ = {run.eps0:g}", i, run.dV[i], 0.0, "W", True)
     return None
 
@@ -134,8 +134,8 @@ def limit_monitor(limits: Sequence[Number | None]) -> Monitor:
 
     def monitor(run: Watched) -> Breach | None:
         known = [(i, limit) for i, limit in enumerate(limits) if limit is not None]
-        found = [breach for i, limit in known for breach in _beyond_limit(run, i, limit)]
-        return min(found, key=lambda breach: breach.index, default=None)
+        result = [breach for i, limit in known for breach in _beyond_limit(run, i, limit)]
+        return min(result, key=lambda breach: breach.index, default=None)
 
     return monitor
 
@@ -143,9 +143,9 @@ def limit_monitor(limits: Sequence[Number | None]) -> Monitor:
 def _beyond_limit(run: Watched, joint: int, number: Number) -> Iterator[Breach]:
     most = float(number.value)
     size = np.abs(run.tau[:, joint])
-    name = run.setting.model.joints[joint]
+    name = run.controlled.model.joints[joint]
     for i in np.flatnonzero(size > most)[:CANDIDATES].tolist():
-        if exceeds(run.setting, joint, number.value, run.sample(i)):
+        if exceeds(run.controlled, joint, number.value, run.sample(i)):
             yield run.breach(f"|τ| of {name} within the motor's limit", i, size[i], most, "N·m", True)
             return
 
@@ -160,7 +160,7 @@ def joint_monitor(name: str, bounds: Sequence[float] | None) -> Monitor:
         if not beyond.size:
             return None
         i, joint = beyond[0].tolist()
-        promise = f"|τ| of {run.setting.model.joints[joint]} within {name}"
+        promise = f"|τ| of {run.controlled.model.joints[joint]} within {name}"
         return run.breach(promise, i, abs(run.tau[i, joint]), bounds[joint], "N·m", False)
 
     return monitor

@@ -123,7 +123,7 @@ def _watched(loop: ClosedLoop, setup: Setup, path: Trajectory) -> Array:
 def _broken(setup: Setup, run: Run) -> Breach | None:
     """The first promise that the samples break."""
     signals = (run.t, run.q, run.e, run.w, run.tau, run.V, run.dV)
-    watched = Watched(setup.setting, setup.eps0, *signals, noise=noise_of(run.V))
+    watched = Watched(setup.controlled, setup.eps0, *signals, noise=noise_of(run.V))
     bound = bound_monitor("the bound (9)", run.promises.torque_bound)
     joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
     return first_breach(

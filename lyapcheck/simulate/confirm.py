@@ -16,7 +16,7 @@ from flint import arb
 
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 
 BITS = (128, 256, 512)
 """Precisions that are tried one after the other."""
@@ -38,7 +38,7 @@ class Sample:
     acceleration: Row = ()
 
 
-def rises(setting: Setting, eps0: float, at: Sample) -> bool:
+def rises(controlled: ControlledArm, eps0: float, at: Sample) -> bool:
     """Whether dV/dt > 0 at the sample is proved.
 
     With a moving goal dV/dt is that of (11) plus −ε (w − εh)ᵀ C(q, q̇_d) h.
@@ -48,46 +48,49 @@ def rises(setting: Setting, eps0: float, at: Sample) -> bool:
     exact = Fraction(eps0)
     state = State(_exact(at.q), _exact(at.e), _exact(at.w))
     return _proved(
-        lambda bits: rate(setting.arm, setting.controller, exact, state, bits) + turning(setting, eps0, at)
+        lambda bits: (
+            rate(controlled.arm, controlled.controller, exact, state, bits)
+            + reference_term(controlled, eps0, at)
+        )
     )
 
 
-def exceeds(setting: Setting, joint: int, limit: Fraction, at: Sample) -> bool:
+def exceeds(controlled: ControlledArm, joint: int, limit: Fraction, at: Sample) -> bool:
     """Whether |τ_i| of (6), or of (21) for a moving goal, is proved to be larger than a limit in N·m.
 
     Soundness: as `rises`.
     """
-    return _proved(lambda bits: abs(torques(setting, at)[joint]) - to_arb(limit))
+    return _proved(lambda bits: abs(torques(controlled, at)[joint]) - to_arb(limit))
 
 
-def torques(setting: Setting, at: Sample) -> list[arb]:
+def torques(controlled: ControlledArm, at: Sample) -> list[arb]:
     """τ = K_p h(e) − K_v h(w) + M q̈_d + C(q, q̇) q̇_d + g + B q̇_d in balls of the current precision, N·m."""
-    model, functions = setting.fixed, setting.controller.functions
+    model, functions = controlled.fixed, controlled.controller.functions
     sines, cosines = _turns(at)
     w, speed, acceleration = _balls(at.w), _moving(at.speed, at), _moving(at.acceleration, at)
     rates = [a + b for a, b in zip(w, speed, strict=True)]
     mass = model.mass_at(sines, cosines, to_arb)
     coriolis = model.coriolis_at(sines, cosines, rates, to_arb)
     gravity = model.gravity_at(sines, cosines, to_arb)
-    unit = 180 / arb.pi() if setting.per_degree else arb(1)
-    found = []
+    unit = 180 / arb.pi() if controlled.per_degree else arb(1)
+    result = []
     for i, (e, x) in enumerate(zip(_balls(at.e), w, strict=True)):
-        spring = to_arb(setting.gains.kp[i]) * unit * functions.h(e)
-        damper = to_arb(setting.gains.kv[i]) * unit * functions.h(x)
+        spring = to_arb(controlled.gains.kp[i]) * unit * functions.h(e)
+        damper = to_arb(controlled.gains.kv[i]) * unit * functions.h(x)
         lead = _dot(mass[i], acceleration) + _dot(coriolis[i], speed)
-        found.append(spring - damper + lead + gravity[i] + to_arb(setting.arm.viscous[i]) * speed[i])
-    return found
+        result.append(spring - damper + lead + gravity[i] + to_arb(controlled.arm.viscous[i]) * speed[i])
+    return result
 
 
-def turning(setting: Setting, eps0: float, at: Sample) -> arb:
+def reference_term(controlled: ControlledArm, eps0: float, at: Sample) -> arb:
     """−ε (w − εh)ᵀ C(q, q̇_d) h in a ball, W: what a moving goal adds to dV/dt of (11)."""
     if not any(at.speed):
         return arb(0)
     e, w = _balls(at.e), _balls(at.w)
-    h = [setting.controller.functions.h(x) for x in e]
+    h = [controlled.controller.functions.h(x) for x in e]
     eps = to_arb(Fraction(eps0)) / (1 + _dot(e, e).sqrt())
     y = [a - eps * b for a, b in zip(w, h, strict=True)]
-    coriolis = setting.fixed.coriolis_at(*_turns(at), _balls(at.speed), to_arb)
+    coriolis = controlled.fixed.coriolis_at(*_turns(at), _balls(at.speed), to_arb)
     return -eps * _dot(y, [_dot(row, h) for row in coriolis])
 
 
@@ -95,10 +98,10 @@ def _proved(value: Callable[[int], arb]) -> bool:
     """Whether a number is positive, with as many bits as that takes."""
     for bits in BITS:
         with precision(bits):
-            found = value(bits)
-        if found > 0:
+            result = value(bits)
+        if result > 0:
             return True
-        if found < 0:
+        if result < 0:
             return False
     return False
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.gains import Gains, gains_for
 from lyapcheck.simulate.task import Task, task_for
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 class Setup:
     """One controller on one arm with one task; ``eps0`` is the ε₀ of the V that is watched.
 
-    ``setting`` is the same controller and arm as exact data.
+    ``controlled`` is the same controller and arm as exact data.
     """
 
     gains: Gains
     model: RobotModel
     task: Task
     eps0: float
-    setting: Setting
+    controlled: ControlledArm
 
     @property
     def title(self) -> str:
@@ -52,4 +52,4 @@ def set_up(
     """
     task = task_for(model.n, q_d, q0, w0, T, eps0=eps0, points=points)
     gains = gains_for(gain_set, model.n)
-    return Setup(gains, model, task, 0.0 if eps0 is None else float(eps0), Setting(gain_set, model))
+    return Setup(gains, model, task, 0.0 if eps0 is None else float(eps0), ControlledArm(gain_set, model))

@@ -110,7 +110,7 @@ def sweep(
     numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
     first = numeric.V(q0, np.array(task.q_d) - q0, np.array(task.w0))
     limits = np.array([np.inf if most is None else most for most in torque_limits(model)])
-    found = Sweep(
+    result = Sweep(
         gains=gains,
         robot=model.name,
         joints=model.joints,
@@ -125,17 +125,17 @@ def sweep(
         notes=model.assumptions,
         breach=None,
     )
-    return _explained(found, gain_set, model)
+    return _explained(result, gain_set, model)
 
 
-def _explained(found: Sweep, gain_set: GainSet, model: RobotModel) -> Sweep:
+def _explained(result: Sweep, gain_set: GainSet, model: RobotModel) -> Sweep:
     """The same with the breach of the first run that broke a promise, from running it alone."""
-    broken = np.flatnonzero((found.risen | found.beyond) & found.runs.complete)
+    broken = np.flatnonzero((result.risen | result.beyond) & result.runs.complete)
     if not broken.size:
-        return found
-    start, task = found.q0[broken[0]].tolist(), found.task
-    run = simulate(gain_set, model, task.q_d, start, task.w0, task.T, eps0=found.eps0, stop=False)
-    return replace(found, breach=run.breach)
+        return result
+    start, task = result.q0[broken[0]].tolist(), result.task
+    run = simulate(gain_set, model, task.q_d, start, task.w0, task.T, eps0=result.eps0, stop=False)
+    return replace(result, breach=run.breach)
 
 
 def quantiles(values: Array) -> list[float]:

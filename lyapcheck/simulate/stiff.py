@@ -48,7 +48,7 @@ def stiff_periods(setup: Setup, bench: Bench, periods: int, tolerance: float) ->
     for k in range(periods):
         held, reading = control(states[k, :n], reading, goal)
         torques[k] = np.array(held).ravel()
-        ends, told = odeint(
+        ends, info = odeint(
             lambda y, _, tau: rate(y, tau),
             states[k],
             [0.0, bench.period],
@@ -56,7 +56,7 @@ def stiff_periods(setup: Setup, bench: Bench, periods: int, tolerance: float) ->
             lambda y, _, tau: slope(y, tau),
             **options,
         )
-        if told["message"] != "Integration successful.":
+        if info["message"] != "Integration successful.":
             break
         states[k + 1] = ends[1]
     return states, torques

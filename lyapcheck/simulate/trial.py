@@ -81,7 +81,7 @@ def experiment(
     periods = math.floor(T / bench.period * (1 + 1e-12))
     if periods < 1:
         raise argument_error("T", T, f"is shorter than one period of {bench.period} s", "give a longer time")
-    tell = on_progress or _silent
+    progress = on_progress or _silent
     substeps = enough_substeps(model, bench)
     if substeps > MOST_SUBSTEPS:
         moved = partial(stiff_periods, setup, bench, periods)
@@ -89,9 +89,9 @@ def experiment(
     else:
         moved, finer = partial(_periods, setup, bench, periods), (substeps, 2 * substeps)
     rough = _motion(bench, *moved(finer[0]))
-    tell(1 / 3, "")
+    progress(1 / 3, "")
     fine = _motion(bench, *moved(finer[1]))
-    tell(1.0, "")
+    progress(1.0, "")
     return _run(setup, bench, rough, fine)
 
 

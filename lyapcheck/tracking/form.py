@@ -22,7 +22,7 @@ from lyapcheck.files.decimals import round_down
 from lyapcheck.lyapunov.scalar import scalar_form
 
 if TYPE_CHECKING:
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 
 HALVINGS = 48
@@ -71,13 +71,13 @@ class TrackingForm:
         return np.asarray(-(corner * a * a + 2.0 * side * a * b + low * b * b))
 
 
-def tracking_form(setting: Setting, speed: Fraction) -> TrackingForm | None:
+def tracking_form(controlled: ControlledArm, speed: Fraction) -> TrackingForm | None:
     """Θ' of a controller on an arm at a bound v_d of ‖q̇_d‖ in rad/s; none where h is unbounded.
 
     Soundness: β_M and k_c are outside bounds at the arm's nominal numbers, v_d is what it is given.
     """
-    still = scalar_form(setting.gains, setting.family.constants(), robot_bounds(setting.model))
-    return None if still is None else TrackingForm(still, robot_constants(setting.model).k_c.upper * speed)
+    still = scalar_form(controlled.gains, controlled.family.constants(), robot_bounds(controlled.model))
+    return None if still is None else TrackingForm(still, robot_constants(controlled.model).k_c.upper * speed)
 
 
 def _short(value: Fraction) -> Fraction:

@@ -65,13 +65,13 @@ def tracking_loop(gains: Gains, model: RobotModel) -> TrackingLoop:
     n = model.n
     state, reference = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("r", 3 * n)
     e, w = state[:n], state[n : 2 * n]
-    goal, speed, push = reference[:n], reference[n : 2 * n], reference[2 * n :]
+    goal, speed, desired_acceleration = reference[:n], reference[n : 2 * n], reference[2 * n :]
     q, velocity = goal - e, speed + w
     mass, coriolis = graph.mass(model, q), graph.coriolis(model, q, velocity)
     friction, gravity = graph.viscous(model), graph.gravity(model, q)
     feedback = ca.DM(gains.kp) * gains.family.casadi(e).h - ca.DM(gains.kv) * gains.family.casadi(w).h
     acceleration = graph.solve(mass, feedback - friction @ w - coriolis @ w)
-    torque = feedback + mass @ push + coriolis @ speed + gravity + friction @ speed
+    torque = feedback + mass @ desired_acceleration + coriolis @ speed + gravity + friction @ speed
     power = ca.dot(velocity, torque - friction @ velocity)
     rate = ca.vertcat(-w, acceleration, ca.dot(e, e), power)
     energy = ca.dot(velocity, mass @ velocity) / 2 + graph.potential(model, q)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.integrate import Trajectory, integrate
 from lyapcheck.simulate.monitor import torque_limits
@@ -45,11 +45,11 @@ class Prepared:
 
     def __init__(self, gain_set: GainSet, model: RobotModel, reference: Reference, asked: Request) -> None:
         self.gains = gains_for(gain_set, model.n)
-        self.model, self.setting = model, Setting(gain_set, model)
+        self.model, self.controlled = model, ControlledArm(gain_set, model)
         self.reference, self.asked = reference, asked
         self.loop: TrackingLoop = tracking_loop(self.gains, model)
         self.suprema = reference.suprema()
-        self.form: TrackingForm | None = tracking_form(self.setting, self.suprema.speed)
+        self.form: TrackingForm | None = tracking_form(self.controlled, self.suprema.speed)
         first = reference.at(np.zeros(1))[0]
         self.e0, self.w0 = first[0] - np.array(asked.q0), np.array(asked.velocity) - first[1]
         self.promise = self._promise()
@@ -66,10 +66,10 @@ class Prepared:
             eps0 = 0.0 if largest is None else float(largest * SHARE)
         falls = self.form is not None and self.form.certifies(Fraction(eps0))
         start = (self.asked.q0, self.e0.tolist(), self.w0.tolist())
-        torque = torque_bounds(self.setting, self.suprema, *start)
+        torque = torque_bounds(self.controlled, self.suprema, *start)
         return Promise(self.suprema, eps0, largest, falls, torque, reason)
 
-    def twice(self, tolerance: float, max_steps: int, tell: Progress) -> tuple[Trajectory, Trajectory]:
+    def twice(self, tolerance: float, max_steps: int, progress: Progress) -> tuple[Trajectory, Trajectory]:
         """The integration, and again ten times tighter."""
         rate, jacobian, T = self.loop.compiled_rate(), self.loop.compiled_jacobian(), self.asked.T
         t = np.linspace(0.0, T, self.asked.points)
@@ -84,7 +84,7 @@ class Prepared:
                 t,
                 tolerance * easy,
                 max_steps=max_steps,
-                on_time=lambda time: tell(done + 0.5 * time / T, ""),
+                on_time=lambda time: progress(done + 0.5 * time / T, ""),
             )
 
         return once(tolerance, 0.0), once(tolerance / 10, 0.5)
@@ -96,17 +96,17 @@ class Prepared:
         """(N, 2n) what has a limit or is an index: τ and e."""
         inputs = path.y.T, self.reference.at(path.t).reshape(len(path.t), -1).T
         tau = np.array(self.loop.signals().map(path.t.size)(*inputs)[0]).T
-        return np.hstack((tau, path.y[:, : self.setting.n]))
+        return np.hstack((tau, path.y[:, : self.controlled.n]))
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
         """Everything that can be computed from the samples of a path."""
-        n, model = self.setting.n, self.model
+        n, model = self.controlled.n, self.model
         goal = self.reference.at(path.t)
         inputs = (path.y.T, goal.reshape(len(path.t), -1).T)
         tau, energy = (np.array(x) for x in self.loop.signals().map(path.t.size)(*inputs))
         e, w = path.y[:, :n], path.y[:, n : 2 * n]
         motion = Motion(path.t, goal[:, 0] - e, e, w, tau.T, goal[:, 0], goal[:, 1], goal[:, 2])
-        V, dV = energies(self.setting, self.gains, self.promise.eps0, motion)
+        V, dV = energies(self.controlled, self.gains, self.promise.eps0, motion)
         bound = bound_of(self.form, self.gains, self.promise.eps0, motion)
         return TrackingRun(
             gains=self.gains,
@@ -126,7 +126,7 @@ class Prepared:
             torque_limit=torque_limits(model),
             complete=path.failure is None,
             notes=model.assumptions,
-            breach=broken(self.setting, model.torque_limit, self.promise, motion, V, dV, bound),
+            breach=broken(self.controlled, model.torque_limit, self.promise, motion, V, dV, bound),
         )
 
 

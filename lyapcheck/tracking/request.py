@@ -69,20 +69,20 @@ def request_for(
 
 
 def _reference_problems(n: int, reference: Reference, T: float) -> list[Problem]:
-    found = []
+    result = []
     if reference.n != n:
-        found.append(
+        result.append(
             _problem("reference", reference.kind, f"moves {reference.n} joints, but the arm has {n}")
         )
     if reference.span is not None and reference.span < T:
         rule = f"is longer than the recording, which ends at {reference.span:.6g} s"
-        found.append(_problem("T", f"{T:g}", rule))
+        result.append(_problem("T", f"{T:g}", rule))
     if reference.suprema().speed > FASTEST:
         speed = float(reference.suprema().speed)
-        found.append(
+        result.append(
             _problem("reference", reference.kind, f"moves at {speed:.3g} rad/s, more than {FASTEST:g} rad/s")
         )
-    return found
+    return result
 
 
 def _problem(key: str, value: str, rule: str) -> Problem:

@@ -11,7 +11,7 @@ from lyapcheck._types import Array
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import (
     Breach,
     Watched,
@@ -28,17 +28,17 @@ from lyapcheck.tracking.monitors import form_monitor
 from lyapcheck.tracking.run import Indices, Motion, Promise
 
 
-def energies(setting: Setting, gains: Gains, eps0: float, motion: Motion) -> tuple[Array, Array]:
+def energies(controlled: ControlledArm, gains: Gains, eps0: float, motion: Motion) -> tuple[Array, Array]:
     """V of (13) and dV/dt along (21) at the samples, J and W.
 
     With C(q, q̇) = C(q, w) + C(q, q̇_d) in (11), dV/dt is that of (11) plus −ε (w − εh)ᵀ C(q, q̇_d) h.
     """
-    numeric = LyapunovNumeric(setting.model, gains.family, gains.kp, gains.kv, eps0)
+    numeric = LyapunovNumeric(controlled.model, gains.family, gains.kp, gains.kv, eps0)
     V = numeric.V(motion.q, motion.e, motion.w)
     rate = numeric.rate(motion.q, motion.e, motion.w)
     h = gains.family.h(motion.e)
     eps = eps0 / (1.0 + np.linalg.norm(motion.e, axis=1, keepdims=True))
-    turned = np.einsum("tij,tj->ti", NumericModel(setting.model).coriolis(motion.q, motion.speed), h)
+    turned = np.einsum("tij,tj->ti", NumericModel(controlled.model).coriolis(motion.q, motion.speed), h)
     return V, rate - np.sum(eps * (motion.w - eps * h) * turned, axis=1)
 
 
@@ -51,7 +51,7 @@ def bound_of(form: TrackingForm | None, gains: Gains, eps0: float, motion: Motio
 
 
 def broken(
-    setting: Setting,
+    controlled: ControlledArm,
     limits: Sequence[Number | None],
     promise: Promise,
     motion: Motion,
@@ -61,7 +61,7 @@ def broken(
 ) -> Breach | None:
     """The first promise that the samples break, or the limit of a motor, N·m."""
     watched = Watched(
-        setting=setting,
+        controlled=controlled,
         eps0=promise.eps0,
         t=motion.t,
         q=motion.q,
@@ -72,7 +72,7 @@ def broken(
         dV=dV,
         noise=noise_of(V),
         speed=motion.speed,
-        acceleration=motion.push,
+        acceleration=motion.acceleration,
     )
     torque = None if promise.torque is None else tuple(map(float, promise.torque.total))
     joints = joint_monitor("its bound for (21)", torque)

@@ -35,7 +35,7 @@ class Promise:
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Samples at ``t`` (N,) in s, each (N, n): ``q`` and ``e`` = q_d − q in rad, ``w`` = q̇ − q̇_d in rad/s,
-    ``tau`` of (21) in N·m, and the reference ``goal`` in rad, ``speed`` in rad/s, ``push`` in rad/s²."""
+    ``tau`` of (21) in N·m, and of the reference ``goal`` in rad, ``speed``, ``acceleration`` in rad/s²."""
 
     t: Array
     q: Array
@@ -44,7 +44,7 @@ class Motion:
     tau: Array
     goal: Array
     speed: Array
-    push: Array
+    acceleration: Array
 
     @property
     def velocity(self) -> Array:

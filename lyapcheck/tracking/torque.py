@@ -21,7 +21,7 @@ from lyapcheck.simulate.entries import coriolis_squares, gravity_sizes, mass_siz
 from lyapcheck.tracking.reference.base import BITS, above
 
 if TYPE_CHECKING:
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
     from lyapcheck.tracking.reference import Suprema
 
 Row = tuple[Fraction, ...]
@@ -54,43 +54,43 @@ class TorqueBounds:
 
 
 def torque_bounds(
-    setting: Setting, reach: Suprema, q: Sequence[float], e: Sequence[float], w: Sequence[float]
+    controlled: ControlledArm, suprema: Suprema, q: Sequence[float], e: Sequence[float], w: Sequence[float]
 ) -> TorqueBounds | None:
     """The bounds for motions from one state; none where h is unbounded or λmin(M) > 0 is not known.
 
     Args:
-        setting: controller and arm, at nominal numbers.
-        reach: of the reference.
+        controlled: controller and arm, at nominal numbers.
+        suprema: of the reference.
         q: (n,) start in rad.
         e: (n,) q_d(0) − q.
         w: (n,) q̇ − q̇_d(0), rad/s.
     """
-    gamma, constants = setting.family.constants().gamma, robot_constants(setting.model)
+    gamma, constants = controlled.family.constants().gamma, robot_constants(controlled.model)
     least = constants.lambda_min.lower
     if gamma is None or least <= 0:
         return None
     start = State(*(tuple(map(Fraction, part)) for part in (q, e, w)))
     with precision(BITS):
-        stored = value(setting.arm, setting.controller, Fraction(0), start, BITS)
+        stored = value(controlled.arm, controlled.controller, Fraction(0), start, BITS)
         spin = above((2 * stored / to_arb(least)).sqrt())
     top = gamma.upper
-    turning = (reach.speed + spin) * reach.speed
+    product = (suprema.speed + spin) * suprema.speed
     return TorqueBounds(
-        feedback=tuple(top * (p + v) for p, v in zip(setting.gains.kp, setting.gains.kv, strict=True)),
+        feedback=tuple(top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)),
         inertia=tuple(
-            sum((m * a for m, a in zip(row, reach.acceleration, strict=True)), Fraction(0))
-            for row in mass_sizes(setting.fixed)
+            sum((m * a for m, a in zip(row, suprema.acceleration, strict=True)), Fraction(0))
+            for row in mass_sizes(controlled.fixed)
         ),
-        coriolis=tuple(k * turning for k in _coriolis_rows(setting, constants.k_c.upper)),
-        gravity=gravity_sizes(setting.fixed),
-        friction=tuple(b * v for b, v in zip(setting.arm.viscous, reach.rate, strict=True)),
+        coriolis=tuple(k * product for k in _coriolis_rows(controlled, constants.k_c.upper)),
+        gravity=gravity_sizes(controlled.fixed),
+        friction=tuple(b * v for b, v in zip(controlled.arm.viscous, suprema.rate, strict=True)),
         error_rate=spin,
     )
 
 
-def _coriolis_rows(setting: Setting, k_c: Fraction) -> Row:
+def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
     """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
-    if setting.n > QUICK:
-        return (k_c,) * setting.n
+    if controlled.n > QUICK:
+        return (k_c,) * controlled.n
     with precision(BITS):
-        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(setting.fixed))
+        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(controlled.fixed))

@@ -23,9 +23,9 @@ def main() -> None:
     """A minute or two on two cores."""
     model = load(PAPER_ARM)
     sets = [one for name in GAIN_FILES for one in read_gain_file(paper_gain_file(name)).gains]
-    found = study(sets, model, seed=SEED, on_progress=_tell)
-    assert found is not None, "the paper prints the experiment of its own gains"
-    RESULTS.write_text(laid_out({"arm": arm_digest(model)} | study_json(found)) + "\n", encoding="utf-8")
+    result = study(sets, model, seed=SEED, on_progress=_tell)
+    assert result is not None, "the paper prints the experiment of its own gains"
+    RESULTS.write_text(laid_out({"arm": arm_digest(model)} | study_json(result)) + "\n", encoding="utf-8")
 
 
 def _tell(fraction: float, note: str) -> None:

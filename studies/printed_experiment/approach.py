@@ -81,10 +81,10 @@ def between(points: Array, differences: Array, evaluate: Callable[[Array], Array
     """
     below = points[np.argmin(np.where(differences <= 0.0, -differences, np.inf), axis=0)]
     above = points[np.argmin(np.where(differences >= 0.0, differences, np.inf), axis=0)]
-    found = []
+    result = []
     for _ in range(HALVINGS):
         middle = (below + above) / 2
-        found.append(middle)
+        result.append(middle)
         under = (evaluate(middle) <= 0.0)[:, None]
         below, above = np.where(under, middle, below), np.where(under, above, middle)
-    return np.vstack(found)
+    return np.vstack(result)

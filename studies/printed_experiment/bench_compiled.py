@@ -43,15 +43,15 @@ def compiled_bench(
     if not has_plain_forms(family):
         return None
     try:
-        found = library(_source(model, family, period, substeps, sweeps))
+        result = library(_source(model, family, period, substeps, sweeps))
     except TooLong:
         return None
-    if found is None:
+    if result is None:
         return None
     whole, place = ctypes.c_int64, ctypes.c_void_p
-    found.bench_runs.restype = None
-    found.bench_runs.argtypes = [whole, whole, place, place, place]
-    return CompiledBench(found.bench_runs)
+    result.bench_runs.restype = None
+    result.bench_runs.argtypes = [whole, whole, place, place, place]
+    return CompiledBench(result.bench_runs)
 
 
 def _source(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:

@@ -72,8 +72,8 @@ def _number(one: NumberStudy, study: Study, names: Sequence[str]) -> dict[str, A
 
 
 def _at_once(one: AtOnce, names: Sequence[str]) -> dict[str, Any]:
-    found = {"values": _list(one.values), "worst": _plain(one.worst), "arms": one.arms}
-    return found | {"at": _at(one.at, names)}
+    result = {"values": _list(one.values), "worst": _plain(one.worst), "arms": one.arms}
+    return result | {"at": _at(one.at, names)}
 
 
 def _at(values: Sequence[float] | None, names: Sequence[str]) -> dict[str, float | None] | None:

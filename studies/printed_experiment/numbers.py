@@ -19,16 +19,16 @@ NEAR, LEAST = 0.01, 0.005
 Ends = tuple[float | None, float | None]
 
 
-def number_study(number: PrintedNumber, found: Trials, plan: Design) -> NumberStudy:
+def number_study(number: PrintedNumber, result: Trials, plan: Design) -> NumberStudy:
     """Everything about one number; the trials begin with the points of ``plan`` in their order.
 
     A joint that does not settle counts as one that settles at the end of the run where shares of the variance
     are computed, and as larger than any printed time where a printed time is looked for.
     """
-    seen = number.column(found.outcomes)
+    seen = number.column(result.outcomes)
     nominal, alone, spread = _parts(seen, plan)
-    at, nearest = _nearest(number, found, seen)
-    low, high, moved = *ends(seen), found.moved(number)
+    at, nearest = _nearest(number, result, seen)
+    low, high, moved = *ends(seen), result.moved(number)
     return NumberStudy(
         printed=number,
         nominal=finite(nominal),
@@ -37,7 +37,7 @@ def number_study(number: PrintedNumber, found: Trials, plan: Design) -> NumberSt
         typical=_typical(spread),
         unsettled=float(np.mean(np.isinf(spread))) if spread.size else 0.0,
         alone=tuple(ends(row) for row in alone),
-        shares=_shares(plan.spread, spread, found),
+        shares=_shares(plan.spread, spread, result),
         answer=_answer(number, seen, nearest) if moved else Answer.NO_PART,
         nearest=nearest,
         at=at if moved else None,
@@ -60,11 +60,11 @@ def _typical(spread: Array) -> Ends:
     return finite(float(low)), finite(float(high))
 
 
-def _shares(points: Array, spread: Array, found: Trials) -> tuple[float, ...] | None:
+def _shares(points: Array, spread: Array, result: Trials) -> tuple[float, ...] | None:
     good = ~np.isnan(spread)
     if good.sum() < 2:
         return None
-    known = np.where(np.isinf(spread), found.runs.task.T, spread)[good]
+    known = np.where(np.isinf(spread), result.runs.task.T, spread)[good]
     whole = shares(points[good], known)
     return None if whole is None else tuple(float(x) for x in whole)
 
@@ -80,7 +80,7 @@ def _answer(number: PrintedNumber, seen: Array, nearest: float | None) -> Answer
 
 
 def _nearest(
-    number: PrintedNumber, found: Trials, seen: Array
+    number: PrintedNumber, result: Trials, seen: Array
 ) -> tuple[tuple[float, ...] | None, float | None]:
     """(the assumed numbers, the value) nearest to the printed one; the smallest one for a printed bound."""
     distance = np.where(np.isfinite(seen), np.abs(seen - number.value), np.inf)
@@ -89,7 +89,7 @@ def _nearest(
     best = int(np.argmin(distance))
     if not math.isfinite(distance[best]):
         return None, None
-    at = values(found.runs.assumed, found.points[best : best + 1])[0]
+    at = values(result.runs.assumed, result.points[best : best + 1])[0]
     return tuple(float(x) for x in at), float(seen[best])
 
 

@@ -50,8 +50,8 @@ class PrintedNumber:
 
     def column(self, outcomes: Outcomes) -> Array:
         """(R,) the same number of each run."""
-        found: Array = getattr(outcomes, self.quantity)
-        return found if self.joint is None else found[:, self.joint]
+        result: Array = getattr(outcomes, self.quantity)
+        return result if self.joint is None else result[:, self.joint]
 
 
 def printed_numbers(entry: Printed) -> tuple[PrintedNumber, ...]:

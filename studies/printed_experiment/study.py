@@ -71,10 +71,10 @@ def study(
     sets: list[SetStudy] = []
     for gain_set, entry in chosen:
         runs = BenchRuns(gain_set, model, PAPER_TASK, assumed)
-        found = first_trials(runs, printed_numbers(entry), plan.points)
-        found = found.searched(seed) if search else found
-        sets.append(_set_study(gain_set, entry, found, plan, seed if search else None))
-        trials.append(found)
+        result = first_trials(runs, printed_numbers(entry), plan.points)
+        result = result.searched(seed) if search else result
+        sets.append(_set_study(gain_set, entry, result, plan, seed if search else None))
+        trials.append(result)
         (on_progress or _silent)(len(sets) / (len(chosen) + 1), gain_set.name)
     one_arm = all_sets(trials, len(plan.points), seed if search else None)
     return Study(
@@ -97,15 +97,15 @@ def _count(sets: Sequence[SetStudy], one_arm: Together | None, common: int) -> i
     return sum(one.at_once.arms + 1 for one in sets) + together
 
 
-def _set_study(gain_set: GainSet, entry: Printed, found: Trials, plan: Design, seed: int | None) -> SetStudy:
-    numbers = tuple(number_study(number, found, plan) for number in found.printed)
-    shown = _figure_gains(gain_set, entry, found, plan)
-    return SetStudy(gain_set.name, gain_set.m, numbers, one_set(found, seed), shown)
+def _set_study(gain_set: GainSet, entry: Printed, result: Trials, plan: Design, seed: int | None) -> SetStudy:
+    numbers = tuple(number_study(number, result, plan) for number in result.printed)
+    shown = _figure_gains(gain_set, entry, result, plan)
+    return SetStudy(gain_set.name, gain_set.m, numbers, one_set(result, seed), shown)
 
 
-def _figure_gains(gain_set: GainSet, entry: Printed, found: Trials, plan: Design) -> FigureGains:
+def _figure_gains(gain_set: GainSet, entry: Printed, result: Trials, plan: Design) -> FigureGains:
     """The nominal arm under the gains with which the paper's figure starts."""
-    runs = found.runs
+    runs = result.runs
     gains = gains_for(gain_set, runs.model.n)
     kp = figure_gains(entry, gains, runs.task.step)
     outcome = replace(runs, kp=kp)(values(runs.assumed, plan.nominal[None]))

@@ -31,30 +31,30 @@ def all_sets(trials: Sequence[Trials], common: int, seed: int | None) -> Togethe
     """
     if len(trials) < 2:
         return None
-    goals = [found.printed[0] for found in trials]
+    goals = [result.printed[0] for result in trials]
 
     def indices(points: Array) -> Array:
-        return np.column_stack([found.at(points).L2 for found in trials])
+        return np.column_stack([result.at(points).L2 for result in trials])
 
-    seen = np.column_stack([found.outcomes.L2[:common] for found in trials])
+    seen = np.column_stack([result.outcomes.L2[:common] for result in trials])
     best, seen = _search(trials[0], trials[0].points[:common], seen, goals, indices, seed)
     return Together(best, _ordered(seen, np.array([goal.value for goal in goals])))
 
 
-def one_set(found: Trials, seed: int | None) -> AtOnce:
+def one_set(result: Trials, seed: int | None) -> AtOnce:
     """The L2 index and the settling times of one gain set at one arm."""
-    goals = [number for number in found.printed if number.quantity in ("L2", "settling")]
+    goals = [number for number in result.printed if number.quantity in ("L2", "settling")]
 
     def columns(points: Array) -> Array:
-        outcomes = found.at(points)
+        outcomes = result.at(points)
         return np.column_stack([goal.column(outcomes) for goal in goals])
 
-    seen = np.column_stack([goal.column(found.outcomes) for goal in goals])
-    return _search(found, found.points, seen, goals, columns, seed)[0]
+    seen = np.column_stack([goal.column(result.outcomes) for goal in goals])
+    return _search(result, result.points, seen, goals, columns, seed)[0]
 
 
 def _search(
-    found: Trials,
+    result: Trials,
     points: Array,
     seen: Array,
     goals: Sequence[PrintedNumber],
@@ -65,7 +65,7 @@ def _search(
     collected = [seen]
 
     def differences(values: Array) -> Array:
-        T = found.runs.task.T
+        T = result.runs.task.T
         apart = np.column_stack([_apart(goal, values[:, i], T) for i, goal in enumerate(goals)])
         return np.asarray(apart.max(axis=1, keepdims=True))
 
@@ -79,7 +79,7 @@ def _search(
     everything = np.vstack(collected)
     worst = differences(everything)[:, 0]
     best = int(np.argmin(worst))
-    at = values(found.runs.assumed, points[best : best + 1])[0]
+    at = values(result.runs.assumed, points[best : best + 1])[0]
     finite = tuple(float(x) if np.isfinite(x) else None for x in everything[best])
     return AtOnce(finite, float(worst[best]), tuple(float(x) for x in at), len(points)), everything
 

@@ -48,9 +48,9 @@ class Trials:
         goals = [number for number in self.printed if self.moved(number)]
         if not goals:
             return self
-        found = self._widened(goals, seed)
-        sides = [number for number in goals if not number.at_most and found._both_sides(number)]
-        return found._halved(sides) if sides else found
+        result = self._widened(goals, seed)
+        sides = [number for number in goals if not number.at_most and result._both_sides(number)]
+        return result._halved(sides) if sides else result
 
     def moved(self, number: PrintedNumber) -> bool:
         """Whether the arm has any influence on a number."""
@@ -71,8 +71,8 @@ class Trials:
             fresh.append(self.at(points))
             return differences(goals, fresh[-1])
 
-        found = approach(self.points, differences(goals, self.outcomes), evaluate, reached, seed)
-        return self._with(found, fresh)
+        result = approach(self.points, differences(goals, self.outcomes), evaluate, reached, seed)
+        return self._with(result, fresh)
 
     def _both_sides(self, number: PrintedNumber) -> bool:
         seen = differences([number], self.outcomes)
@@ -85,8 +85,8 @@ class Trials:
             fresh.append(self.at(points))
             return np.diagonal(differences(goals, fresh[-1]))
 
-        found = between(self.points, differences(goals, self.outcomes), evaluate)
-        return self._with(found, fresh)
+        result = between(self.points, differences(goals, self.outcomes), evaluate)
+        return self._with(result, fresh)
 
     def _with(self, points: Array, fresh: Sequence[Outcomes]) -> Trials:
         """These trials and new ones, in the same order."""

@@ -70,11 +70,11 @@ def test_bounds_are_judged_one_by_one_at_the_line_of_the_gain_set(compared: Comp
 @pytest.mark.slow
 def test_without_a_rate_at_the_goal_it_says_so() -> None:
     asked = (load("reyes-kelly2"), TASK, math.radians(10), (), (0.0, 0.0))
-    found = Comparisons((compare(FILE.gains[1], *asked, max_boxes=4_000),))
-    assert found.results[0].certified
-    assert [one.rule for one in found.annotations()] == ["settling", "disturbed", "no-rate"]
-    assert "no exponential rate" in str(found)
-    assert "disturbed, under" not in str(found)
+    result = Comparisons((compare(FILE.gains[1], *asked, max_boxes=4_000),))
+    assert result.results[0].certified
+    assert [one.rule for one in result.annotations()] == ["settling", "disturbed", "no-rate"]
+    assert "no exponential rate" in str(result)
+    assert "disturbed, under" not in str(result)
 
 
 @pytest.mark.parametrize("name", JudgedFormat)

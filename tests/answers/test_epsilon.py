@@ -19,7 +19,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 
@@ -34,40 +34,42 @@ def case(request: pytest.FixtureRequest) -> tuple[GainSet, EpsilonResult]:
 
 
 def test_the_four_are_in_order(case: tuple[GainSet, EpsilonResult]) -> None:
-    _, found = case
-    assert found.scalar is not None
-    assert found.certified is not None
-    assert found.falsified is not None
-    assert 0 < found.scalar <= found.certified <= found.falsified
-    assert found.ratio == found.certified / found.falsified
-    assert found.ratio > F(9, 10)
+    _, result = case
+    assert result.scalar is not None
+    assert result.certified is not None
+    assert result.falsified is not None
+    assert 0 < result.scalar <= result.certified <= result.falsified
+    assert result.ratio == result.certified / result.falsified
+    assert result.ratio > F(9, 10)
 
 
 def test_witness_replays_and_does_not_reach_the_certified(case: tuple[GainSet, EpsilonResult]) -> None:
-    gains, found = case
-    setting = Setting(gains, ARM)
-    assert found.witness is not None
-    assert found.certified is not None
-    assert confirms_positive(setting.arm, setting.controller, found.witness.eps0, found.witness.state)
-    assert not confirms_positive(setting.arm, setting.controller, found.certified, found.witness.state)
+    gains, result = case
+    controlled = ControlledArm(gains, ARM)
+    assert result.witness is not None
+    assert result.certified is not None
+    assert confirms_positive(controlled.arm, controlled.controller, result.witness.eps0, result.witness.state)
+    assert not confirms_positive(
+        controlled.arm, controlled.controller, result.certified, result.witness.state
+    )
 
 
 def test_a_planted_certificate_raises_the_alarm(case: tuple[GainSet, EpsilonResult]) -> None:
-    gains, found = case
-    setting = Setting(gains, ARM)
-    assert found.falsified is not None
-    require_consistent(setting, found.witness, {"certified": found.certified, "scalar": found.scalar})
+    gains, result = case
+    controlled = ControlledArm(gains, ARM)
+    assert result.falsified is not None
+    require_consistent(controlled, result.witness, {"certified": result.certified, "scalar": result.scalar})
     with pytest.raises(Contradiction, match="certified"):
-        require_consistent(setting, found.witness, {"certified": found.falsified * 2})
+        require_consistent(controlled, result.witness, {"certified": result.falsified * 2})
     with pytest.raises(Contradiction, match="scalar"):
-        require_consistent(setting, found.witness, {"scalar": found.falsified})
+        require_consistent(controlled, result.witness, {"scalar": result.falsified})
 
 
 @pytest.mark.parametrize("name", JudgedFormat)
 def test_formats_are_pure(case: tuple[GainSet, EpsilonResult], name: str) -> None:
-    _, found = case
-    first = EpsilonResults((found,)).written(name)
-    assert first == EpsilonResults((found,)).written(name) == found.written(name)
+    _, result = case
+    first = EpsilonResults((result,)).written(name)
+    assert first == EpsilonResults((result,)).written(name) == result.written(name)
     assert (r"tau\_" if name == "latex" else "tau_") in first
     assert "seconds" not in first
 
@@ -81,23 +83,23 @@ def test_seconds_are_there_where_they_were_asked_for(case: tuple[GainSet, Epsilo
 
 
 def test_the_first_line_says_what_is_certified(case: tuple[GainSet, EpsilonResult]) -> None:
-    _, found = case
-    none = replace(found, certified=None, proof=None, reasons={"certified": "budget spent"})
-    title, shown = found.document().title, found.data()["results"][0]["certified"]
-    assert title == f"✓ ε₀ = {shown} is certified for {found.name} on {ARM.name}"
+    _, result = case
+    none = replace(result, certified=None, proof=None, reasons={"certified": "budget spent"})
+    title, shown = result.document().title, result.data()["results"][0]["certified"]
+    assert title == f"✓ ε₀ = {shown} is certified for {result.name} on {ARM.name}"
     assert none.document().title.startswith("? no ε₀ is certified")
-    both = EpsilonResults((found, none)).document().title
+    both = EpsilonResults((result, none)).document().title
     assert both == f"? 1 of 2 gain sets have a certified ε₀ on {ARM.name}"
-    assert str(found).startswith(title)
+    assert str(result).startswith(title)
 
 
 def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
     case: tuple[GainSet, EpsilonResult],
 ) -> None:
-    _, found = case
+    _, result = case
     file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    none = replace(found, certified=None, reasons={"certified": "budget spent"})
-    passed, witness = EpsilonResults((found,), file).annotations()
+    none = replace(result, certified=None, reasons={"certified": "budget spent"})
+    passed, witness = EpsilonResults((result,), file).annotations()
     undecided, *_ = EpsilonResults((none,), file).annotations()
     assert (passed.level, passed.rule, passed.message) == (Level.PASSED, "certified", "")
     assert (undecided.level, undecided.message) == (Level.UNDECIDED, "no ε₀ is certified: budget spent")
@@ -105,9 +107,9 @@ def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
     assert "dV/dt > " in witness.message
     lines = Path(file.path).read_text(encoding="utf-8").splitlines()
     for one in (passed, witness, undecided):
-        assert (one.path, one.group) == (file.path, found.name)
+        assert (one.path, one.group) == (file.path, result.name)
         assert lines[one.line - 1] == "[[gains]]"
-        assert lines[one.line] == f'name = "{found.name}"'
+        assert lines[one.line] == f'name = "{result.name}"'
 
 
 @pytest.mark.parametrize(
@@ -117,31 +119,31 @@ def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
 def test_what_the_numbers_say_of_each_other_is_a_remark_of_its_own_rule(
     case: tuple[GainSet, EpsilonResult], published: Fraction, certified: Fraction | None, rules: set[str]
 ) -> None:
-    _, found = case
-    said = tuple(findings(F(published), certified, found.witness))
-    remarks = [one for one in replace(found, findings=said).annotations() if one.level is Level.REMARK]
+    _, result = case
+    said = tuple(findings(F(published), certified, result.witness))
+    remarks = [one for one in replace(result, findings=said).annotations() if one.level is Level.REMARK]
     assert {one.rule for one in remarks} == {"falsified", *rules}
-    assert f"- {said[0]}." in " ".join(str(replace(found, findings=said)).split())
+    assert f"- {said[0]}." in " ".join(str(replace(result, findings=said)).split())
 
 
 def test_json_numbers_are_exact_strings(case: tuple[GainSet, EpsilonResult]) -> None:
-    _, found = case
-    document = json.loads(found.written("json"))
+    _, result = case
+    document = json.loads(result.written("json"))
     assert document["schema"] == "lyapcheck/epsilon/1"
     row = document["results"][0]
     for kind in ("published", "scalar", "certified", "falsified"):
-        expected = getattr(found, kind)
+        expected = getattr(result, kind)
         assert row[kind] is None if expected is None else F(row[kind]) == expected
-    assert found.witness is not None
-    assert [F(x) for x in row["witness"]["w"]] == list(found.witness.state.w)
+    assert result.witness is not None
+    assert [F(x) for x in row["witness"]["w"]] == list(result.witness.state.w)
     low, high = (F(row["witness"]["rate"][end]) for end in ("lower", "upper"))
-    assert 0 < low <= found.witness.rate.lower <= found.witness.rate.upper <= high
+    assert 0 < low <= result.witness.rate.lower <= result.witness.rate.upper <= high
 
 
 def test_missing_numbers_are_shown_with_their_reason(case: tuple[GainSet, EpsilonResult]) -> None:
-    _, found = case
+    _, result = case
     nothing = replace(
-        found, certified=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
+        result, certified=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
     )
     assert nothing.ratio is None
     row = nothing.data()["results"][0]
@@ -152,19 +154,19 @@ def test_missing_numbers_are_shown_with_their_reason(case: tuple[GainSet, Epsilo
 
 
 def test_pd_has_no_published_number() -> None:
-    found = epsilon(
+    result = epsilon(
         GainSet("pd", None, (F(60), F(5)), (F(2), F(1)), "linear"), ARM, starts=6, max_boxes=20_000
     )
-    assert found.published is None
-    assert "γ" in found.reasons["published"]
-    assert found.witness is not None
+    assert result.published is None
+    assert "γ" in result.reasons["published"]
+    assert result.witness is not None
 
 
 @pytest.mark.slow
 def test_gains_that_break_19_have_an_empty_18() -> None:
-    found = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=1, max_boxes=50)
-    assert found.published is None
-    assert "(19)" in found.reasons["published"]
+    result = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=1, max_boxes=50)
+    assert result.published is None
+    assert "(19)" in result.reasons["published"]
 
 
 @pytest.mark.parametrize(("value", "digits", "expected"), [("0.12345679", 3, "0.123"), ("0.5", 9, "0.5")])

@@ -44,11 +44,11 @@ EVERY = [(script, known) for script in SHIPPED for known in load_proof(find_scri
 
 def test_claims_of_every_proof_are_explained():
     for script, known in EVERY[::37]:
-        found = explain(known, script)
-        assert found.id == known
-        assert found.says
-        assert found.lacking or (found.parts and found.procedures)
-        lines = str(found).splitlines()
+        result = explain(known, script)
+        assert result.id == known
+        assert result.says
+        assert result.lacking or (result.parts and result.procedures)
+        lines = str(result).splitlines()
         assert lines[0].startswith(f"{known}: “")
         assert max(map(len, lines)) <= 85, "combining accents take no column"
         assert not any(line != line.rstrip() for line in lines)
@@ -112,11 +112,11 @@ def test_lists_of_how_it_is_decided_stay_lists():
 
 
 def test_what_cannot_be_decided_says_why():
-    found = explain("18.gains")
-    assert (found.parts, found.procedures) == ((), ())
-    assert "take a smaller K_v" in str(found)
-    (row,) = csv.DictReader(io.StringIO(found.written("csv")))
-    assert (row["id"], row["statement"]) == ("18.gains", found.lacking)
+    result = explain("18.gains")
+    assert (result.parts, result.procedures) == ((), ())
+    assert "take a smaller K_v" in str(result)
+    (row,) = csv.DictReader(io.StringIO(result.written("csv")))
+    assert (row["id"], row["statement"]) == ("18.gains", result.lacking)
 
 
 @pytest.mark.parametrize(

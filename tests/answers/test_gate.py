@@ -20,8 +20,8 @@ HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy
 
 
 def table2(**options: object) -> dict[str, GateResult]:
-    found = gate(read_gain_file(paper_gain_file("table2")), **options)  # type: ignore[arg-type]
-    return {result.name: result for result in found}
+    outcome = gate(read_gain_file(paper_gain_file("table2")), **options)  # type: ignore[arg-type]
+    return {result.name: result for result in outcome}
 
 
 def command(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
@@ -148,9 +148,9 @@ def test_the_worst_verdict_is_the_exit_code(tmp_path: Path, verdicts: list[str],
         path = gain_file(
             tmp_path / "g.toml", f"robot = '{robot}'", f"[{', '.join('1' * n)}]", f"[{', '.join([kv] * n)}]"
         )
-        found = gate(read_gain_file(path))
-        assert [result.verdict for result in found] == [verdict]
-        results += found
+        outcome = gate(read_gain_file(path))
+        assert [result.verdict for result in outcome] == [verdict]
+        results += outcome
     assert GateAnswer(results).exit_code == code
 
 

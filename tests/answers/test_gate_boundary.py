@@ -82,9 +82,9 @@ def test_the_largest_k_v_passes_and_one_unit_more_does_not(
     assert first.verdict == ("accepted" if Fraction(written) <= largest else "rejected")
     # and by γ itself, in balls of the paper's definition through an independent square
     low, high = gamma_between(m, 600)
-    for found, sign in ((check(largest.text), 1), (above, -1)):
-        assert found.value is not None
-        square = n * found.value**2
+    for result, sign in ((check(largest.text), 1), (above, -1)):
+        assert result.value is not None
+        square = n * result.value**2
         assert (
             sign * (Fraction(friction) ** 2 - square * Fraction(low if sign < 0 else high, 2**600) ** 2) >= 0
         )
@@ -101,10 +101,10 @@ def test_the_largest_k_p_passes_and_one_unit_more_does_not(
     if largest is None or largest <= Fraction(kv):
         return
     places = largest.places
-    room = (largest - Fraction(kv)) * 10**places
-    if room.denominator != 1:  # k_v has more digits than the answer
+    gain_range = (largest - Fraction(kv)) * 10**places
+    if gain_range.denominator != 1:  # k_v has more digits than the answer
         return
-    for units, verdict in ((room, "accepted"), (room + 1, "rejected")):
+    for units, verdict in ((gain_range, "accepted"), (gain_range + 1, "rejected")):
         text = format(EXACT.scaleb(Decimal(int(units)), -places), "f")
         assert of(judged(tmp_path / "g.toml", f"m = {m}", [text], [kv], bounds), "10p").verdict == verdict
 

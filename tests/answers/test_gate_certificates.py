@@ -22,8 +22,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.proof import Proof
-from lyapcheck.search.setting import Setting
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import Done, invoke
 from tests.helpers.shares import one_in
@@ -34,8 +34,8 @@ TABLE2 = paper_gain_file("table2_shoulder_elbow")
 
 
 def judged(path: Path = TABLE2, *deciding: str, strict: bool = False) -> dict[str, GateResult]:
-    found = gate(read_gain_file(path), None, deciding or ("10p", "19"), strict=strict)
-    return {result.name: result for result in found}
+    outcome = gate(read_gain_file(path), None, deciding or ("10p", "19"), strict=strict)
+    return {result.name: result for result in outcome}
 
 
 def gain_file(path: Path, top: str, kv: str = "[0.1, 0.1]", end: str = "") -> Path:
@@ -114,10 +114,10 @@ def test_what_the_checker_refuses_is_not_accepted(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
 ) -> None:
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
-    import lyapcheck.answers.gate.prover as room
+    import lyapcheck.answers.gate.prover as gain_range
 
     monkeypatch.setattr(Proof, "accepted", lambda *_: False)
-    monkeypatch.setattr(room, "CEILINGS", (64, 4))
+    monkeypatch.setattr(gain_range, "CEILINGS", (64, 4))
     (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
     assert result.verdict == "undecided"
     assert "accepted no proof" in result.failures[0].reason
@@ -125,9 +125,9 @@ def test_what_the_checker_refuses_is_not_accepted(
 
 def test_the_last_way_is_the_checkers_own_scalar_form() -> None:
     """A tree of one leaf, which only that form can prove."""
-    setting = Setting(read_gain_file(TABLE2).gains[0], load_robot("reyes-kelly2"))
-    assert proves(setting.closure(Fraction(1, 1000)), ".")
-    assert not proves(setting.closure(Fraction(1)), ".")
+    controlled = ControlledArm(read_gain_file(TABLE2).gains[0], load_robot("reyes-kelly2"))
+    assert proves(controlled.loop(Fraction(1, 1000)), ".")
+    assert not proves(controlled.loop(Fraction(1)), ".")
 
 
 # --- undecided, never rejected -----------------------------------------------------------------
@@ -400,8 +400,8 @@ def test_other_functions_have_certificates_too(tmp_path: Path, family: str) -> N
     path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'")
     path.write_text(path.read_text().replace("m = 2", f"family = '{family}'"))
     judged_by_command(str(path), "--certificates", str(tmp_path / "made"))
-    found = [path.name for path in (tmp_path / "made").iterdir() if ".k_g" not in path.name]
-    assert set(found) >= {
+    result = [path.name for path in (tmp_path / "made").iterdir() if ".k_g" not in path.name]
+    assert set(result) >= {
         "a.10.json",
         *(f"a.{name}.{joint}.json" for name in ("10p", "19") for joint in ("shoulder", "elbow")),
     }

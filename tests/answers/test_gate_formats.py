@@ -129,8 +129,8 @@ def test_json_has_the_fields_that_scripts_rely_on(paper: GateAnswer) -> None:
 
 def test_numbers_of_json_are_decimal_strings_that_enclose(paper: GateAnswer) -> None:
     document = json.loads(paper.written("json"))
-    for result, told in zip(paper, document["results"], strict=True):
-        for check, shown in zip(result.checks, told["checks"], strict=True):
+    for result, printed in zip(paper, document["results"], strict=True):
+        for check, shown in zip(result.checks, printed["checks"], strict=True):
             assert check.limit is not None
             low, high = Fraction(shown["limit"]["lower"]), Fraction(shown["limit"]["upper"])
             assert low <= check.limit.lower <= check.limit.upper <= high
@@ -221,8 +221,8 @@ def test_conditions_that_do_not_decide_are_no_cases(paper: GateAnswer) -> None:
 
 
 def sarif(results: Sequence[GateResult]) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = json.loads(GateAnswer(results).written("sarif"))["runs"][0]["results"]
-    return found
+    result: list[dict[str, Any]] = json.loads(GateAnswer(results).written("sarif"))["runs"][0]["results"]
+    return result
 
 
 def test_undecided_warns_and_fails_where_the_gate_is_strict(undecided: GateAnswer) -> None:
@@ -243,10 +243,10 @@ def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path: Path) -> None:
             if r["level"] == "error"
         ]
 
-    found = prints(text)
-    assert len(set(found)) == 2
-    assert prints("\n\n# moved\n" + text.replace("0.223", "0.229")) == found
-    assert set(prints(text.replace("tau_m2", "other"))) & set(found) == set(found[1:])
+    result = prints(text)
+    assert len(set(result)) == 2
+    assert prints("\n\n# moved\n" + text.replace("0.223", "0.229")) == result
+    assert set(prints(text.replace("tau_m2", "other"))) & set(result) == set(result[1:])
 
 
 # --- what to change ----------------------------------------------------------------------------------
@@ -270,8 +270,8 @@ def test_what_to_change_would_pass(tmp_path: Path) -> None:
         )
         (result,) = gate(read_gain_file(path))
         (row,) = json.loads(GateAnswer([result]).written("json"))["results"]
-        told = [item["message"] for item in row["checks"] if item["message"]]
-        for check, text in zip(result.failures, told, strict=False):
+        printed = [item["message"] for item in row["checks"] if item["message"]]
+        for check, text in zip(result.failures, printed, strict=False):
             assert check.joint is not None
             changed = re.search(r"lower (k_p|it) to at most ([0-9.]+)$", text)
             assert changed, text

@@ -20,8 +20,8 @@ SCHEMA = json.loads(
 
 
 def log(path: Path, **options: Any) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(gate(read_gain_file(path), **options).written("sarif"))
-    return found
+    result: dict[str, Any] = json.loads(gate(read_gain_file(path), **options).written("sarif"))
+    return result
 
 
 def complaints(document: dict[str, Any]) -> list[str]:
@@ -42,9 +42,9 @@ def test_a_log_of_nasty_names_follows_the_schema(tmp_path: Path) -> None:
         "robot = 'pelican2'\n[[gains]]\nname = '<b>\"%\\n λ'\nm = 2\nkp = [1, 1]\nkv = [1, 0.001]\n",
         encoding="utf-8",
     )
-    found = log(path)
-    assert complaints(found) == []
-    levels = [result["level"] for result in found["runs"][0]["results"] if result["level"] != "note"]
+    outcome = log(path)
+    assert complaints(outcome) == []
+    levels = [result["level"] for result in outcome["runs"][0]["results"] if result["level"] != "note"]
     assert levels == ["error"]
     strict = log(path, strict=True)
     levels = [result["level"] for result in strict["runs"][0]["results"] if result["level"] != "note"]
@@ -70,8 +70,8 @@ def test_a_log_of_nasty_names_follows_the_schema(tmp_path: Path) -> None:
 def test_the_schema_refuses_other_logs(spoil: Callable[[Any], object], complaint: str) -> None:
     document = log(paper_gain_file())
     spoil(document["runs"][0])
-    (found,) = complaints(document)
-    assert complaint in found
+    (result,) = complaints(document)
+    assert complaint in result
 
 
 def test_a_fingerprint_tells_gains_apart_and_nothing_else(tmp_path: Path) -> None:
@@ -84,9 +84,9 @@ def test_a_fingerprint_tells_gains_apart_and_nothing_else(tmp_path: Path) -> Non
     path = tmp_path / "g.toml"
     text = paper_gain_file().read_text(encoding="utf-8")
     path.write_text(text, encoding="utf-8")
-    found = prints()
+    outcome = prints()
     path.write_text("# moved\n" + text.replace("0.223", "0.229"), encoding="utf-8")
-    assert prints() == found
+    assert prints() == outcome
     both = prints(deciding=("10", "10p", "19"), robot="buap3-small")
     assert len(set(both)) == len(both) == 3
-    assert set(found) < set(both)
+    assert set(outcome) < set(both)

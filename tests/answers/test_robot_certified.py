@@ -176,8 +176,8 @@ def test_certified_ends_hold_at_random_states_and_are_near_the_numeric_ones(name
     assert ends["lambda_min"].lower is not None
     assert ends["lambda_min"].lower <= values[:, 0].min() + 1e-12
     seen = {"lambda_max": values[:, -1], "k_c": turning, "k_g": np.linalg.norm(gravity, axis=1)}
-    for constant, found in seen.items():
-        assert float(ends[constant].upper or 0) >= found.max() - 1e-12
+    for constant, result in seen.items():
+        assert float(ends[constant].upper or 0) >= result.max() - 1e-12
     for constant in report.constants:
         shown, numeric = ends[constant.name], constant.enclosure
         low, high = shown.lower or Fraction(0), shown.upper

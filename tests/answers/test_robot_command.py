@@ -18,10 +18,10 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.basis import Products, Sums, basis_of
+from lyapcheck.constants.harmonics import derivative, harmonics
 from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
-from lyapcheck.constants.waves import derivative, waves
 from lyapcheck.errors import InputError
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import JudgedFormat
@@ -57,11 +57,11 @@ def arm_of(file: str) -> robots.RobotModel:
 def test_reach_holds_what_happens_in_the_box(file: str, basis: type) -> None:
     """M at random states of random boxes lies within middle + linear part ± radius."""
     arm = arm_of(file)
-    waves_of_arm = ArmWaves(arm)
-    torus = waves_of_arm.mass
+    harmonics_of_arm = ArmHarmonics(arm)
+    torus = harmonics_of_arm.mass
     assert isinstance(torus._basis, basis)
     numeric, rng = NumericModel(arm), np.random.default_rng(1)
-    rows, columns = zip(*waves_of_arm.places, strict=True)
+    rows, columns = zip(*harmonics_of_arm.places, strict=True)
     for size in (0.001, 0.1, 1.0, 3.0):
         middle, half = rng.uniform(-3, 3, (1, arm.n)), rng.uniform(0, size, (1, arm.n))
         reach = torus.on(middle, half)
@@ -74,7 +74,7 @@ def test_reach_holds_what_happens_in_the_box(file: str, basis: type) -> None:
 @pytest.mark.parametrize("file", ["ur5", "panda"])
 def test_a_radius_is_not_wider_than_its_order(file: str) -> None:
     """Small boxes leave an error of second order: a tenth of the width is a hundredth of the radius."""
-    torus = ArmWaves(arm_of(file)).mass
+    torus = ArmHarmonics(arm_of(file)).mass
     middle = np.full((1, torus.n), 0.7)
     wide, narrow = (torus.on(middle, np.full((1, torus.n), size)).radius.max() for size in (1e-2, 1e-3))
     assert narrow < wide / 50
@@ -85,15 +85,15 @@ def test_waves_are_the_same_polynomial() -> None:
     ring = trig.trig_ring(2)
     s1, s2, c1, c2 = ring.gens()
     poly = 3 * s1**3 * c2 + s1 * c1**2 * s2 * c2 - c2**4 + 7
-    parts = waves(trig.to_terms(poly), 2)
+    parts = harmonics(trig.to_terms(poly), 2)
     rng = np.random.default_rng(2)
     q = rng.uniform(-3, 3, (20, 2))
     for entry, exact in ((parts, poly), (derivative(parts, 1), trig.derivative(poly, 1))):
         basis, rows = basis_of([entry], 2)
         p = q @ np.linalg.inv(basis.back).T
-        found = sum(float(x) * basis.at(p).values[:, row] for row, x in rows[0].items())
+        result = sum(float(x) * basis.at(p).values[:, row] for row, x in rows[0].items())
         expected = [float(trig.evaluate(exact, [*np.sin(x), *np.cos(x)], float)) for x in q]
-        assert np.allclose(found, expected, atol=1e-12)
+        assert np.allclose(result, expected, atol=1e-12)
 
 
 @relaxed
@@ -124,7 +124,7 @@ def test_norm_bounds_hold_for_every_matrix_in_reach(seed: int, rows: int, column
 # Constants -----
 
 
-def whirl(model: NumericModel, q: np.ndarray, x: np.ndarray) -> np.ndarray:
+def coriolis(model: NumericModel, q: np.ndarray, x: np.ndarray) -> np.ndarray:
     size = np.linalg.norm(x, axis=-1)
     return np.linalg.norm(model.coriolis(q, x), 2, axis=(-2, -1)) / size
 
@@ -134,16 +134,16 @@ def test_no_state_lies_outside_the_constants(tmp_path: Path, name: str) -> None:
     (tmp_path / "generic4.urdf").write_text(generic(4))
     path = {"ur5": ARMS / "ur5.urdf", "generic4": tmp_path / "generic4.urdf"}.get(name, name)
     arm = robots.load(path)
-    found = {constant.name: constant for constant in arm_constants(arm, 200)}
+    result = {constant.name: constant for constant in arm_constants(arm, 200)}
     model, rng = NumericModel(arm), np.random.default_rng(4)
     q, x = rng.uniform(-np.pi, np.pi, (2000, arm.n)), rng.normal(size=(2000, arm.n))
     values, gravity = np.linalg.eigvalsh(model.mass(q)), np.abs(model.gravity(q))
-    assert values[:, 0].min() >= found["lambda_min"].enclosure.lower
-    assert values[:, -1].max() <= found["lambda_max"].enclosure.upper
-    assert whirl(model, q, x).max() <= found["k_c"].enclosure.upper
-    assert np.linalg.norm(gravity, axis=1).max() <= found["k_g"].enclosure.upper
+    assert values[:, 0].min() >= result["lambda_min"].enclosure.lower
+    assert values[:, -1].max() <= result["lambda_max"].enclosure.upper
+    assert coriolis(model, q, x).max() <= result["k_c"].enclosure.upper
+    assert np.linalg.norm(gravity, axis=1).max() <= result["k_g"].enclosure.upper
     for i in range(arm.n):
-        assert gravity[:, i].max() <= found[f"k_g{i + 1}"].enclosure.upper
+        assert gravity[:, i].max() <= result[f"k_g{i + 1}"].enclosure.upper
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -157,7 +157,7 @@ def test_masses_and_distances_bound_every_chain(tmp_path: Path, seed: int) -> No
     assert 0 < bounds.lambda_min <= values[:, 0].min()
     assert values[:, -1].max() <= bounds.lambda_max
     x = np.random.default_rng(seed + 1).normal(size=(500, arm.n))
-    assert bounds.k_c is None or whirl(model, q, x).max() <= bounds.k_c
+    assert bounds.k_c is None or coriolis(model, q, x).max() <= bounds.k_c
     assert all(np.abs(model.gravity(q)).max(axis=0) <= [float(x) + 1e-9 for x in bounds.gravity])
 
 
@@ -174,21 +174,21 @@ def test_every_constant_is_shown_by_its_state(name: str) -> None:
         values, gravity = np.linalg.eigvalsh(model.mass(q)), model.gravity(q)
         shown = {"lambda_min": values[0], "lambda_max": values[-1], "k_g": np.linalg.norm(gravity)}
         shown |= {f"k_g{i + 1}": abs(gravity[i]) for i in range(arm.n)}
-        value = float(whirl(model, q, x)) if constant.name == "k_c" else float(shown[constant.name])
+        value = float(coriolis(model, q, x)) if constant.name == "k_c" else float(shown[constant.name])
         assert value == pytest.approx(inside, rel=1e-6, abs=1e-9)
 
 
 def test_known_extremes_of_the_two_joint_arm() -> None:
     """M is largest stretched and k_g is reached stretched and level: g = (38.465 + 1.825, 1.825)."""
-    found = {
+    result = {
         constant.name: constant.enclosure for constant in arm_constants(robots.load("reyes-kelly2"), 5000)
     }
     stretched = np.linalg.eigvalsh([[2.351 + 0.168, 0.102 + 0.084], [0.102 + 0.084, 0.102]])[-1]
-    assert float(found["lambda_max"].lower) == pytest.approx(stretched, rel=1e-6)
-    assert float(found["lambda_max"].width) < 2e-3 * stretched
+    assert float(result["lambda_max"].lower) == pytest.approx(stretched, rel=1e-6)
+    assert float(result["lambda_max"].width) < 2e-3 * stretched
     level = np.hypot(38.46501 + 1.82466, 1.82466)
-    assert found["k_g"].lower <= Fraction(level) * (1 + Fraction(1, 10**9))
-    assert Fraction(level) * (1 - Fraction(1, 10**9)) <= found["k_g"].upper
+    assert result["k_g"].lower <= Fraction(level) * (1 + Fraction(1, 10**9))
+    assert Fraction(level) * (1 - Fraction(1, 10**9)) <= result["k_g"].upper
 
 
 @pytest.mark.slow

@@ -235,8 +235,8 @@ def test_gains_beyond_all_sense_have_json() -> None:
     with pytest.raises(SimulationFailed) as stopped:
         simulate(huge, robots.load("buap3"), TARGET, T=0.1, points=11, max_steps=50, stop=False)
     assert stopped.value.partial is not None
-    found = json.loads(SetPointRuns((stopped.value.partial,)).written("json"))
-    assert found["results"][0]["accuracy"] is None
+    result = json.loads(SetPointRuns((stopped.value.partial,)).written("json"))
+    assert result["results"][0]["accuracy"] is None
 
 
 def test_samples_of_no_starts_are_a_head() -> None:

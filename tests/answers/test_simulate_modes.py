@@ -263,16 +263,16 @@ def test_v_falls_with_the_eps0_that_is_certified(lyapcheck, tmp_path):
 
 def test_a_certified_eps0_is_asked_for_each_gain_set(lyapcheck, single, monkeypatch):
     """0.5 for the gain set of the file; and none at all is said, not passed over."""
-    import lyapcheck.answers.epsilon as room
+    import lyapcheck.answers.epsilon as gain_range
 
     def found(gain_set, model, **options):
         return SimpleNamespace(certified=Fraction(1, 2) if options["max_boxes"] else None)
 
-    monkeypatch.setattr(room, "epsilon", found)
+    monkeypatch.setattr(gain_range, "epsilon", found)
     request = (single, "--eps0", "certified", "--target", "40,30", "--time", 1, "--format", "json")
     done = lyapcheck(*request)
     assert json.loads(done.stdout)["results"][0]["eps0"] == 0.5
-    monkeypatch.setattr(room, "epsilon", lambda *arguments, **options: SimpleNamespace(certified=None))
+    monkeypatch.setattr(gain_range, "epsilon", lambda *arguments, **options: SimpleNamespace(certified=None))
     none = lyapcheck(*request)
     assert none.returncode == 3
     assert "no ε₀ is certified" in none.stderr

@@ -126,10 +126,10 @@ def test_fewer_digits_are_a_prefix_of_more():
 
 
 def test_progress_is_told():
-    told = []
-    build_table(range(1, 31), 5, lambda fraction, note: told.append((fraction, note)))
-    assert told
-    assert [fraction for fraction, _ in told] == sorted(fraction for fraction, _ in told)
+    printed = []
+    build_table(range(1, 31), 5, lambda fraction, note: printed.append((fraction, note)))
+    assert printed
+    assert [fraction for fraction, _ in printed] == sorted(fraction for fraction, _ in printed)
 
 
 def test_the_command_prints_and_leaves_with_zero():

@@ -32,12 +32,12 @@ def rows():
 @pytest.fixture(scope="module")
 def shown():
     """The cells of the text: {m: [γ, ρ, L, x of γ, x of ρ, x of L]}."""
-    found: dict[int, list[str]] = {}
+    result: dict[int, list[str]] = {}
     for line in build_table(range(1, 1001), DIGITS).written("text").splitlines():
         first, *cells = line.split() or [""]
         if first.isdecimal():
-            found.setdefault(int(first), []).extend(cells)
-    return found
+            result.setdefault(int(first), []).extend(cells)
+    return result
 
 
 def test_a_thousand_rows_of_fifty_digits():

@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.damping import damping_of
 from lyapcheck.answers.tune.gain_file import gain_file_text
+from lyapcheck.answers.tune.gain_range import GainRange
 from lyapcheck.answers.tune.program import propose
-from lyapcheck.answers.tune.room import Room
 from lyapcheck.answers.tune.rounding import best_units, binding
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
@@ -139,13 +139,13 @@ def exhaustive(model, m, tuning, targets):
         for index, damping in enumerate(damping_of(model, m, targets.damping * model.n)):
             friction, inertia, ratio = map(mp, (damping.friction, damping.inertia, damping.ratio))
             whole = mp(limits.torque[index] - limits.gravity[index]) / (root * gamma)
-            found = []
+            result = []
             for k in range(first, int(mpmath.floor((top - tiny) * 100)) + 1):
                 kv = mpmath.mpf(k) / 100
                 damped = (friction + slope * kv) ** 2 / (4 * ratio**2 * inertia * slope)
                 kp = mpmath.floor(100 * min(whole - kv - tiny, damped + tiny))
-                found.append((Fraction(int(kp), 100), Fraction(k, 100)))
-            best.append(max(found))
+                result.append((Fraction(int(kp), 100), Fraction(k, 100)))
+            best.append(max(result))
     return best
 
 
@@ -167,7 +167,7 @@ def largest_of(function):
     return function(low)
 
 
-def rooms(robot="buap3", m=2, **targets):
+def gain_ranges(robot="buap3", m=2, **targets):
     model = load(robot)
     wanted = _for_each_joint(Targets(**targets), model.n)
     limits, _ = _limits(robot, model, wanted, Bounds())
@@ -184,27 +184,27 @@ def rooms(robot="buap3", m=2, **targets):
     ],
 )
 def test_the_cone_program_and_exact_search_agree(targets):
-    every = rooms(**targets)
+    every = gain_ranges(**targets)
     proposal = propose(every)
     assert proposal.status == "optimal"
-    for room, kp in zip(every, proposal.kp, strict=True):
-        exact = best_units(room)[0] * room.unit
-        assert float(exact) == pytest.approx(kp, rel=1e-5, abs=2.1 * float(room.unit))
+    for gain_range, kp in zip(every, proposal.kp, strict=True):
+        exact = best_units(gain_range)[0] * gain_range.unit
+        assert float(exact) == pytest.approx(kp, rel=1e-5, abs=2.1 * float(gain_range.unit))
 
 
 @given(start=st.floats(-1, 1))
 def test_a_wrong_proposal_changes_nothing(start):
-    for room in rooms(damping=(Fraction(3, 100),), kv_share=(Fraction(1, 20),)):
-        assert best_units(room, start) == best_units(room)
+    for gain_range in gain_ranges(damping=(Fraction(3, 100),), kv_share=(Fraction(1, 20),)):
+        assert best_units(gain_range, start) == best_units(gain_range)
 
 
 def test_smaller_gains_are_found_out():
-    room: Room = rooms()[0]
-    kp, kv = best_units(room)
-    binding(room, kp, kv)
+    gain_range: GainRange = gain_ranges()[0]
+    kp, kv = best_units(gain_range)
+    binding(gain_range, kp, kv)
     for worse in ((kp - 1, kv), (kp - 1, kv - 1)):
         with pytest.raises(ArithmeticError):
-            binding(room, *worse)
+            binding(gain_range, *worse)
 
 
 def test_what_table_2_left_on_the_table():
@@ -244,9 +244,9 @@ def test_the_share_of_the_peak_torque_stands_in_the_gain_file(tmp_path):
 )
 def test_without_gains_it_says_why_and_what_to_change(arguments, code, words, tmp_path):
     out = tmp_path / "gains.toml"
-    found = run(*arguments, "--out", str(out))
-    assert found.exit_code == code
-    assert words in " ".join(found.stdout.split())
+    result = run(*arguments, "--out", str(out))
+    assert result.exit_code == code
+    assert words in " ".join(result.stdout.split())
     assert not out.exists()
 
 
@@ -270,9 +270,9 @@ def test_without_gains_it_says_why_and_what_to_change(arguments, code, words, tm
     ],
 )
 def test_unusable_input_is_refused(arguments, words):
-    found = run(*arguments)
-    assert isinstance(found.exception, InputError)
-    assert words in str(found.exception)
+    result = run(*arguments)
+    assert isinstance(result.exception, InputError)
+    assert words in str(result.exception)
 
 
 @pytest.mark.parametrize("text", ["1e400", "", "1,,2", "0x1", "٣", "1" * 40])

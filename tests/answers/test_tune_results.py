@@ -95,9 +95,9 @@ def test_twenty_members_of_any_arm_are_tuned_and_accepted(arguments, n, tmp_path
 
 
 def test_a_urdf_without_friction_says_what_to_measure():
-    found = run(UR5)
-    assert found.exit_code == 2
-    assert "give --viscous-min" in found.stdout
+    result = run(UR5)
+    assert result.exit_code == 2
+    assert "give --viscous-min" in result.stdout
 
 
 class Seen(HTMLParser):

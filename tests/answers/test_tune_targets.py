@@ -50,15 +50,15 @@ def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
 
 
 def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> None:
-    found = tuned.sets[-1]
-    run = simulate(found.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
-    np.testing.assert_allclose(found.trial.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
-    np.testing.assert_allclose(found.trial.settled, run.settling, rtol=1e-2)
+    result = tuned.sets[-1]
+    run = simulate(result.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
+    np.testing.assert_allclose(result.trial.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
+    np.testing.assert_allclose(result.trial.settled, run.settling, rtol=1e-2)
     limits = [float(most) for most in run.torque_limit if most is not None]
-    np.testing.assert_allclose(found.trial.share, run.peak_torque / limits, rtol=1e-4)
+    np.testing.assert_allclose(result.trial.share, run.peak_torque / limits, rtol=1e-4)
     assert np.all(run.overshoot <= 5)
     assert np.all(run.settling <= 1.5)
-    for kp, f, rest in zip(found.gains.kp, (1.734, 7.17, 1.734), found.trial.rest, strict=True):
+    for kp, f, rest in zip(result.gains.kp, (1.734, 7.17, 1.734), result.trial.rest, strict=True):
         assert float(kp) * math.tanh(math.radians(rest)) == pytest.approx(f, rel=1e-6)
 
 

@@ -245,13 +245,13 @@ def of_letters_and_numbers() -> Iterator[Row]:
 
 def certificate(name: str, statement: Statement, proof: Proof | None) -> Certificate:
     """The certificate of a statement by its proof, or by the one that the search finds."""
-    found = proof or propose(statement).proof
-    if found is None:
+    result = proof or propose(statement).proof
+    if result is None:
         raise ValueError(f"{name}: no proof was found")
-    accepted = verify(statement, found)
+    accepted = verify(statement, result)
     about = About(name, statement.text()[:200], None, None, "extra")
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
-    return Certificate(about, statement, accepted.verdict, accepted.grade, found, {}, used)
+    return Certificate(about, statement, accepted.verdict, accepted.grade, result, {}, used)
 
 
 def main(folder: Path) -> None:

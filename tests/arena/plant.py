@@ -106,8 +106,8 @@ def false_statement(document: Document) -> bool:
 
 def undefined(document: Document) -> bool:
     """Put a quotient by zero into each side."""
-    found = list(relations(document["statement"]))
-    for relation in found:
+    result = list(relations(document["statement"]))
+    for relation in result:
         for side in ("left", "right"):
             if relation[side][0] in ("vec", "sum", "scale", "apply"):
                 return False
@@ -115,7 +115,7 @@ def undefined(document: Document) -> bool:
     if document["statement"]["kind"] == "NormBound":
         document["statement"]["bound"] = NO_VALUE
         return True
-    return bool(found)
+    return bool(result)
 
 
 def true_statement(document: Document) -> bool:
@@ -306,12 +306,12 @@ def no_numbers(sample: Document) -> Iterator[tuple[str, bytes, str]]:
 
 def read(folders: list[Path]) -> list[tuple[str, Document]]:
     """The certificates of the folders, smallest first, each with a name."""
-    found = [
+    result = [
         (f"{folder.name}.{path.stem}", path) for folder in folders for path in sorted(folder.glob("*.json"))
     ]
-    found = [(name, path) for name, path in found if path.stat().st_size <= MAX_PREMISE]
-    found.sort(key=lambda item: (item[1].stat().st_size, item[0]))
-    return [(name, json.loads(path.read_text())) for name, path in found]
+    result = [(name, path) for name, path in result if path.stat().st_size <= MAX_PREMISE]
+    result.sort(key=lambda item: (item[1].stat().st_size, item[0]))
+    return [(name, json.loads(path.read_text())) for name, path in result]
 
 
 class Arena:
@@ -385,17 +385,17 @@ def main(folders: list[str]) -> None:
         small = len(encoded(document)) <= MAX_BYTES
         if small and not document["uses"] and len(good[kind_of(document)]) < OF_EACH:
             good[kind_of(document)].append((name, document))
-    for (kind, verdict, rule), found in sorted(good.items()):
-        for name, document in found:
+    for (kind, verdict, rule), result in sorted(good.items()):
+        for name, document in result:
             arena.add(f"good/{name}.json", encoded(document), ["accepted"], f"{kind} {verdict} by {rule}")
         for change, (make, expected, why) in CHANGES.items():
-            for name, document in found[: OF_EACH if change in ("false", "true", "arm") else BAD_OF_EACH]:
+            for name, document in result[: OF_EACH if change in ("false", "true", "arm") else BAD_OF_EACH]:
                 changed = copy.deepcopy(document)
                 if make(changed):
                     arena.add(
                         f"bad/{change}.{name}.json", encoded(sealed(changed)), expected, f"{kind}: {why}"
                     )
-        name, document = found[0]
+        name, document = result[0]
         for index, (path, value, why) in enumerate(BROKEN.get((kind, rule), [])):
             if put((changed := copy.deepcopy(document))["proof"], path, value):
                 arena.add(
@@ -407,7 +407,7 @@ def main(folders: list[str]) -> None:
         )
     collections(arena, documents)
     sample = next(
-        document for found in [good["Constant", "proved", "separate balls"]] for _, document in found
+        document for result in [good["Constant", "proved", "separate balls"]] for _, document in result
     )
     for name, data, why in chain(no_documents(sample), no_certificates(sample), no_numbers(sample)):
         arena.add(f"bad/hostile.{name}.json", data, REFUSED, why)

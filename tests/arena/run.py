@@ -54,10 +54,10 @@ def main() -> int:
     parser.add_argument("--checker", default=f"{shlex.quote(sys.executable)} -m lyapcheck.check")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
-    found = faults(shlex.split(options.checker), options.jobs)
-    print(*found, sep="\n", end="\n" if found else "")
-    print(f"{len(json.loads((ARENA / 'expected.json').read_text()))} entries, {len(found)} faults")
-    return 1 if found else 0
+    result = faults(shlex.split(options.checker), options.jobs)
+    print(*result, sep="\n", end="\n" if result else "")
+    print(f"{len(json.loads((ARENA / 'expected.json').read_text()))} entries, {len(result)} faults")
+    return 1 if result else 0
 
 
 if __name__ == "__main__":

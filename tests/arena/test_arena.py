@@ -50,11 +50,11 @@ def documents(side: str) -> Iterator[Any]:
     """For each entry of one side the document that it is about, of those that can be read."""
     for path in sorted((ARENA / side).iterdir()):
         try:
-            found = json.loads((path / "0.json" if path.is_dir() else path).read_bytes())
+            result = json.loads((path / "0.json" if path.is_dir() else path).read_bytes())
         except (ValueError, RecursionError):
             continue
-        if isinstance(found, dict):
-            yield found
+        if isinstance(result, dict):
+            yield result
 
 
 def rules_in(value: Any) -> Iterator[str]:
@@ -67,8 +67,8 @@ def rules_in(value: Any) -> Iterator[str]:
 
 
 def kind_of(document: Any, key: str, name: str) -> Any:
-    found = document.get(key)
-    return found.get(name) if isinstance(found, dict) else None
+    result = document.get(key)
+    return result.get(name) if isinstance(result, dict) else None
 
 
 def test_every_kind_by_every_rule_has_good_files_and_bad_ones():
@@ -117,6 +117,6 @@ def test_the_checker_says_of_each_entry_what_is_expected():
 
 
 def test_a_checker_that_believes_everything_is_found_out():
-    found = faults(["true"], one_in=5)
-    assert all("accepted, expected" in line for line in found)
-    assert len(found) >= 200
+    result = faults(["true"], one_in=5)
+    assert all("accepted, expected" in line for line in result)
+    assert len(result) >= 200

@@ -23,7 +23,7 @@ def commands() -> Iterator[CommandResult]:
     yield from alone.benchmark()
 
 
-def tell(line: str) -> None:
+def progress(line: str) -> None:
     """Progress."""
     print(f"bench: {line}", file=sys.stderr, flush=True)
 
@@ -32,20 +32,22 @@ def main() -> None:
     """Measure, then write the document in one piece."""
     measured, proofs, many, rates = [], [], [], []
     for result in commands():
-        tell(f"{result.command}: {result.seconds:.2f} s")
+        progress(f"{result.command}: {result.seconds:.2f} s")
         measured.append(result)
     for proof in certificates.benchmark():
-        tell(f"certificates on {proof.arm}, m = {proof.m}: {proof.costs[-1].boxes} boxes")
+        progress(f"certificates on {proof.arm}, m = {proof.m}: {proof.costs[-1].boxes} boxes")
         proofs.append(proof)
     for proof in certificates.many_joints():
-        tell(f"bounds in ‖e‖ on {proof.arm}, m = {proof.m}: {proof.costs[-1].share:.1%} of the falsified ε₀")
+        progress(
+            f"bounds in ‖e‖ on {proof.arm}, m = {proof.m}: {proof.costs[-1].share:.1%} of the falsified ε₀"
+        )
         many.append(proof)
     for rate in throughput.benchmark():
-        tell(f"{rate.function} on {rate.arm}: {next(iter(rate.rates.values())):.2e} states/s")
+        progress(f"{rate.function} on {rate.arm}: {next(iter(rate.rates.values())):.2e} states/s")
         rates.append(rate)
     OUT.parent.mkdir(exist_ok=True)
     OUT.write_text(markdown(description(), measured, rates, proofs, many), encoding="utf-8")
-    tell(f"written: {OUT.relative_to(Path.cwd()) if OUT.is_relative_to(Path.cwd()) else OUT.name}")
+    progress(f"written: {OUT.relative_to(Path.cwd()) if OUT.is_relative_to(Path.cwd()) else OUT.name}")
 
 
 if __name__ == "__main__":

@@ -13,10 +13,10 @@ from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
 from lyapcheck.check.loop import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 
 from .results import CertificateResult, Cost
 
@@ -42,11 +42,11 @@ def benchmark(
     for arm in arms:
         model = load_robot(arm)
         for m in members:
-            setting = Setting(gains(arm, m), model)
-            witness = falsify(setting)
+            controlled = ControlledArm(gains(arm, m), model)
+            witness = falsify(controlled)
             if witness is None:
                 raise RuntimeError(f"no state refutes any ε₀ on {arm}, m = {m}")
-            costs = tuple(_cost(setting, witness.eps0, share, max_boxes) for share in shares)
+            costs = tuple(_cost(controlled, witness.eps0, share, max_boxes) for share in shares)
             yield CertificateResult(arm, model.n, m, float(witness.eps0), costs)
 
 
@@ -59,19 +59,19 @@ def many_joints(
         model = load_robot(str(EXAMPLES / f"{arm}.toml"))
         for item in file.gains:
             if item.m in members:
-                yield _many(arm, Setting(item, model))
+                yield _many(arm, ControlledArm(item, model))
 
 
-def _many(arm: str, setting: Setting) -> CertificateResult:
-    witness = falsify(setting)
-    proof, searched = _timed(lambda: radial_epsilon(setting))
-    if witness is None or proof is None or setting.gains.m is None:
+def _many(arm: str, controlled: ControlledArm) -> CertificateResult:
+    witness = falsify(controlled)
+    proof, searched = _timed(lambda: radial_epsilon(controlled))
+    if witness is None or proof is None or controlled.gains.m is None:
         raise RuntimeError(f"nothing was proved, or nothing refuted, on {arm}")
     verdict, checked = _timed(lambda: verify(proof.statement, proof.certificate))
     if verdict.verdict != "proved":
-        raise RuntimeError(f"the checker refused ε₀ = {float(proof.closure.eps0):.6g} on {arm}")
-    cost = Cost(float(proof.closure.eps0 / witness.eps0), proof.boxes, searched, checked)
-    return CertificateResult(arm, setting.n, setting.gains.m, float(witness.eps0), (cost,))
+        raise RuntimeError(f"the checker refused ε₀ = {float(proof.loop.eps0):.6g} on {arm}")
+    cost = Cost(float(proof.loop.eps0 / witness.eps0), proof.boxes, searched, checked)
+    return CertificateResult(arm, controlled.n, controlled.gains.m, float(witness.eps0), (cost,))
 
 
 def gains(arm: str, m: int) -> GainSet:
@@ -82,14 +82,14 @@ def gains(arm: str, m: int) -> GainSet:
     return replace(like, name=f"m{m}", m=m, kp=like.kp[:n], kv=like.kv[:n])
 
 
-def _cost(setting: Setting, falsified: Fraction, share: Fraction, max_boxes: int) -> Cost:
-    closure = setting.closure((falsified * share).limit_denominator(10**9))
-    outcome, searched = _timed(lambda: certify(Problem(closure), max_boxes))
+def _cost(controlled: ControlledArm, falsified: Fraction, share: Fraction, max_boxes: int) -> Cost:
+    loop = controlled.loop((falsified * share).limit_denominator(10**9))
+    outcome, searched = _timed(lambda: certify(Problem(loop), max_boxes))
     if not outcome.proved:
         return Cost(float(share), outcome.boxes, searched, None)
-    accepted, checked = _timed(lambda: proves(closure, outcome.tree, 2))
+    accepted, checked = _timed(lambda: proves(loop, outcome.tree, 2))
     if not accepted:
-        raise RuntimeError(f"the checker refused {outcome.boxes} boxes for ε₀ = {float(closure.eps0):.6g}")
+        raise RuntimeError(f"the checker refused {outcome.boxes} boxes for ε₀ = {float(loop.eps0):.6g}")
     return Cost(float(share), outcome.boxes, searched, checked)
 
 

@@ -154,12 +154,12 @@ def test_the_arms_by_hand_are_those_of_lyapcheck(name):
 
 
 def test_every_way_to_the_rates_gives_the_same_values():
-    found = list(throughput.benchmark(throughput.Sizes(400, 200, 50)))
-    assert {(rate.function, rate.joints) for rate in found} == {
+    result = list(throughput.benchmark(throughput.Sizes(400, 200, 50)))
+    assert {(rate.function, rate.joints) for rate in result} == {
         ("V", 2), ("V", 3), ("dV/dt", 2), ("dV/dt", 3)
     }  # fmt: skip
-    assert all(rate.difference < 1e-12 for rate in found)
-    assert all(len(rate.rates) == 4 and min(rate.rates.values()) > 0 for rate in found)
+    assert all(rate.difference < 1e-12 for rate in result)
+    assert all(len(rate.rates) == 4 and min(rate.rates.values()) > 0 for rate in result)
 
 
 def test_states_per_second_counts_states_and_not_calls():

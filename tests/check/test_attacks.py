@@ -11,7 +11,7 @@ import pytest
 import lyapcheck.check.recheck as rechecking
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.files import content, gather
-from lyapcheck.check.finding import shortened
+from lyapcheck.check.judgement import shortened
 from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -192,8 +192,8 @@ def test_a_theorem_is_judged_from_the_bytes_whose_premises_are_judged(tmp_path, 
         return harmless if path.name == "T.json" and len(times) > 1 else content(path)
 
     monkeypatch.setattr(rechecking, "content", changing)
-    found = {one.file: one.status for one in rechecking.recheck(gather([tmp_path])).checked}
-    assert found == {"c.json": "accepted", "T.json": "refused"}
+    result = {one.file: one.status for one in rechecking.recheck(gather([tmp_path])).checked}
+    assert result == {"c.json": "accepted", "T.json": "refused"}
 
 
 def test_what_stands_under_a_rate_must_have_a_value():

@@ -219,8 +219,8 @@ def test_with_a_new_digest_it_is_refused_or_still_true(made, changes):
     """The verdicts that survive are judged again by mpmath; most changes to a proof are refused."""
     refused, survived = survivors(made, changes, numbers, other_numbers)
     for name, path, new, forged in survived:
-        found = contradicts(forged.statement, forged.verdict, forged.proof)
-        assert not found, (name, path, new)
+        result = contradicts(forged.statement, forged.verdict, forged.proof)
+        assert not result, (name, path, new)
     assert refused > 200 * changes
     assert len(survived) > 50 * changes, "changes that keep a statement true must be among them"
 

@@ -41,8 +41,8 @@ def made() -> dict[str, Certificate]:
     """All three certificates of one gain set on the two-joint arm."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
     task = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
-    found = compare(gains, load("reyes-kelly2"), task, math.radians(10), (0.1, 0.05), max_boxes=4_000)
-    return {name.split(".")[1]: certificate for name, certificate in certificates(found).items()}
+    result = compare(gains, load("reyes-kelly2"), task, math.radians(10), (0.1, 0.05), max_boxes=4_000)
+    return {name.split(".")[1]: certificate for name, certificate in certificates(result).items()}
 
 
 def reread(certificate: Certificate, change: Callable[[Document], None] = lambda data: None) -> Certificate:
@@ -208,9 +208,9 @@ def test_states_of_rest_are_decided() -> None:
 
 
 def test_a_settling_time_by_itself_is_open_with_advice(made: dict[str, Certificate]) -> None:
-    found = propose(made["settling"].statement)
-    assert found.verdict is Verdict.UNDECIDED
-    assert "lyapcheck bounds" in found.reason
+    result = propose(made["settling"].statement)
+    assert result.verdict is Verdict.UNDECIDED
+    assert "lyapcheck bounds" in result.reason
 
 
 def test_what_the_verdict_rests_on_is_listed() -> None:
@@ -243,8 +243,8 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     gains, made = tmp_path / "gains.toml", tmp_path / "made"
     gains.write_text(GAINS.format(robot="reyes-kelly2"))
     asked = ["bounds", str(gains), "--target", "45,90", "--delta", "10", "--time", "0.5"]
-    found = invoke(*asked, "--certificates", str(made), "--format", "json")
-    assert found.exit_code == 0
+    outcome = invoke(*asked, "--certificates", str(made), "--format", "json")
+    assert outcome.exit_code == 0
     assert {path.name for path in made.iterdir()} == {
         f"one.{kind}.json" for kind in ("settling", "disturbed", "resting")
     }
@@ -252,7 +252,7 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     assert rechecked.exit_code == 0
     assert "3 accepted (3 proved" in rechecked.stdout
     assert "loop.decay.estimate" in rechecked.stdout
-    (result,) = json.loads(found.stdout)["results"]
+    (result,) = json.loads(outcome.stdout)["results"]
     statement = read(parse((made / "one.settling.json").read_text(encoding="utf-8"))).statement
     assert result["settling"]["statement"] == statement.text()
 
@@ -264,11 +264,11 @@ def test_an_arm_that_is_none_has_no_bounds(tmp_path: Path) -> None:
     (tmp_path / "hollow.toml").write_text(HOLLOW)
     gains.write_text(GAINS.format(robot="hollow.toml"))
     asked = ["bounds", str(gains), "--target", "5,0", "--delta", "10", "--time", "0.1"]
-    found = invoke(*asked, "--disturbance", "0.1,0.1", "--certificates", str(made))
-    assert found.exit_code == 3
-    assert "M(q) is not positive definite at q = (" in found.stdout
-    assert "certified: within" not in found.stdout
-    assert "certified: |e|" not in found.stdout
+    result = invoke(*asked, "--disturbance", "0.1,0.1", "--certificates", str(made))
+    assert result.exit_code == 3
+    assert "M(q) is not positive definite at q = (" in result.stdout
+    assert "certified: within" not in result.stdout
+    assert "certified: |e|" not in result.stdout
     assert list(made.iterdir()) == []
 
 

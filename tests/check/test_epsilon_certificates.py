@@ -151,15 +151,15 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
 def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
     """With one box nothing but norms or bounds in ‖e‖ is left."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    found = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1)
-    made = certificates(found)
-    assert found.certified is not None
-    assert made["tau_m2.certified.json"].statement.eps0 == found.certified  # type: ignore[attr-defined]
+    result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1)
+    made = certificates(result)
+    assert result.certified is not None
+    assert made["tau_m2.certified.json"].statement.eps0 == result.certified  # type: ignore[attr-defined]
     assert judge(reread(made["tau_m2.certified.json"])).verdict == "proved"
-    assert (found.scalar_grade == "no certificate") == ("tau_m2.scalar.json" not in made)
-    row = found.data()["results"][0]
-    assert row["scalar_grade"] == found.scalar_grade == "no certificate"
-    text = str(found)
+    assert (result.scalar_grade == "no certificate") == ("tau_m2.scalar.json" not in made)
+    row = result.data()["results"][0]
+    assert row["scalar_grade"] == result.scalar_grade == "no certificate"
+    text = str(result)
     assert f"{row['scalar']}*" in text
     assert "without a certificate" in text
 
@@ -171,15 +171,15 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
     arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
     (tmp_path / "arm.toml").write_text(arm)
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    found = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100)
-    assert (found.certified, found.proof, found.scalar_proof, found.weighted) == (None, None, None, None)
-    assert "M(q) is not positive definite at q = (" in found.reasons["certified"]
-    assert not [name for name in certificates(found) if "falsified" not in name]
+    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100)
+    assert (result.certified, result.proof, result.scalar_proof, result.weighted) == (None, None, None, None)
+    assert "M(q) is not positive definite at q = (" in result.reasons["certified"]
+    assert not [name for name in certificates(result) if "falsified" not in name]
 
 
 @pytest.mark.slow
 def test_an_unbounded_function_has_nothing_certified() -> None:
     gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
-    found = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
-    assert (found.certified, certificates(found)) == (None, {})
-    assert "unbounded" in found.reasons["certified"]
+    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
+    assert (result.certified, certificates(result)) == (None, {})
+    assert "unbounded" in result.reasons["certified"]

@@ -44,11 +44,11 @@ L = loops.letters()
 
 
 def verdict(statement):
-    found = propose(statement)
+    result = propose(statement)
     again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if found.proof is not None:
-        assert verify(again, found.proof).verdict == found.verdict.value
-    return found.verdict.value
+    if result.proof is not None:
+        assert verify(again, result.proof).verdict == result.verdict.value
+    return result.verdict.value
 
 
 TRUE = {
@@ -102,8 +102,8 @@ def test_what_fails_for_some_n_is_refuted_by_entries(name):
 
 def test_an_n_at_which_it_fails_is_found():
     """It holds for n = 1, where there is nothing to exchange."""
-    found = propose(FALSE["true for n = 1 alone"])
-    assert found.proof.n == 2
+    result = propose(FALSE["true for n = 1 alone"])
+    assert result.proof.n == 2
 
 
 @pytest.mark.parametrize("name", [name for name in FALSE if "derivative" not in name])

@@ -75,8 +75,8 @@ def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) 
 def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
     claims = ("arm.M", "arm.C", "arm.theta", "arm.stable", "arm.states", "arm.ranges", "arms.all")
     result = run_proof("scalar.py", ms=(1,), robot=str(arm(tmp_path)), gains=GAINS, only=claims)
-    found = {row.id: row.verdict.value for row in result.claims}
-    assert found == {
+    outcome = {row.id: row.verdict.value for row in result.claims}
+    assert outcome == {
         "arm.M": "refuted",
         "arm.C": "proved",
         "arm.theta": "proved",

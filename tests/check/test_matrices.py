@@ -70,8 +70,8 @@ def test_gram_matrices_are_semidefinite(case: tuple[Rows, int]) -> None:
 @given(symmetric())
 @pytest.mark.parametrize("of", [BALLS, SPANS])
 def test_enclosures_never_prove_what_is_false(of: Arithmetic, rows: Rows) -> None:
-    found = of.positive_definite([[of.value(x) for x in row] for row in _balls(rows)])
-    assert not found or is_positive_definite(rows)
+    result = of.positive_definite([[of.value(x) for x in row] for row in _balls(rows)])
+    assert not result or is_positive_definite(rows)
 
 
 def test_a_barely_semidefinite_matrix_is_decided_exactly() -> None:

@@ -75,11 +75,11 @@ OPEN = {
 
 
 def verdict(statement):
-    found = propose(statement)
+    result = propose(statement)
     again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if found.proof is not None:
-        assert verify(again, found.proof).verdict == found.verdict.value
-    return found.verdict.value
+    if result.proof is not None:
+        assert verify(again, result.proof).verdict == result.verdict.value
+    return result.verdict.value
 
 
 @pytest.mark.parametrize("name", TRUE)

@@ -254,14 +254,14 @@ def test_a_hundredth_of_a_constant_of_the_arm_proves_nothing_about_it(tmp_path, 
         "proof = Proof(",
     )
     claims = ("arm.M", "arm.C", "arm.theta", "arm.stable")
-    found = {row.id: row for row in run_proof(everywhere, ms=(2,), only=claims).claims}
+    result = {row.id: row for row in run_proof(everywhere, ms=(2,), only=claims).claims}
     stated = {"beta": "arm.M", "kc": "arm.C"}[constant]
-    assert found[stated].verdict.value in ("refuted", "undecided")
-    assert found["arm.theta"].verdict.value == "proved", (
+    assert result[stated].verdict.value in ("refuted", "undecided")
+    assert result["arm.theta"].verdict.value == "proved", (
         "ε₀ is then larger, and this is all that is seen of it"
     )
-    assert found["arm.stable"].verdict.value == "undecided"
-    assert stated in found["arm.stable"].broken
+    assert result["arm.stable"].verdict.value == "undecided"
+    assert stated in result["arm.stable"].broken
 
 
 def test_an_impossible_condition_is_seen_in_the_statement(tmp_path):
@@ -285,14 +285,14 @@ def test_an_impossible_condition_is_seen_in_the_statement(tmp_path):
 def test_which_facts_a_property_rests_on():
     """One that were left out would make the property follow from less."""
     statement = {name: LoopProperty(name, *LINEAR) for name in FACTS}
-    found = {
+    result = {
         name: {fact for fact, _ in facts_of(one, (Fraction(1),) * FACTS[name][0])}
         for name, one in statement.items()
     }
     slope = "h' is the derivative of h"
     sign = {slope, "h(−x) = −h(x)", "0 < h(x) for x > 0"}
     definite = {"U' = h", "U(0) = 0", *sign}
-    assert found == {
+    assert result == {
         "the origin is the only equilibrium": {*sign, "the loop that the controller closes"},
         "the origin is an equilibrium": {*sign, "the loop that the controller closes"},
         "V is positive definite": definite,
@@ -427,15 +427,15 @@ def test_a_certificate_of_something_unrelated_under_the_name_of_a_premise_is_no_
 
     digest = rewritten(folder / f"{claim}.json", plant)
     rewritten(folder / "P.json", lambda data: data["uses"].update({claim: digest}))
-    found = outcome(folder)
-    assert found[f"{claim}.json"].accepted
-    assert f"{claim} does not state" in found["P.json"].reason
+    result = outcome(folder)
+    assert result[f"{claim}.json"].accepted
+    assert f"{claim} does not state" in result["P.json"].reason
 
 
 def test_a_certificate_alone_is_undecided_and_names_its_premises(folder):
-    found = {one.file: one for one in recheck(gather([folder / "P.json"])).checked}["P.json"]
-    assert found.status == "undecided"
-    assert set(found.given) == set(CLAIMS)
+    result = {one.file: one for one in recheck(gather([folder / "P.json"])).checked}["P.json"]
+    assert result.status == "undecided"
+    assert set(result.given) == set(CLAIMS)
 
 
 WEIGHED = (

@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
-from lyapcheck.check.loop import BrokenTree, Closure
-from lyapcheck.check.loop.closure import root_above
-from lyapcheck.check.loop.pull import pull_up
+from lyapcheck.check.loop import BrokenTree, ClosedLoop
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, proves_radially
+from lyapcheck.check.loop.rank_one import rank_one_bound
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -24,9 +24,9 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
-from lyapcheck.search.setting import Setting
 
 F = Fraction
 CASES = [("reyes-kelly2", "table2_shoulder_elbow", index) for index in range(3)]
@@ -42,42 +42,42 @@ FALSIFIED = {
 """What an explicit state refutes, see the falsifier."""
 
 
-def setting(robot: str, gains: str, index: int) -> Setting:
-    return Setting(read_gain_file(paper_gain_file(gains)).gains[index], load(robot))
+def controlled(robot: str, gains: str, index: int) -> ControlledArm:
+    return ControlledArm(read_gain_file(paper_gain_file(gains)).gains[index], load(robot))
 
 
 @cache
 def proof(robot: str, gains: str, index: int) -> Proof:
-    found = radial_epsilon(setting(robot, gains, index))
-    assert found is not None
-    return found
+    result = radial_epsilon(controlled(robot, gains, index))
+    assert result is not None
+    return result
 
 
-def data_of(found: Proof) -> RadialBounds:
-    assert isinstance(found.by, RadialBounds)
-    by = found.by
+def data_of(result: Proof) -> RadialBounds:
+    assert isinstance(result.by, RadialBounds)
+    by = result.by
     return by
 
 
 @pytest.mark.parametrize(("robot", "gains", "index"), CASES)
 def test_it_proves_less_than_what_is_refuted(robot: str, gains: str, index: int) -> None:
-    found, limit = proof(robot, gains, index), F(FALSIFIED[robot, index])
-    assert 0 < found.closure.eps0 < limit
-    assert proves_radially(found.closure, data_of(found))
-    assert not proves_radially(replace(found.closure, eps0=limit), data_of(found))
+    result, limit = proof(robot, gains, index), F(FALSIFIED[robot, index])
+    assert 0 < result.loop.eps0 < limit
+    assert proves_radially(result.loop, data_of(result))
+    assert not proves_radially(replace(result.loop, eps0=limit), data_of(result))
 
 
 @pytest.mark.parametrize(("robot", "gains", "index"), CASES)
 def test_parts_bound_what_they_say_at_random_states(robot: str, gains: str, index: int) -> None:
     """The parts of S, and wᵀPw, by NumPy at states of all sizes."""
-    case, found = setting(robot, gains, index), proof(robot, gains, index)
-    data, model, n = data_of(found), NumericModel(load(robot)), case.n
+    case, result = controlled(robot, gains, index), proof(robot, gains, index)
+    data, model, n = data_of(result), NumericModel(load(robot)), case.n
     family = named(case.gains.family, case.gains.m)
     d = np.array([float(x) for x in data.weights])
     scale = 1 / np.outer(d, d)
     with precision(BITS):
-        parts = Parts(found.closure, data)
-        kappa, coriolis = float(parts.turning.upper()), float(parts.coriolis.upper())
+        parts = Parts(result.loop, data)
+        kappa, coriolis = float(parts.kappa.upper()), float(parts.coriolis.upper())
     random = np.random.default_rng(index)
     for _ in range(200):
         q, e = random.uniform(-np.pi, np.pi, n), random.normal(size=n) * 10 ** random.uniform(-2, 1)
@@ -90,10 +90,10 @@ def test_parts_bound_what_they_say_at_random_states(robot: str, gains: str, inde
 
 @pytest.mark.parametrize(("robot", "gains", "index"), CASES[:4])
 def test_the_inequality_is_below_the_smallest_eigenvalue_of_P(robot: str, gains: str, index: int) -> None:
-    case, found = setting(robot, gains, index), proof(robot, gains, index)
-    model, n, eps0 = NumericModel(load(robot)), case.n, float(found.closure.eps0)
+    case, result = controlled(robot, gains, index), proof(robot, gains, index)
+    model, n, eps0 = NumericModel(load(robot)), case.n, float(result.loop.eps0)
     family = named(case.gains.family, case.gains.m)
-    d = np.array([float(x) for x in data_of(found).weights])
+    d = np.array([float(x) for x in data_of(result).weights])
     L, kp, kv = float(family.constants().L.upper), case.kp, case.kv
     random = np.random.default_rng(index)
     for _ in range(300):
@@ -116,13 +116,13 @@ def test_the_pull_is_bounded_for_every_matrix_between_its_ends(seed: int, n: int
     s, unit = 10 ** random.uniform(-2, 1), e / np.linalg.norm(e)
     h = random.choice([0.0, s, s * random.uniform()], n) * unit
     pull = np.outer(M @ (d * h), unit / d)
-    bound = float(pull_up(F(1), F(nu), [F(x) for x in d])) * s
+    bound = float(rank_one_bound(F(1), F(nu), [F(x) for x in d])) * s
     assert np.linalg.eigvalsh(-(pull + pull.T) / 2)[-1] <= bound * (1 + 1e-12)
 
 
 def test_the_pull_of_a_positive_matrix_is_a_quarter_of_its_norm_at_most() -> None:
     """With D = I and ν = 0; M = diag(1, 0), h = s ê at 60° reaches ⅛, a half of the bound at least."""
-    assert F(1, 8) <= pull_up(F(1), F(0), [F(1)] * 3) <= F(26, 100)
+    assert F(1, 8) <= rank_one_bound(F(1), F(0), [F(1)] * 3) <= F(26, 100)
     unit = np.array([np.cos(np.pi / 3), np.sin(np.pi / 3)])
     pull = np.outer(np.diag([1.0, 0.0]) @ unit, unit)
     assert np.linalg.eigvalsh(-(pull + pull.T) / 2)[-1] == pytest.approx(1 / 8)
@@ -147,69 +147,69 @@ WORSE = {
 
 @pytest.mark.parametrize("name", WORSE)
 def test_data_changed_for_the_worse_prove_nothing(name: str) -> None:
-    found = proof(*CASES[3])
-    assert not proves_radially(found.closure, WORSE[name](data_of(found)))
+    result = proof(*CASES[3])
+    assert not proves_radially(result.loop, WORSE[name](data_of(result)))
 
 
 def test_a_matrix_that_is_not_positive_needs_a_large_nu() -> None:
     """−M has the norm of M, so that μ stands, but a small ν does not."""
-    found = proof(*CASES[3])
-    arm = found.closure.arm
+    result = proof(*CASES[3])
+    arm = result.loop.arm
     negative = tuple(tuple(tuple((p, -c) for p, c in entry) for entry in row) for row in arm.mass)
-    closure, data = replace(found.closure, arm=replace(arm, mass=negative)), data_of(found)
+    loop, data = replace(result.loop, arm=replace(arm, mass=negative)), data_of(result)
     assert data.lowest < data.inertia / 2
     with precision(BITS):
-        assert not Parts(closure, data).inertia_shown()
-        assert Parts(closure, replace(data, lowest=data.inertia)).inertia_shown()
-    assert not proves_radially(closure, data)
+        assert not Parts(loop, data).inertia_shown()
+        assert Parts(loop, replace(data, lowest=data.inertia)).inertia_shown()
+    assert not proves_radially(loop, data)
 
 
 def test_a_broken_tree_is_refused() -> None:
-    found = proof(*CASES[3])
+    result = proof(*CASES[3])
     with pytest.raises(BrokenTree):
-        proves_radially(found.closure, replace(data_of(found), tree="0."))
+        proves_radially(result.loop, replace(data_of(result), tree="0."))
     with pytest.raises(Refused):
         verify(
-            statement_of(found.closure), PositiveAndDecreasing(found.inertia, replace(found.by, tree="0."))
+            statement_of(result.loop), PositiveAndDecreasing(result.inertia, replace(result.by, tree="0."))
         )
 
 
 def test_certificates_are_judged_by_the_same_rule() -> None:
-    found = proof(*CASES[3])
-    assert verify(found.statement, found.certificate).verdict == "proved"
-    larger = replace(found.closure, eps0=2 * found.closure.eps0)
+    result = proof(*CASES[3])
+    assert verify(result.statement, result.certificate).verdict == "proved"
+    larger = replace(result.loop, eps0=2 * result.loop.eps0)
     with pytest.raises(Refused, match="do not show"):
-        verify(statement_of(larger), found.certificate)
+        verify(statement_of(larger), result.certificate)
 
 
 def test_parameters_with_ranges_are_not_covered() -> None:
-    found = proof(*CASES[3])
-    ranged = replace(setting(*CASES[3]), ranges=True)
-    assert not proves_radially(ranged.closure(found.closure.eps0), data_of(found))
+    result = proof(*CASES[3])
+    ranged = replace(controlled(*CASES[3]), ranges=True)
+    assert not proves_radially(ranged.loop(result.loop.eps0), data_of(result))
     assert radial_epsilon(ranged) is None
 
 
 def test_friction_of_0_has_no_proof() -> None:
-    found = proof(*CASES[0])
-    free = replace(found.closure, viscous=((F(0), F(0)),) * 2)
-    assert not proves_radially(free, data_of(found))
+    result = proof(*CASES[0])
+    free = replace(result.loop, viscous=((F(0), F(0)),) * 2)
+    assert not proves_radially(free, data_of(result))
 
 
 def test_the_linear_function_has_no_proof() -> None:
     gains = GainSet("pd", None, (F(60), F(5)), (F(2), F(1)), "linear")
-    assert radial_epsilon(Setting(gains, load("reyes-kelly2"))) is None
+    assert radial_epsilon(ControlledArm(gains, load("reyes-kelly2"))) is None
 
 
 def test_the_inequality_fails_once_eps0_is_large() -> None:
-    found = proof(*CASES[0])
+    result = proof(*CASES[0])
     with precision(BITS):
-        parts = Parts(found.closure, data_of(found))
+        parts = Parts(result.loop, data_of(result))
 
-        def shown(closure: Closure) -> bool:
-            return Inequality(closure, parts).shown()
+        def shown(loop: ClosedLoop) -> bool:
+            return Inequality(loop, parts).shown()
 
-        assert shown(found.closure)
-        assert not shown(replace(found.closure, eps0=found.closure.eps0 * 11 / 10))
+        assert shown(result.loop)
+        assert not shown(replace(result.loop, eps0=result.loop.eps0 * 11 / 10))
 
 
 @pytest.mark.parametrize("value", [F(2), F(1, 3), F(0), F(10**12), F(1, 10**30)])

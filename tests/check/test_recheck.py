@@ -17,9 +17,9 @@ from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.files import Document, Unreadable, gather
-from lyapcheck.check.finding import Finding
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.guard import Guard
+from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.judging import judged
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
 from lyapcheck.check.render import as_json, text
@@ -82,25 +82,25 @@ def rewrite(path, change, seal=True):
 
 
 def test_all_of_a_proof_is_accepted_and_undecided_claims_have_no_certificate(folder):
-    found = outcome(folder)
+    result = outcome(folder)
     assert recheck(gather([folder])).code == 0
-    assert set(found) == {"P.json", "a.json", "b.json", "c.json", "d.json", "f.m2.json", "f.m3.json"}
-    assert all(one.accepted and not one.given for one in found.values())
-    assert [found[name].verdict for name in ("d.json", "f.m2.json", "f.m3.json")] == [
+    assert set(result) == {"P.json", "a.json", "b.json", "c.json", "d.json", "f.m2.json", "f.m3.json"}
+    assert all(one.accepted and not one.given for one in result.values())
+    assert [result[name].verdict for name in ("d.json", "f.m2.json", "f.m3.json")] == [
         "refuted",
         "proved",
         "refuted",
     ]
-    assert found["b.json"].finding.grade == "exact"
-    assert found["b.json"].grade == "enclosure", "the weakest link is that of a"
+    assert result["b.json"].finding.grade == "exact"
+    assert result["b.json"].grade == "enclosure", "the weakest link is that of a"
 
 
 def test_a_certificate_is_undecided_while_one_that_it_uses_is_not_at_hand(folder):
     alone = recheck(gather([folder / "c.json"]))
     assert alone.code == 3
-    (found,) = alone.checked
-    assert (found.status, found.given, found.verdict) == ("undecided", ("b",), "")
-    assert found.reason.startswith("rests on b, whose certificate (")
+    (result,) = alone.checked
+    assert (result.status, result.given, result.verdict) == ("undecided", ("b",), "")
+    assert result.reason.startswith("rests on b, whose certificate (")
     both = outcome(folder / "c.json", folder / "b.json")
     assert both["c.json"].reason == "rests on b, which is undecided"
     assert both["c.json"].given == both["b.json"].given == ("a",)
@@ -108,14 +108,14 @@ def test_a_certificate_is_undecided_while_one_that_it_uses_is_not_at_hand(folder
 
 def test_in_a_directory_it_is_the_same(folder):
     (folder / "a.json").unlink()
-    found = outcome(folder)
-    assert {name for name, one in found.items() if one.status == "undecided"} == {
+    result = outcome(folder)
+    assert {name for name, one in result.items() if one.status == "undecided"} == {
         "b.json",
         "c.json",
         "f.m2.json",
         "P.json",
     }
-    assert found["d.json"].accepted, "a witness rests on nothing"
+    assert result["d.json"].accepted, "a witness rests on nothing"
     assert recheck(gather([folder])).code == 3
     rewrite(folder / "d.json", lambda data: data.update(verdict="proved"))
     assert recheck(gather([folder])).code == 1, "refused outranks undecided"
@@ -140,13 +140,13 @@ def test_a_theorem_whose_premises_are_invented_is_undecided(tmp_path):
 
 def test_a_changed_certificate_takes_down_what_rests_on_it(folder):
     rewrite(folder / "a.json", lambda d: d["claim"].update(n=7), seal=False)
-    found = outcome(folder)
-    assert found["a.json"].reason.startswith("digest")
+    result = outcome(folder)
+    assert result["a.json"].reason.startswith("digest")
     rewrite(folder / "a.json", lambda d: None)
-    found = outcome(folder)
-    assert found["a.json"].accepted, "true as it is, but no longer what b names"
-    assert found["b.json"].status == "undecided"
-    assert "is not here" in found["b.json"].reason
+    result = outcome(folder)
+    assert result["a.json"].accepted, "true as it is, but no longer what b names"
+    assert result["b.json"].status == "undecided"
+    assert "is not here" in result["b.json"].reason
 
 
 @pytest.mark.parametrize("lie", [{"grade": "exact"}, {"statement": {"kind": "Everything"}}, {"more": 1}])
@@ -154,8 +154,8 @@ def test_a_certificate_with_a_right_digest_that_is_refused_takes_down_what_uses_
     rewrite(folder / "a.json", lambda data: data.update(lie))
     digest = json.loads((folder / "a.json").read_text(encoding="utf-8"))["digest"]
     rewrite(folder / "b.json", lambda data: data["uses"].update(a=digest))
-    found = outcome(folder)["b.json"]
-    assert (found.status, found.reason) == ("refused", "rests on a, whose certificate is refused")
+    result = outcome(folder)["b.json"]
+    assert (result.status, result.reason) == ("refused", "rests on a, whose certificate is refused")
 
 
 @pytest.mark.parametrize(
@@ -176,8 +176,8 @@ def test_uses_must_be_proved_and_of_that_claim(folder, claim, file, m, reason):
         data["claim"]["m"] = m
 
     rewrite(folder / "P.json", change)
-    found = outcome(folder)["P.json"]
-    assert found.accepted if not reason else reason in found.reason
+    result = outcome(folder)["P.json"]
+    assert result.accepted if not reason else reason in result.reason
 
 
 # The command ----------------------------------------------------------------------------------------------
@@ -250,14 +250,14 @@ def blocks(document, title):
 def test_the_other_formats_say_what_the_checker_says(folder):
     rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
     (folder / "a.json").unlink()
-    found = recheck(gather([folder]))
-    document = Recheck(found, trusted=True).document()
+    result = recheck(gather([folder]))
+    document = Recheck(result, trusted=True).document()
     assert document.title == "✗ 1 refused, 4 undecided, 1 accepted (1 refuted)"
     (refused,) = blocks(document, "Refused (1)")
     assert refused.rows == (("✗", "d.json", "verdict = proved: the proof gives refuted"),)
     (undecided,) = blocks(document, "Undecided (4)")
     reasons = {row[1]: row[2] for row in undecided.rows if row[1]}
-    assert reasons == {one.file: one.reason for one in found.checked if one.status == "undecided"}
+    assert reasons == {one.file: one.reason for one in result.checked if one.status == "undecided"}
     (accepted,) = blocks(document, "Accepted (1)")
     ((sign, file, *verdict, statement), below) = accepted.rows
     assert (sign, file, *verdict) == ("✓", "f.m3.json", "refuted", "enclosure")
@@ -340,7 +340,7 @@ def certificate(statement, proof, verdict="proved", grade="exact", **claim):
 
 def shows(file, verdict, *parts):
     """A certificate that was judged, with what it decides."""
-    finding = Finding(digest=file, verdict=verdict, statement="S", shows=parts)
+    finding = Judgement(digest=file, verdict=verdict, statement="S", shows=parts)
     return Checked(Document(file, Path(file)), finding, "accepted", "", "exact")
 
 
@@ -380,16 +380,16 @@ def test_a_conjunction_decides_its_parts_and_a_refutation_one_of_them():
     }
     exact = {"rule": "exact numbers"}
     deep = {"rule": "one part", "part": 1, "proof": {"rule": "one part", "part": 0, "proof": exact}}
-    found = judged(certificate(both, deep, "refuted").encode())
-    assert found.reason == ""
-    assert found.shows == (
+    result = judged(certificate(both, deep, "refuted").encode())
+    assert result.reason == ""
+    assert result.shows == (
         (digest_of(both), "refuted", ""),
         (digest_of(both["parts"][1][1]), "refuted", "part 2"),
         (digest_of(FALSE), "refuted", "part 2.1"),
     )
     true = {"kind": "AllOf", "parts": [["one", TRUE]]}
-    found = judged(certificate(true, {"rule": "every part", "parts": [exact]}).encode())
-    assert found.shows == ((digest_of(true), "proved", ""), (digest_of(TRUE), "proved", "part 1"))
+    result = judged(certificate(true, {"rule": "every part", "parts": [exact]}).encode())
+    assert result.shows == ((digest_of(true), "proved", ""), (digest_of(TRUE), "proved", "part 1"))
 
 
 def test_the_alarm_is_the_exit_code_of_the_command(folder, monkeypatch, capsys):
@@ -428,9 +428,9 @@ def test_every_path_that_cannot_be_used_is_named(tmp_path):
 def test_files_of_one_name_are_told_apart(folder, tmp_path):
     (tmp_path / "other").mkdir()
     shutil.copy(folder / "a.json", tmp_path / "other")
-    found = outcome(folder, tmp_path / "other")
-    assert {str(folder / "a.json"), str(tmp_path / "other" / "a.json"), "b.json"} <= set(found)
-    assert all(one.accepted for one in found.values())
+    result = outcome(folder, tmp_path / "other")
+    assert {str(folder / "a.json"), str(tmp_path / "other" / "a.json"), "b.json"} <= set(result)
+    assert all(one.accepted for one in result.values())
     assert [one.status for one in recheck(gather([folder / "a.json"] * 2)).checked] == ["accepted"] * 2
 
 

@@ -112,10 +112,10 @@ def plant(folder, what):
 @pytest.mark.parametrize("what", one_in(3, PLANT))
 def test_an_entry_that_is_no_certificate_is_refused_and_the_rest_goes_on(folder, what):
     said = plant(folder, what)
-    found = statuses(folder)
-    assert found["good.json"] == ("accepted", "")
-    assert found["x.json"][0] == "refused"
-    assert found["x.json"][1].startswith(said)
+    result = statuses(folder)
+    assert result["good.json"] == ("accepted", "")
+    assert result["x.json"][0] == "refused"
+    assert result["x.json"][1].startswith(said)
 
 
 @pytest.mark.parametrize("command", one_in(2, [MODULE, COMMAND]), ids=["module", "command"])
@@ -152,10 +152,10 @@ def test_a_file_that_grows_is_not_read_in_part(folder, monkeypatch):
     real = os.fstat
 
     def before(descriptor):
-        found = real(descriptor)
+        result = real(descriptor)
         with (folder / "good.json").open("ab") as file:
             file.write(b" ")
-        return found
+        return result
 
     monkeypatch.setattr(os, "fstat", before)
     with pytest.raises(ValueError, match="changes while it is read"):
@@ -166,9 +166,9 @@ def test_a_file_that_vanishes_between_listing_and_judging_is_refused(folder):
     (folder / "gone.json").write_text(sealed(GOOD))
     documents = gather([folder])
     (folder / "gone.json").unlink()
-    found = {one.file: one for one in recheck(documents).checked}
-    assert found["good.json"].accepted
-    assert found["gone.json"].reason == "cannot be read (No such file or directory)"
+    result = {one.file: one for one in recheck(documents).checked}
+    assert result["good.json"].accepted
+    assert result["gone.json"].reason == "cannot be read (No such file or directory)"
 
 
 def test_a_name_that_is_no_unicode_is_printed_as_an_escape(folder):
@@ -266,10 +266,10 @@ REFUSED = {
 def test_what_no_certificate_contains_is_refused_each_for_its_reason(folder):
     for name, (text, _) in REFUSED.items():
         (folder / f"{name}.json").write_text(text, encoding="utf-8")
-    found = statuses(folder, "--memory", "1000")
-    assert found.pop("good.json") == ("accepted", "")
+    result = statuses(folder, "--memory", "1000")
+    assert result.pop("good.json") == ("accepted", "")
     for name, (_, reason) in REFUSED.items():
-        status, said = found[f"{name}.json"]
+        status, said = result[f"{name}.json"]
         assert status == "refused", name
         assert reason in said, (name, said)
 
@@ -279,9 +279,9 @@ def test_a_certificate_cannot_be_among_its_own_uses(folder):
     data["uses"] = {"a": data["digest"]}
     (folder / "x.json").write_text(sealed(GOOD, uses=data["uses"]), encoding="utf-8")
     (folder / "y.json").write_text(json.dumps(data), encoding="utf-8")
-    found = statuses(folder)
-    assert found["x.json"][0] == "accepted", "the digest it names is that of good.json"
-    assert found["y.json"][1].startswith("digest")
+    result = statuses(folder)
+    assert result["x.json"][0] == "accepted", "the digest it names is that of good.json"
+    assert result["y.json"][1].startswith("digest")
 
 
 def test_only_the_classes_of_the_checker_are_read():
@@ -309,17 +309,17 @@ LARGE = same(["mul", *(["add", ["var", f"a{k}"], ONE] for k in range(22))])
 
 def test_what_takes_too_long_is_refused_and_the_rest_goes_on(folder):
     (folder / "a slow one.json").write_text(SLOW, encoding="utf-8")
-    found = statuses(folder, "--seconds", "1")
-    assert found["a slow one.json"] == ("refused", "takes more than 1 s to judge; --seconds allows more")
-    assert found["good.json"][0] == "accepted"
+    result = statuses(folder, "--seconds", "1")
+    assert result["a slow one.json"] == ("refused", "takes more than 1 s to judge; --seconds allows more")
+    assert result["good.json"][0] == "accepted"
 
 
 def test_what_takes_too_much_memory_is_refused_and_the_rest_goes_on(folder):
     (folder / "a large one.json").write_text(LARGE, encoding="utf-8")
-    found = statuses(folder, "--memory", "200")
-    assert found["a large one.json"][0] == "refused"
-    assert "200 MiB may be too few; --memory allows more" in found["a large one.json"][1]
-    assert found["good.json"][0] == "accepted"
+    result = statuses(folder, "--memory", "200")
+    assert result["a large one.json"][0] == "refused"
+    assert "200 MiB may be too few; --memory allows more" in result["a large one.json"][1]
+    assert result["good.json"][0] == "accepted"
 
 
 @pytest.mark.parametrize("number", ["SIGABRT", "SIGSEGV", "SIGKILL"])
@@ -378,21 +378,21 @@ def test_no_process_is_left_behind(folder, command, number, code):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen([*command, str(folder)], **pipes, preexec_fn=interruptible) as parent:  # noqa: PLW1509
         deadline = time.monotonic() + 20
-        while not (found := children(parent.pid)) and time.monotonic() < deadline:
+        while not (result := children(parent.pid)) and time.monotonic() < deadline:
             time.sleep(0.05)
         time.sleep(1)
         parent.send_signal(number)
         parent.communicate(timeout=20)
     assert parent.returncode == code
-    assert found
-    while any(map(is_running, found)) and time.monotonic() < deadline + 20:
+    assert result
+    while any(map(is_running, result)) and time.monotonic() < deadline + 20:
         time.sleep(0.05)
-    assert not any(map(is_running, found))
+    assert not any(map(is_running, result))
 
 
 def test_where_the_system_keeps_no_limits_it_is_said(folder, monkeypatch):
-    found = recheck(gather([folder]))
-    assert found.limited == ("seconds", "memory")
+    result = recheck(gather([folder]))
+    assert result.limited == ("seconds", "memory")
     monkeypatch.setattr(
         "lyapcheck.check.guard.CODE", "import sys; sys.modules['resource'] = None\n" + _without()
     )

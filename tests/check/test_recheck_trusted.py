@@ -62,10 +62,10 @@ def listed():
     """For each headline how large what it rests on may be, and in which modules it is."""
     text = ""
     for headline, names in HEADLINES.items():
-        found = modules(places(*names))
-        code, lines = (-(-count // STEP) * STEP for count in totals(found))
+        result = modules(places(*names))
+        code, lines = (-(-count // STEP) * STEP for count in totals(result))
         text += f"{headline}: at most {code} lines of code, {lines} with documentation\n"
-        text += "".join(f"  {name.removeprefix('lyapcheck.check.')}\n" for name in found)
+        text += "".join(f"  {name.removeprefix('lyapcheck.check.')}\n" for name in result)
     return text
 
 
@@ -76,9 +76,9 @@ def test_the_trusted_code_of_headline_verdicts_has_not_grown():
     """To accept growth: ``python -m tests.check.test_recheck_trusted`` writes the file anew."""
     golden, now = GOLDEN.read_text(encoding="utf-8"), listed()
     assert SIZES.sub("", now) == SIZES.sub("", golden)
-    for allowed, found in zip(SIZES.findall(golden), SIZES.findall(now), strict=True):
-        assert [int(size) for size in found] <= [int(size) for size in allowed]
-        assert int(found[1]) <= int(allowed[1])
+    for allowed, result in zip(SIZES.findall(golden), SIZES.findall(now), strict=True):
+        assert [int(size) for size in result] <= [int(size) for size in allowed]
+        assert int(result[1]) <= int(allowed[1])
 
 
 def test_an_eps0_by_boxes_rests_on_few_lines():
@@ -90,19 +90,19 @@ def test_an_eps0_by_boxes_rests_on_few_lines():
 def test_the_page_on_trust_says_these_sizes():
     page = (Path(__file__).parents[2] / "docs" / "trusted.md").read_text(encoding="utf-8")
     for line in GOLDEN.read_text(encoding="utf-8").splitlines():
-        if found := SIZES.search(line):
-            code, lines = (f"{int(size):,}" for size in found.groups())
+        if result := SIZES.search(line):
+            code, lines = (f"{int(size):,}" for size in result.groups())
             assert f"| {line.partition(': ')[0]} | {code} | {lines} |" in page
 
 
 def smallest():
     """For each kind by each rule the smallest certificate among the good ones of the arena."""
-    found = {}
+    result = {}
     for path in sorted((ARENA / "good").glob("*.json"), key=lambda path: path.stat().st_size):
         content = path.read_bytes()
         data = json.loads(content)
-        found.setdefault((data["statement"]["kind"], data["proof"]["rule"]), (path.name, content))
-    return found.values()
+        result.setdefault((data["statement"]["kind"], data["proof"]["rule"]), (path.name, content))
+    return result.values()
 
 
 def run_by(content):
@@ -128,7 +128,7 @@ def test_whatever_runs_is_listed():
     for name, content in smallest():
         finding, run = run_by(content)
         assert not finding.reason, name
-        trusted = reached(place for _, found in finding.rules for place in found.split())
+        trusted = reached(place for _, result in finding.rules for place in result.split())
         ran = {at[place].place for place in run if place in at}
         assert ran <= trusted, name
         seen |= ran

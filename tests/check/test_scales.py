@@ -132,9 +132,9 @@ SIGNS: dict[str, tuple[Expr, int]] = {
 @pytest.mark.parametrize("name", SIGNS)
 def test_signs_far_out(name: str) -> None:
     tree, sign = SIGNS[name]
-    found = [sign_from(tree.tree, "x", Fraction(2**k)) for k in range(1, 20)]
-    assert set(found) <= {0, sign}
-    assert found[-1] == sign
+    result = [sign_from(tree.tree, "x", Fraction(2**k)) for k in range(1, 20)]
+    assert set(result) <= {0, sign}
+    assert result[-1] == sign
 
 
 def test_a_sign_is_not_claimed_before_the_last_change_of_it() -> None:
@@ -164,9 +164,9 @@ BESIDE: dict[str, tuple[Expr, Fraction, int, int]] = {
 @pytest.mark.parametrize("name", BESIDE)
 def test_signs_beside_a_point(name: str) -> None:
     tree, point, side, sign = BESIDE[name]
-    found = [sign_beside(tree.tree, "x", point, side * Fraction(1, 2**k)) for k in range(1, 14)]
-    assert set(found) <= {0, sign}
-    assert found[-1] == sign
+    result = [sign_beside(tree.tree, "x", point, side * Fraction(1, 2**k)) for k in range(1, 14)]
+    assert set(result) <= {0, sign}
+    assert result[-1] == sign
 
 
 def test_what_is_undefined_at_0_is_not_positive_there() -> None:

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop import BrokenTree, Closure, leaves, proves, proves_part
+from lyapcheck.check.loop import BrokenTree, ClosedLoop, leaves, proves, proves_part
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
 from lyapcheck.check.loop.boxes import Box, halves
 from lyapcheck.check.loop.schur import Evaluator
@@ -28,8 +28,8 @@ from lyapcheck.family import named
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 
 F = Fraction
 TENTH = F(1, 10)
@@ -42,9 +42,9 @@ GAINS = {
 CASES = [(robot, index) for robot in GAINS for index in range(3)]
 
 
-def closure(robot: str, index: int, eps0: Fraction = TENTH) -> Closure:
+def loop(robot: str, index: int, eps0: Fraction = TENTH) -> ClosedLoop:
     gains = GAINS[robot][index]
-    return Closure(Setting(gains, load(robot)).arm, gains.family, gains.m, gains.kp, gains.kv, eps0)
+    return ClosedLoop(ControlledArm(gains, load(robot)).arm, gains.family, gains.m, gains.kp, gains.kv, eps0)
 
 
 def exact_schur(robot: str, index: int, eps0: float, q: Array, e: Array) -> Array:
@@ -67,7 +67,7 @@ def schur_of(arm: RobotModel, gains: GainSet, eps0: float, q: Array, e: Array) -
 
 @pytest.mark.parametrize(("robot", "index"), CASES)
 def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> None:
-    case = closure(robot, index)
+    case = loop(robot, index)
     generator = np.random.default_rng(index)
     joints, angles = range(case.n), case.angles
     with precision(64):
@@ -93,8 +93,8 @@ def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> No
 @pytest.mark.parametrize(("robot", "index"), CASES)
 def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index: int) -> None:
     """The reduction itself, against the checker's independent dV/dt in balls."""
-    case, gains = closure(robot, index, F(1, 2)), GAINS[robot][index]
-    setting = Setting(gains, load(robot))
+    case, gains = loop(robot, index, F(1, 2)), GAINS[robot][index]
+    controlled = ControlledArm(gains, load(robot))
     generator = np.random.default_rng(7 + index)
     shown = 0
     for _ in range(30):
@@ -104,12 +104,12 @@ def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index
         for scale in (1e-3, 0.1, 1.0, 30.0, 1e4):
             parts = (q, e, scale * generator.normal(size=case.n))
             state = State(*(tuple(F(float(x)) for x in part) for part in parts))
-            assert rate(case.arm, setting.controller, F(1, 2), state) < 0
+            assert rate(case.arm, controlled.controller, F(1, 2), state) < 0
             shown += 1
     assert shown or robot == "buap3"
 
 
-def grown(case: Closure, deepest: int) -> str:
+def grown(case: ClosedLoop, deepest: int) -> str:
     """A tree by plain halving, side after side, as far as the checker's own evaluator needs."""
     with precision(64):
         evaluator = Evaluator(case, BALLS)
@@ -126,18 +126,18 @@ def grown(case: Closure, deepest: int) -> str:
 @pytest.mark.parametrize("index", [0, 1, 2])
 def test_a_pendulum_is_proved_below_its_limit_and_refused_above(index: int) -> None:
     """At e → 0 (m = 1), and at the peak of h' (m > 1), P is B − ε₀ρJ/(1+r) less a little."""
-    arm = closure("pendulum1", index).arm
+    arm = loop("pendulum1", index).arm
     inertia, friction = float(sum(c for _, c in arm.mass[0][0])), float(arm.viscous[0])
     rho = float(named("hyperbolic", index + 1).constants().rho.upper)
     low, high = F(friction / inertia / rho * 0.3), F(friction / inertia / rho * 4)
-    fine = closure("pendulum1", index, low)
+    fine = loop("pendulum1", index, low)
     assert proves(fine, grown(fine, 12))
-    wrong = closure("pendulum1", index, high)
+    wrong = loop("pendulum1", index, high)
     assert not proves(wrong, grown(wrong, 8))
 
 
 def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsified() -> None:
-    case = closure("reyes-kelly2", 0, F("0.802"))
+    case = loop("reyes-kelly2", 0, F("0.802"))
     tree = grown(case, 40)
     assert proves(case, tree)
     assert all(proves_part(case, tree, part, 3) for part in range(3))
@@ -146,7 +146,7 @@ def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsifie
 
 @pytest.mark.parametrize("index", [0, 1, 2])
 def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index: int) -> None:
-    case = closure("pendulum1", index, F(1, 10))
+    case = loop("pendulum1", index, F(1, 10))
     assert not proves(replace(case, eps0=F(1000)), grown(case, 8))
 
 
@@ -162,13 +162,13 @@ def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index: int) -> None:
     ],
 )
 def test_inadmissible_data_prove_nothing(change: str, value: object) -> None:
-    case = closure("pendulum1", 0, F(1, 1000))
+    case = loop("pendulum1", 0, F(1, 1000))
     assert proves(case, ".")
     assert not proves(replace(case, **{change: value}), ".")
 
 
 def test_an_asymmetric_or_negative_arm_proves_nothing() -> None:
-    case = closure("reyes-kelly2", 0, F(1, 10**6))
+    case = loop("reyes-kelly2", 0, F(1, 10**6))
     assert proves(case, ".")
     (a, b), (_, d) = case.arm.mass
     assert not proves(replace(case, arm=replace(case.arm, mass=((a, b), (a, d)))), ".")
@@ -182,7 +182,7 @@ def test_broken_trees_are_refused(tree: str) -> None:
 
 
 def test_an_unknown_function_is_refused() -> None:
-    case = closure("pendulum1", 0)
+    case = loop("pendulum1", 0)
     for family, m in (("hyperbolic", None), ("hyperbolic", 0), ("tanh", 1), ("linear", None), ("sine", 2)):
         with pytest.raises(ValueError, match=r"no bounded|has no member"):
             proves(replace(case, family=family, m=m), ".")
@@ -207,7 +207,7 @@ def test_leaves_cover_the_start(tree: str, point: list[float]) -> None:
 @pytest.mark.parametrize("robot", ["buap3", "buap3-small", "reyes-kelly2", "pelican2"])
 def test_harmonics_and_symbols_agree_with_the_numeric_model(robot: str) -> None:
     model = load(robot)
-    arm = Setting(GainSet("a", 1, (F(1),) * model.n, (F(1),) * model.n), model).arm
+    arm = ControlledArm(GainSet("a", 1, (F(1),) * model.n, (F(1),) * model.n), model).arm
     mass = [[harmonics(entry, model.n) for entry in row] for row in arm.mass]
     q = np.random.default_rng(3).uniform(-3, 3, model.n)
 
@@ -234,7 +234,7 @@ def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow() -> None:
 @pytest.mark.parametrize("arithmetic", [BALLS, SPANS], ids=["balls", "spans"])
 def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic: Arithmetic) -> None:
     model, gains = load("buap3"), GAINS["buap3"][1]
-    case = Setting(gains, model, ranges=True).closure(TENTH)
+    case = ControlledArm(gains, model, ranges=True).loop(TENTH)
     generator = np.random.default_rng(5)
     first, last = len(case.angles), len(case.angles) + case.n
     with precision(64):
@@ -266,7 +266,7 @@ def at_random(model: RobotModel, values: list[float]) -> RobotModel:
 
 def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
     gains, model = GAINS["buap3"][1], load("buap3")
-    case = Setting(gains, model, ranges=True).closure(F("0.055"))
+    case = ControlledArm(gains, model, ranges=True).loop(F("0.055"))
     outcome = certify(Problem(case), 20_000)
     assert outcome.proved
     assert proves(case, outcome.tree)
@@ -275,7 +275,7 @@ def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
 
 
 def test_reversed_or_missing_ranges_prove_nothing() -> None:
-    case = Setting(GAINS["buap3"][0], load("buap3"), ranges=True).closure(F(1, 10**9))
+    case = ControlledArm(GAINS["buap3"][0], load("buap3"), ranges=True).loop(F(1, 10**9))
     assert proves(case, ".")
     low, high = case.parameters[0]
     assert not proves(replace(case, parameters=((high, low), *case.parameters[1:])), ".")

@@ -78,8 +78,8 @@ def test_rate_is_the_slope_of_v_along_the_motion(m: int, state: State, eps0: Fra
     args = ARM, controller(m), eps0
     with precision(512):
         difference = (value(*args, moved(step), 512) - value(*args, moved(-step), 512)) / to_arb(2 * step)
-        found = rate(*args, state, 512)
-        assert abs(difference - found) < arb("1e-12")
+        result = rate(*args, state, 512)
+        assert abs(difference - result) < arb("1e-12")
 
 
 @given(st.sampled_from([1, 2, 5]), states)
@@ -109,9 +109,9 @@ def test_rate_at_rest_is_the_pull_of_the_gains() -> None:
     with precision(128):
         h = arb(1).tanh()
         expected = -to_arb(F(1, 4)) * 60 * h * h
-        found = rate(ARM, controller(1), F(1, 2), State((F(0), F(0)), (F(1), F(0)), (F(0), F(0))))
-        assert found.overlaps(expected)
-        assert found < 0
+        result = rate(ARM, controller(1), F(1, 2), State((F(0), F(0)), (F(1), F(0)), (F(0), F(0))))
+        assert result.overlaps(expected)
+        assert result < 0
 
 
 def test_fast_state_at_zero_error_by_hand() -> None:

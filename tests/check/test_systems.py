@@ -59,18 +59,18 @@ class PD:
 
 
 def why(statement):
-    found = propose(statement)
-    assert found.verdict.value != "proved"
-    return found.reason
+    result = propose(statement)
+    assert result.verdict.value != "proved"
+    return result.reason
 
 
 def test_the_proof_that_faults_are_planted_in():
     statement = PD().argued()
-    found = propose(statement)
-    assert found.verdict.value == "proved"
+    result = propose(statement)
+    assert result.verdict.value == "proved"
     again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
     assert again == statement
-    assert verify(again, found.proof).grade == "exact"
+    assert verify(again, result.proof).grade == "exact"
 
 
 # What is derived ------------------------------------------------------------------------------------------
@@ -106,9 +106,9 @@ def test_the_slopes_of_gravity_are_those_of_the_robot():
     model, q, step = NumericModel(robot), np.array([0.3, -1.1]), 1e-6
 
     def at(entry, q):
-        waves = [*np.sin(q), *np.cos(q)]
+        harmonics = [*np.sin(q), *np.cos(q)]
         return sum(
-            float(c) * np.prod([v**p for v, p in zip(waves, powers, strict=True)]) for powers, c in entry
+            float(c) * np.prod([v**p for v, p in zip(harmonics, powers, strict=True)]) for powers, c in entry
         )
 
     for j in range(2):

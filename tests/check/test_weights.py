@@ -22,8 +22,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.radial import radial_epsilon
-from lyapcheck.search.setting import Setting
 from lyapcheck.search.weights import Weighted, weighted_epsilon
 from tests.helpers.shares import one_in
 
@@ -32,33 +32,33 @@ CERTIFIED = {0: F("0.802"), 1: F("0.917"), 2: F("0.629")}
 """What is proved with Λ = I on the two-joint arm."""
 
 
-def setting(index: int) -> Setting:
-    return Setting(
+def controlled(index: int) -> ControlledArm:
+    return ControlledArm(
         read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[index], load("reyes-kelly2")
     )
 
 
 @cache
 def weighted(index: int) -> Weighted:
-    found = weighted_epsilon(setting(index), CERTIFIED[index], max_boxes=60_000)
-    assert found is not None
-    return found
+    result = weighted_epsilon(controlled(index), CERTIFIED[index], max_boxes=60_000)
+    assert result is not None
+    return result
 
 
 @pytest.mark.parametrize("index", one_in(3, [0, 1, 2]))
 def test_some_joint_gains_much_and_the_product_grows(index: int) -> None:
-    found = weighted(index)
-    assert max(found.products) > F(13, 10) * CERTIFIED[index]
-    assert np.prod([float(x) for x in found.products]) > float(CERTIFIED[index]) ** 2
-    assert min(found.proof.closure.Lambda) == 1
+    result = weighted(index)
+    assert max(result.products) > F(13, 10) * CERTIFIED[index]
+    assert np.prod([float(x) for x in result.products]) > float(CERTIFIED[index]) ** 2
+    assert min(result.proof.loop.Lambda) == 1
 
 
 def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
     """dV/dt by differences of V along the closed loop; nothing of the derivation is used."""
-    case, found = setting(1), weighted(1)
-    closure, model = found.proof.closure, NumericModel(case.model)
-    family, scale = named(case.gains.family, case.gains.m), np.array([float(x) for x in closure.Lambda])
-    eps0, random = float(closure.eps0), np.random.default_rng(2)
+    case, result = controlled(1), weighted(1)
+    loop, model = result.proof.loop, NumericModel(case.model)
+    family, scale = named(case.gains.family, case.gains.m), np.array([float(x) for x in loop.Lambda])
+    eps0, random = float(loop.eps0), np.random.default_rng(2)
 
     def V(q: np.ndarray, e: np.ndarray, w: np.ndarray) -> float:
         y = w - eps0 / (1 + np.linalg.norm(e)) * scale * family.h(e)
@@ -75,12 +75,12 @@ def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
 
 
 def test_P_over_boxes_holds_P_with_weights() -> None:
-    case, closure = setting(1), weighted(1).proof.closure
+    case, loop = controlled(1), weighted(1).proof.loop
     model, family = NumericModel(case.model), named("hyperbolic", 2)
-    scale, eps0 = np.array([float(x) for x in closure.Lambda]), float(closure.eps0)
+    scale, eps0 = np.array([float(x) for x in loop.Lambda]), float(loop.eps0)
     random, L = np.random.default_rng(3), float(family.constants().L.upper)
     with precision(64):
-        evaluator = Evaluator(closure, BALLS)
+        evaluator = Evaluator(loop, BALLS)
         for _ in range(100):
             q, e = random.uniform(-3, 3, 2), random.uniform(-2, 2, 2)
             h, dh, r = scale * family.h(e), scale * family.dh(e), float(np.linalg.norm(e))
@@ -100,11 +100,11 @@ def test_P_over_boxes_holds_P_with_weights() -> None:
 def test_larger_weights_are_refused_for_the_same_tree() -> None:
     proof = weighted(0).proof
     assert isinstance(proof.by, BoxTree)
-    closure = proof.closure
-    assert proves(closure, proof.by.tree)
+    loop = proof.loop
+    assert proves(loop, proof.by.tree)
     for factors in ((2, 1), (1, 2), (2, 2)):
-        coupling = tuple(x * f for x, f in zip(closure.Lambda, factors, strict=True))
-        assert not proves(replace(closure, coupling=coupling), proof.by.tree)
+        coupling = tuple(x * f for x, f in zip(loop.Lambda, factors, strict=True))
+        assert not proves(replace(loop, coupling=coupling), proof.by.tree)
 
 
 def test_certificates_hold_the_weights() -> None:
@@ -112,15 +112,15 @@ def test_certificates_hold_the_weights() -> None:
     assert verify(proof.statement, proof.certificate).verdict == "proved"
     for coupling in ((F(1),), (F(-1), F(1)), (F(0), F(1))):
         with pytest.raises(Refused):
-            verify(statement_of(replace(proof.closure, coupling=coupling)), proof.certificate)
+            verify(statement_of(replace(proof.loop, coupling=coupling)), proof.certificate)
 
 
 def test_states_and_radial_bounds_are_about_no_weights() -> None:
-    closure, nothing = weighted(0).proof.closure, (F(0), F(0))
+    loop, nothing = weighted(0).proof.loop, (F(0), F(0))
     witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
     with pytest.raises(Refused):
-        verify(statement_of(closure), witness)
-    radial = radial_epsilon(setting(0))
+        verify(statement_of(loop), witness)
+    radial = radial_epsilon(controlled(0))
     assert radial is not None
     with pytest.raises(Refused):
-        verify(statement_of(replace(radial.closure, coupling=(F(1), F(1)))), radial.certificate)
+        verify(statement_of(replace(radial.loop, coupling=(F(1), F(1)))), radial.certificate)

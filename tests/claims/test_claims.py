@@ -287,12 +287,12 @@ def test_numeric_evidence_decides_nothing():
 
 
 def test_what_a_search_proposes_is_no_verdict():
-    found = propose(for_all(tanh(x) <= x, 0))
-    assert found.verdict is Verdict.PROVED
+    result = propose(for_all(tanh(x) <= x, 0))
+    assert result.verdict is Verdict.PROVED
     refusal = Judged(False, "the digest is another one", None, None)
-    assert decided(found, None).verdict is decided(found, refusal).verdict is Verdict.UNDECIDED
-    assert "the digest is another one" in decided(found, refusal).reason
-    assert decided(found, Judged(True, "", "proved", "enclosure")).grade is Grade.ENCLOSURE
+    assert decided(result, None).verdict is decided(result, refusal).verdict is Verdict.UNDECIDED
+    assert "the digest is another one" in decided(result, refusal).reason
+    assert decided(result, Judged(True, "", "proved", "enclosure")).grade is Grade.ENCLOSURE
 
 
 def test_a_conjunction_is_as_good_as_its_weakest_part():

@@ -93,8 +93,8 @@ def test_a_norm_bound_may_hold_for_one_n_and_fail_for_another(write):
 def _(case):
     return norm_bound(h(2, x), case.n, sqrt(2) * gamma(2))
 """)
-    found = [verdicts(path, n=n)["n"] for n in (1, 2, 3)]
-    assert [(row.n, row.verdict.value) for row in found] == [(1, "proved"), (2, "proved"), (3, "refuted")]
+    result = [verdicts(path, n=n)["n"] for n in (1, 2, 3)]
+    assert [(row.n, row.verdict.value) for row in result] == [(1, "proved"), (2, "proved"), (3, "refuted")]
 
 
 def test_only_some_claims_are_reported_but_what_they_use_is_decided(write):
@@ -213,9 +213,9 @@ def tables(block):
 def test_what_is_not_proved_comes_first_and_the_tally_is_the_title(write):
     document = run_proof(write(MEMBERS), ms=(1, 2, 3), n=1).document()
     assert document.title == "✗ 2 refuted, 1 undecided, 4 proved: My proof"
-    found = dict(tables(document))
-    assert found.pop(()).rows == (("refuted", "2", "m (m = 3), d"), ("undecided", "1", "above (m = 3)"))
-    assert list(found) == [
+    result = dict(tables(document))
+    assert result.pop(()).rows == (("refuted", "2", "m (m = 3), d"), ("undecided", "1", "above (m = 3)"))
+    assert list(result) == [
         ("Refuted (2)", "Bounds"),
         ("Refuted (2)", "Numbers"),
         ("Undecided (1)", "Numbers"),
@@ -225,8 +225,8 @@ def test_what_is_not_proved_comes_first_and_the_tally_is_the_title(write):
 
 
 def test_every_claim_shows_verdict_m_grade_statement_words_and_what_supports_it(write):
-    found = dict(tables(run_proof(write(MEMBERS), ms=(1, 2, 3), n=1).document()))
-    refuted = found["Refuted (2)", "Bounds"]
+    result = dict(tables(run_proof(write(MEMBERS), ms=(1, 2, 3), n=1).document()))
+    refuted = result["Refuted (2)", "Bounds"]
     assert refuted.heads == ("", "claim", "m", "grade", "statement")
     head, *below = refuted.rows
     assert head == ("✗", "m", "3", "enclosure", "h_3(x) ≤ 1.06 for all x in (−∞, ∞)")
@@ -236,7 +236,7 @@ def test_every_claim_shows_verdict_m_grade_statement_words_and_what_supports_it(
     assert said[1] == "the author's words: “h_m is below 1.06”"
     assert said[2].startswith("method: ")
     assert all(row[:-1] == ("",) * 4 for row in below)
-    (head, reason, _, _) = found["Undecided (1)", "Numbers"].rows
+    (head, reason, _, _) = result["Undecided (1)", "Numbers"].rows
     assert head == ("?", "above", "3", "numeric", "1 ≤ 2")
     assert "rests on m" in reason[-1]
 
@@ -282,10 +282,10 @@ def test_a_row_of_the_csv_is_a_claim_and_an_m(write):
 
 
 def test_explain_names_place_use_and_procedure():
-    found = explain("16.6")
-    assert "term 6" in found.place
-    assert [known for known, _ in found.used_by] == ["16"]
-    assert [part.kind for part in found.parts] == ["Implies"]
+    result = explain("16.6")
+    assert "term 6" in result.place
+    assert [known for known, _ in result.used_by] == ["16"]
+    assert [part.kind for part in result.parts] == ["Implies"]
     with pytest.raises(InputError, match=r"did you mean 16\.6"):
         explain("16_6")
 

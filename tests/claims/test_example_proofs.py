@@ -26,16 +26,16 @@ def verdicts(path, **options):
 
 @pytest.mark.parametrize("options", one_in(3, [{}, {"n": 1}, {"n": 5}]))
 def test_arctan_is_proved_for_any_number_of_joints(options):
-    found = verdicts(ARCTAN, **options)
+    result = verdicts(ARCTAN, **options)
     if options:
-        assert found.pop("arm") == "undecided", "a number of joints is no arm"
-    assert set(found.values()) == {"proved"}
+        assert result.pop("arm") == "undecided", "a number of joints is no arm"
+    assert set(result.values()) == {"proved"}
 
 
 def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
     result = run_proof(MUST_FAIL, ms=(1,))
-    found = {row.id: row.verdict.value for row in result.claims}
-    assert found == {
+    outcome = {row.id: row.verdict.value for row in result.claims}
+    assert outcome == {
         "wrong": "refuted",
         "rests": "undecided",
         "sign": "refuted",
@@ -44,7 +44,7 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
     }
     assert result.exit_code is Exit.REFUTED
     for certificate in result.certificates.values():
-        assert judge(certificate).verdict == found[certificate.claim.id]
+        assert judge(certificate).verdict == outcome[certificate.claim.id]
 
 
 def test_both_sides_of_a_refuted_inequality_look_different():

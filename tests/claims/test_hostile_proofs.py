@@ -54,9 +54,9 @@ def test_no_format_of_explain_obeys_an_author(form: str, script: Path) -> None:
 def test_no_format_of_recheck_obeys_an_author(form: str, result: ProofResult, tmp_path: Path) -> None:
     for k, certificate in enumerate(result.certificates.values()):
         (tmp_path / f"{k}|<script>_$&%#^~[x]`*.json").write_text(certificate.text(), encoding="utf-8")
-    found = Recheck(recheck(gather([tmp_path])))
-    assert found.outcome.code == 0
-    check(form, found.written(form))
+    outcome = Recheck(recheck(gather([tmp_path])))
+    assert outcome.outcome.code == 0
+    check(form, outcome.written(form))
 
 
 def check(form: str, text: str) -> None:

@@ -232,8 +232,8 @@ proof.add("b", "1 ≤ 2", Constant(expr(1) <= 2), uses=["a"])
 
 
 def test_a_claim_that_hides_its_reading_of_m_is_decided_for_each_m(write):
-    found = rows(write(HIDDEN.replace("{name}", "m")), ms=(1, 2))
-    assert {key: row.verdict.value for key, row in found.items()} == {
+    result = rows(write(HIDDEN.replace("{name}", "m")), ms=(1, 2))
+    assert {key: row.verdict.value for key, row in result.items()} == {
         ("a", 1): "proved",
         ("a", 2): "refuted",
         ("b", 1): "proved",
@@ -243,8 +243,8 @@ def test_a_claim_that_hides_its_reading_of_m_is_decided_for_each_m(write):
 
 
 def test_a_claim_that_hides_its_reading_of_n_is_shown_for_its_n(write):
-    found = rows(write(HIDDEN.replace("{name}", "n")))
-    assert {row.n for row in found.values()} == {2}
+    result = rows(write(HIDDEN.replace("{name}", "n")))
+    assert {row.n for row in result.values()} == {2}
     assert rows(write(TRUE))["true", None].n is None
 
 
@@ -262,8 +262,8 @@ def test_a_rule_that_is_wrong_in_this_process_alone_proves_nothing(write, monkey
 
     def boast(statement):
         honest = finding(statement)
-        found = type(honest)(Verdict.PROVED, honest.method, honest.proof, grade=Grade.EXACT)
-        return found
+        outcome = type(honest)(Verdict.PROVED, honest.method, honest.proof, grade=Grade.EXACT)
+        return outcome
 
     monkeypatch.setattr(lyapcheck.claims.run, "propose", boast)
     path = write(FALSE + "proof.add('above', '1 ≤ 2', Constant(expr(1) <= 2), uses=['false'])\n")

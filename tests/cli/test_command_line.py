@@ -147,10 +147,10 @@ def test_bad_input_gets_a_message_an_error_and_nothing_else(line, pieces, run, t
     code, out, err = run(*[TABLE2 if word == "TABLE2" else word for word in line.split()])
     assert (code, out) == (2, "")
     assert "Traceback" not in err
-    told = messages(err)
-    assert len(told) == len(pieces)
+    printed = messages(err)
+    assert len(printed) == len(pieces)
     for piece in pieces:
-        assert sum(piece.replace("TABLE2", TABLE2) in message for message in told) == 1
+        assert sum(piece.replace("TABLE2", TABLE2) in message for message in printed) == 1
     assert not list(tmp_path.iterdir()), "bad input must leave nothing behind"
 
 
@@ -368,11 +368,11 @@ def test_a_closed_output_is_refused_and_a_closed_error_output_is_silence(words):
     done = subprocess.run(["sh", "-c", f"{line} >&-"], capture_output=True, text=True, check=False)
     message = "error: argument: standard output: is closed; open it, or send it to /dev/null\n"
     assert (done.returncode, done.stderr) == (2, message)
-    told, silent = (
+    printed, silent = (
         subprocess.run(["sh", "-c", f"{line} {end}"], stdout=subprocess.PIPE, check=False)
         for end in ("2>/dev/null", "2>&-")
     )
-    assert (told.returncode, told.stdout) == (silent.returncode, silent.stdout)
+    assert (printed.returncode, printed.stdout) == (silent.returncode, silent.stdout)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")

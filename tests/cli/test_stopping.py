@@ -42,7 +42,7 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="as
 
 def in_session(session: int) -> list[int]:
     """The processes of a session that still run."""
-    found = []
+    result = []
     for path in Path("/proc").iterdir():
         if path.name.isdigit():
             try:
@@ -50,8 +50,8 @@ def in_session(session: int) -> list[int]:
             except OSError:
                 continue
             if int(its_session) == session and state != "Z":
-                found.append(int(path.name))
-    return found
+                result.append(int(path.name))
+    return result
 
 
 def wait_for(what: Callable[[], object], who: subprocess.Popen[bytes] | None = None) -> bool:
@@ -115,8 +115,8 @@ def test_a_signal_ends_a_command(name: str, number: signal.Signals, to_all: bool
 
 def catches_term(pid: int) -> bool:
     """Whether a process has a handler for SIGTERM, which Python has not."""
-    found = re.search(r"^SigCgt:\s*(\w+)$", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
-    return found is not None and bool(int(found[1], 16) >> (signal.SIGTERM - 1) & 1)
+    result = re.search(r"^SigCgt:\s*(\w+)$", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
+    return result is not None and bool(int(result[1], 16) >> (signal.SIGTERM - 1) & 1)
 
 
 @pytest.mark.slow

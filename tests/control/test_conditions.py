@@ -103,7 +103,7 @@ def test_the_conditions_agree_with_an_independent_computation(
     gains, limits = case
     assert gains.m is not None
     assert limits.viscous_min is not None
-    found = checked(gains, limits)
+    result = checked(gains, limits)
     with mpmath.workdps(60):
         scale = mpmath.sqrt(limits.n) * gammas[gains.m]
         expected = {
@@ -122,9 +122,9 @@ def test_the_conditions_agree_with_an_independent_computation(
             expected["10p", i] = kp + kv, (real(torque) - real(limits.gravity[i])) / scale
             expected["10i", i] = kp + kv, (real(torque) - real(limits.gravity[i])) / gammas[gains.m]
             expected["19", i] = kv, real(limits.viscous_min) / scale
-        assert found.keys() == expected.keys()
+        assert result.keys() == expected.keys()
         for key, (value, limit) in expected.items():
-            check = found[key]
+            check = result[key]
             assert check.value == value
             on_border = abs(real(value) - limit) < mpf(10) ** -40  # simple decimals do meet there
             passes = check.id == "10" if on_border else real(value) < limit
@@ -330,16 +330,16 @@ def test_an_unbounded_function_meets_no_bound() -> None:
 def test_without_a_limit_nothing_is_decided() -> None:
     gains = gains_of(["1", "1"], ["1", "1"])
     limits = Limits((Fraction(50), None), (Fraction(0), Fraction(0)), None, ("a", "b"))
-    found = checked(gains, limits)
-    assert {key for key, check in found.items() if check.verdict == "undecided"} == {
+    result = checked(gains, limits)
+    assert {key for key, check in result.items() if check.verdict == "undecided"} == {
         ("10", None),
         ("10p", 1),
         ("10i", 1),
         ("19", 0),
         ("19", 1),
     }
-    assert all("[bounds]" in check.reason for check in found.values() if check.verdict == "undecided")
-    assert found["10p", 0].verdict == "accepted"
+    assert all("[bounds]" in check.reason for check in result.values() if check.verdict == "undecided")
+    assert result["10p", 0].verdict == "accepted"
 
 
 def test_the_printed_bounds_are_those_of_the_paper() -> None:
@@ -362,7 +362,7 @@ def test_a_verdict_is_exact_for_the_largest_member(
 ) -> None:
     gains = gains_of(["1.5"] * 3, ["0.1"] * 3, 10_000)
     limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    assert {found.verdict for found in check(gains, limits, gamma_of(gains))} <= {"accepted", "rejected"}
+    assert {result.verdict for result in check(gains, limits, gamma_of(gains))} <= {"accepted", "rejected"}
 
 
 def test_beyond_the_members_that_the_checker_knows_nothing_is_decided() -> None:
@@ -379,11 +379,11 @@ def test_every_verdict_is_that_of_a_statement_and_its_proof(
     base, limits = case
     gains = GainSet("set", base.m if family == "hyperbolic" else None, base.kp, base.kv, family)
     for check in checked(gains, limits).values():
-        found = check.judgement
-        assert found is not None
-        assert found.proof is not None
-        again = verify(found.statement, found.proof)
-        assert (again.verdict, again.grade) == (found.shown, found.grade)
+        result = check.judgement
+        assert result is not None
+        assert result.proof is not None
+        again = verify(result.statement, result.proof)
+        assert (again.verdict, again.grade) == (result.shown, result.grade)
         assert check.verdict == {"proved": "accepted", "refuted": "rejected"}[again.verdict]
 
 

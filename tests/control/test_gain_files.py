@@ -54,14 +54,14 @@ def test_a_file_is_read_whole(file: Path) -> None:
     file.write_text(
         GOOD + "[bounds]\nviscous_min = 0.406\ntorque = [50, 150, 15]\ngravity = [0, 40.28, 1.81]\n"
     )
-    found = read_gain_file(file)
-    (gains,) = found.gains
-    assert (found.robot, gains.name, gains.m, gains.family, gains.n) == ("buap3", "one", 2, "hyperbolic", 3)
+    result = read_gain_file(file)
+    (gains,) = result.gains
+    assert (result.robot, gains.name, gains.m, gains.family, gains.n) == ("buap3", "one", 2, "hyperbolic", 3)
     assert gains.kp == (Fraction(3, 2), 2, Fraction(3, 10))
     assert gains.kv == (Fraction(1, 10), Fraction(1, 5), Fraction(3, 10))
-    assert found.bounds.viscous_min == Fraction(203, 500)
-    assert found.bounds.torque == (50, 150, 15)
-    assert found.bounds.gravity == (0, Fraction(1007, 25), Fraction(181, 100))
+    assert result.bounds.viscous_min == Fraction(203, 500)
+    assert result.bounds.torque == (50, 150, 15)
+    assert result.bounds.gravity == (0, Fraction(1007, 25), Fraction(181, 100))
 
 
 @pytest.mark.parametrize(
@@ -83,9 +83,9 @@ def test_decimals_are_exact_and_keep_their_digits(
     file: Path, text: str, value: Fraction, places: int
 ) -> None:
     file.write_text(GOOD.replace("1.5", text))
-    found = read_gain_file(file).gains[0].kp[0]
-    assert found == value
-    assert places_of(found) == places
+    result = read_gain_file(file).gains[0].kp[0]
+    assert result == value
+    assert places_of(result) == places
 
 
 @given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-50, 50))
@@ -122,10 +122,10 @@ def test_a_written_decimal_survives_copies(file: Path) -> None:
 
 def test_every_gain_knows_its_line_and_column(file: Path) -> None:
     file.write_text(GOOD)
-    found = read_gain_file(file)
-    gains = found.gains[0]
+    result = read_gain_file(file)
+    gains = result.gains[0]
     for key, joint, text in (("kp", 0, "1.5"), ("kp", 2, "3e-1"), ("kv", 1, "0.20"), ("name", None, "name")):
-        place = found.place(gains, key, joint)
+        place = result.place(gains, key, joint)
         assert place is not None
         assert place.line == LINES[key]
         assert GOOD.splitlines()[place.line - 1][place.column - 1 :].startswith(text)
@@ -145,8 +145,8 @@ def test_every_gain_knows_its_line_and_column(file: Path) -> None:
 )
 def test_every_way_to_write_toml_is_read(file: Path, text: str) -> None:
     file.write_bytes(text.encode())
-    found = read_gain_file(file)
-    last = found.place(found.gains[-1], "kv", 0)
+    result = read_gain_file(file)
+    last = result.place(result.gains[-1], "kv", 0)
     assert last is not None
     assert text.lstrip("\ufeff").splitlines()[last.line - 1][last.column - 1] in "01"
 
@@ -341,15 +341,15 @@ def test_the_table_is_long() -> None:
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_file_is_told_where_and_how(file: Path, name: str) -> None:
     text, line, key, rule, repair = BROKEN[name]
-    found = problems(file, text)
-    assert [problem.file for problem in found] == [str(file)] * len(found)
-    about = [problem for problem in found if problem.key == key]
-    assert about, [str(problem) for problem in found]
+    result = problems(file, text)
+    assert [problem.file for problem in result] == [str(file)] * len(result)
+    about = [problem for problem in result if problem.key == key]
+    assert about, [str(problem) for problem in result]
     assert about[0].line == line
     assert rule in about[0].rule
     assert repair in about[0].repair
-    assert all(len(str(problem).removeprefix(str(file))) < 400 for problem in found)
-    assert all(str(problem).isprintable() for problem in found)
+    assert all(len(str(problem).removeprefix(str(file))) < 400 for problem in result)
+    assert all(str(problem).isprintable() for problem in result)
 
 
 @pytest.mark.parametrize("name", BROKEN)
@@ -389,8 +389,8 @@ kp = [1, 1]
 torque = [0, 1]
 viscous_min = -1
 """
-    found = {(problem.line, problem.key) for problem in problems(file, text)}
-    assert found == {
+    result = {(problem.line, problem.key) for problem in problems(file, text)}
+    assert result == {
         (1, "robot"),
         (2, "colour"),
         (5, "gains[1].m"),
@@ -409,8 +409,8 @@ viscous_min = -1
 
 
 def test_problems_come_in_the_order_of_the_file(file: Path) -> None:
-    found = problems(file, changed("m = 2", "m = 0").replace("1.5", "-1").replace("robot", "robo"))
-    assert [problem.line for problem in found] == [1, 5, 6]
+    result = problems(file, changed("m = 2", "m = 0").replace("1.5", "-1").replace("robot", "robo"))
+    assert [problem.line for problem in result] == [1, 5, 6]
 
 
 @pytest.mark.parametrize(
@@ -533,14 +533,14 @@ SPLICED = st.builds(
 
 def refusal(path: Path) -> InputError | None:
     try:
-        found = read_gain_file(path)
+        result = read_gain_file(path)
     except InputError as error:
         return error
-    assert isinstance(found, GainFile)
-    assert found.gains
-    for gains in found.gains:
+    assert isinstance(result, GainFile)
+    assert result.gains
+    for gains in result.gains:
         assert all(k > 0 for k in (*gains.kp, *gains.kv))
-        assert found.place(gains, "kv", gains.n - 1) is not None
+        assert result.place(gains, "kv", gains.n - 1) is not None
     return None
 
 

@@ -44,9 +44,9 @@ def sections() -> dict[str, list[File | Call]]:
 
 
 def _items(part: str) -> Iterator[File | Call]:
-    found = [(match.start(), File(match["path"], match["text"])) for match in FILE.finditer(part)]
+    result = [(match.start(), File(match["path"], match["text"])) for match in FILE.finditer(part)]
     calls = [(match.start(), Call(match["command"], match["output"])) for match in CONSOLE.finditer(part)]
-    yield from (item for _, item in sorted([*found, *calls], key=lambda pair: pair[0]))
+    yield from (item for _, item in sorted([*result, *calls], key=lambda pair: pair[0]))
 
 
 class Workshop:

@@ -81,11 +81,11 @@ class TestKind:
 
     def test_its_certificates_are_accepted_and_rest_on_its_file(self, made: Workshop) -> None:
         done = made.run("lyapcheck recheck made --trusted --format json")
-        found = json.loads(done.stdout)
-        rows = {row["id"]: (row["status"], row["verdict"]) for row in found["certificates"]}
+        result = json.loads(done.stdout)
+        rows = {row["id"]: (row["status"], row["verdict"]) for row in result["certificates"]}
         assert rows == {"k5": ("accepted", "proved"), "k7": ("accepted", "refuted")}
         for verdict in ("proved", "refuted"):
-            assert "lyapcheck.check.kinds.hurwitz" in found["trusted"][verdict]["modules"]
+            assert "lyapcheck.check.kinds.hurwitz" in result["trusted"][verdict]["modules"]
 
     def test_a_forged_verdict_is_refused(self, made: Workshop) -> None:
         code = (
@@ -157,8 +157,8 @@ assert f.h(np.inf) == 1
     @pytest.mark.slow
     def test_its_certificates_rest_on_its_balls(self, furnished: Workshop) -> None:
         assert furnished.run("lyapcheck epsilon gentle.toml --certificates soft").returncode == 0
-        found = json.loads(furnished.run("lyapcheck recheck soft --trusted --format json").stdout)
-        assert "lyapcheck.check.numbers.functions.gentle" in found["trusted"]["proved"]["modules"]
+        result = json.loads(furnished.run("lyapcheck recheck soft --trusted --format json").stdout)
+        assert "lyapcheck.check.numbers.functions.gentle" in result["trusted"]["proved"]["modules"]
         refused = furnished.run("lyapcheck recheck soft", copied=False)
         assert refused.returncode == 1
         assert "no bounded function 'gentle' with m = None is known to the checker" in refused.stdout

@@ -81,11 +81,11 @@ def _replacement(pattern: re.Pattern[bytes]) -> Callable[[bytes, Rng], bytes]:
     """One match becomes something hostile, or another match of the same file."""
 
     def way(content: bytes, rng: Rng) -> bytes:
-        found = list(pattern.finditer(content))
-        if not found:
+        result = list(pattern.finditer(content))
+        if not result:
             return content
-        place = rng.choice(found)
-        piece = rng.choice(HOSTILE).encode() if rng.random() < 0.6 else rng.choice(found)[0]
+        place = rng.choice(result)
+        piece = rng.choice(HOSTILE).encode() if rng.random() < 0.6 else rng.choice(result)[0]
         if place[0].startswith(b'"') and not piece.startswith(b'"') and rng.random() < 0.7:
             piece = b'"' + piece + b'"'
         return content[: place.start()] + piece + content[place.end() :]

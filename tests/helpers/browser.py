@@ -89,8 +89,8 @@ class Tab:
 
     def enter(self, selector: str, value: object) -> None:
         """Put a value into the first control that a selector finds, as a user does."""
-        found = f"document.querySelector({json.dumps(selector)})"
-        self.run(f"{found}.value = {json.dumps(value)}; {found}.dispatchEvent(new Event('input'))")
+        result = f"document.querySelector({json.dumps(selector)})"
+        self.run(f"{result}.value = {json.dumps(value)}; {result}.dispatchEvent(new Event('input'))")
 
     def later(self, script: str, milliseconds: int = 100) -> Any:
         """The value of an expression after a while."""

@@ -16,9 +16,9 @@ def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
 def but(fast: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
     """The same cases for ``parametrize``; all but the ``fast`` ones are slow."""
     kept = list(fast)
-    found = list(cases)
-    assert all(case in found for case in kept), "a fast case is one of the cases"
-    return [case if case in kept else _slow(case) for case in found]
+    result = list(cases)
+    assert all(case in result for case in kept), "a fast case is one of the cases"
+    return [case if case in kept else _slow(case) for case in result]
 
 
 def _slow(case: Any) -> Any:

@@ -17,8 +17,8 @@ pytestmark = pytest.mark.usefixtures("in_this_process")
 
 def script() -> str:
     """The one script of the page."""
-    (found,) = re.findall(r"^ *```python\n(.*?)^ *```$", PAGE, re.MULTILINE | re.DOTALL)
-    return textwrap.dedent(found)
+    (result,) = re.findall(r"^ *```python\n(.*?)^ *```$", PAGE, re.MULTILINE | re.DOTALL)
+    return textwrap.dedent(result)
 
 
 def test_the_script_is_decided_and_its_certificate_accepted(tmp_path: Path) -> None:

@@ -23,11 +23,11 @@ SCREEN = 60
 
 def commands(page: Path) -> list[str]:
     """The command lines of a page, without comments."""
-    found = []
+    result = []
     for block in re.findall(r"```console\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
         for line in re.findall(r"^\$ (.*)$", block, re.MULTILINE):
-            found += [part.strip() for part in re.split(r"&&|>", line.split(" #")[0])]
-    return [line for line in found if line.startswith("lyapcheck ")]
+            result += [part.strip() for part in re.split(r"&&|>", line.split(" #")[0])]
+    return [line for line in result if line.startswith("lyapcheck ")]
 
 
 EVERY = [(page.name, line) for page in DOCS if page.name != EXTENDED for line in commands(page)]

@@ -14,11 +14,11 @@ TOP = Path(__file__).parents[2] / "lyapcheck"
 @cache
 def modules() -> dict[str, Path]:
     """The modules of the package by name."""
-    found = {}
+    result = {}
     for path in TOP.rglob("*.py"):
         parts = path.relative_to(TOP.parent).with_suffix("").parts
-        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
+        result[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return result
 
 
 def imported(module: str) -> Iterator[str]:

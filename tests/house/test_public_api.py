@@ -23,15 +23,15 @@ OBJECTS = [name for name in PUBLIC if name != "__version__"]
 
 def declared() -> dict[str, str]:
     """The imports that a type checker sees, in the form of the table that Python uses."""
-    found = {}
+    result = {}
     tree = ast.parse(Path(lyapcheck.__file__).read_text(encoding="utf-8"))
     guarded = next(node for node in tree.body if isinstance(node, ast.If))
     for node in guarded.body:
         if isinstance(node, ast.ImportFrom) and str(node.module).startswith("lyapcheck."):
             module = str(node.module).removeprefix("lyapcheck.")
             for alias in node.names:
-                found[alias.asname or alias.name] = f"{module}:{alias.name}" if alias.asname else module
-    return found
+                result[alias.asname or alias.name] = f"{module}:{alias.name}" if alias.asname else module
+    return result
 
 
 def test_the_list_the_homes_and_the_types_name_the_same_things():

@@ -66,7 +66,7 @@ def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch: pytest.MonkeyPatc
 def test_what_is_held_is_counted_and_cleared(place: Path) -> None:
     store.put(QUESTION, [1])
     (held,) = store.held()
-    assert (held.room, held.files) == (store.ANSWERS, 1)
+    assert (held.kind, held.files) == (store.ANSWERS, 1)
     assert held.bytes == sum(path.stat().st_size for path in place.iterdir())
     store.clear()
     assert store.take(QUESTION) is None

@@ -27,7 +27,7 @@ SAID = {
     "answers.recheck": (2, SORTING),
     "answers.robot.report": (1, HEADING),
     "claims.decision": (1, "what a fresh process of the checker said"),
-    "claims.finding": (3, "what a search proposes, which the rules are asked about before it is shown"),
+    "claims.search_result": (3, "what a search proposes, which the rules are asked about before it is shown"),
     "claims.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
     "claims.smallest": (1, CERTIFICATE),
     "cli.eps0": (4, "the word of an option"),
@@ -155,13 +155,13 @@ def test_who_only_asks_is_left_alone(source: str) -> None:
 
 def test_nobody_but_the_checker_makes_a_verdict() -> None:
     outside = [name for name in modules() if not name.startswith("lyapcheck.check")]
-    found = {name: list(made(modules()[name].read_text(encoding="utf-8"))) for name in outside}
-    counted = {name: len(places) for name, places in found.items() if places}
+    result = {name: list(made(modules()[name].read_text(encoding="utf-8"))) for name in outside}
+    counted = {name: len(places) for name, places in result.items() if places}
     wanted = {f"lyapcheck.{name}": count for name, (count, _) in SAID.items()}
     assert counted == wanted, "\n".join(
         f"{name} {place}"
-        for name in sorted(found)
+        for name in sorted(result)
         if counted.get(name) != wanted.get(name)
-        for place in found[name]
+        for place in result[name]
     )
     assert any(made(modules()["lyapcheck.check.kinds.identity"].read_text(encoding="utf-8")))

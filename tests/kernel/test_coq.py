@@ -85,14 +85,14 @@ def asked(folder: Path, *places: str) -> dict[str, Kernel]:
 @needs_coq
 @pytest.mark.slow
 def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder: Path) -> None:
-    found = asked(folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.12.json")
-    assert {file: one.axioms for file, one in found.items()} == {
+    result = asked(folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.12.json")
+    assert {file: one.axioms for file, one in result.items()} == {
         "pub.7g.m1.json": "float",
         "ext.V-is-positive-definite.json": "real",
         "pub.17a.json": "float",
         "pub.12.json": "",
     }
-    assert found["pub.12.json"].reason == "there is no theorem of Coq's for statements of the kind EveryN"
+    assert result["pub.12.json"].reason == "there is no theorem of Coq's for statements of the kind EveryN"
 
 
 @needs_coq

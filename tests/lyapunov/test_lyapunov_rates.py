@@ -100,16 +100,16 @@ def test_one_state_or_many_give_the_same() -> None:
 @pytest.mark.parametrize("arm", ["reyes-kelly2", "buap3"])
 def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
     model = robots.load(arm)
     kp, kv = (tuple(map(Fraction, k[: model.n])) for k in (KP, KV))
-    setting = Setting(GainSet("test", 3, kp, kv), model)
+    controlled = ControlledArm(GainSet("test", 3, kp, kv), model)
     q, e, w = random_states(model.n, 4, seed=8)
     by_numpy = numeric_of(arm, 3).rate(q, e, w)
     for k in range(len(q)):
         state = states.State(*(tuple(Fraction(float(x)) for x in row) for row in (q[k], e[k], w[k])))
-        ball = states.rate(setting.arm, setting.controller, Fraction(EPS0), state)
+        ball = states.rate(controlled.arm, controlled.controller, Fraction(EPS0), state)
         assert float(ball.mid()) == pytest.approx(by_numpy[k], rel=1e-10)
 
 

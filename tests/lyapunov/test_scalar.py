@@ -107,10 +107,10 @@ def test_coefficients_outside_the_argument_certify_nothing(change: dict[str, int
 @pytest.mark.parametrize("scale", [Fraction(1, 10**4), Fraction(1), Fraction(10**4)])
 def test_the_program_finds_nearly_the_largest_eps0(scale: Fraction) -> None:
     form = ScalarForm(Fraction(5) * scale, Fraction(2, 5), Fraction(7), Fraction(5, 2))
-    found = scalar_epsilon(form)
-    assert found.eps0 is not None
-    assert certifies(form, found.eps0)
-    assert not certifies(form, found.eps0 * Fraction(1_000_001, 1_000_000))
+    result = scalar_epsilon(form)
+    assert result.eps0 is not None
+    assert certifies(form, result.eps0)
+    assert not certifies(form, result.eps0 * Fraction(1_000_001, 1_000_000))
 
 
 def test_without_friction_or_bound_there_is_a_reason() -> None:

@@ -44,8 +44,8 @@ def compilations(monkeypatch):
 
 def works() -> bool:
     library_module._loaded.cache_clear()
-    found = library(SOURCE)
-    return (found is not None and found.seven() == 7) if COMPILES else found is None
+    result = library(SOURCE)
+    return (result is not None and result.seven() == 7) if COMPILES else result is None
 
 
 LIBRARY = b"not code at all"

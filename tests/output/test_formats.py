@@ -160,10 +160,10 @@ def test_csv_holds_no_formula(name: str) -> None:
 
 @given(NAMES)
 def test_json_reads_back(name: str) -> None:
-    found = json.loads(Sample(name).written("json"))
-    assert found["results"] == Sample(name).data()["results"]
-    assert found["schema"] == "lyapcheck/sample/1"
-    assert found["version"] == found["versions"]["lyapcheck"]
+    result = json.loads(Sample(name).written("json"))
+    assert result["results"] == Sample(name).data()["results"]
+    assert result["schema"] == "lyapcheck/sample/1"
+    assert result["version"] == result["versions"]["lyapcheck"]
 
 
 @given(NAMES)
@@ -208,9 +208,9 @@ def decoded(text: str) -> str:
 def test_github_gets_one_command_a_line(name: str) -> None:
     shown = "".join(c if c in "\r\n" else printable(c) for c in name)
     lines = re.split(r"[\r\n]", Sample(name).written("github"))[:-1]
-    found = [COMMAND.fullmatch(line) for line in lines]
-    assert [match[1] for match in found if match] == ["error", "warning", "notice", "notice"]
-    for match in filter(None, found[:3]):
+    result = [COMMAND.fullmatch(line) for line in lines]
+    assert [match[1] for match in result if match] == ["error", "warning", "notice", "notice"]
+    for match in filter(None, result[:3]):
         properties = dict(pair.split("=", 1) for pair in match[2].split(","))
         assert properties.keys() == {"file", "line", "col", "title"}
         assert decoded(properties["file"]) == shown

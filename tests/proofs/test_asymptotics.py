@@ -38,13 +38,13 @@ def test_the_bounds_hold_for_m_up_to_1000():
     with precision(160):
         root2, asinh1 = arb(2).sqrt(), (1 + arb(2).sqrt()).log()
         for m in range(2, 1001):
-            found = hyperbolic_constants(m, 30)
-            gamma, rho, secant = (value.to_arb() for value in (found.gamma, found.rho, found.L))
+            outcome = hyperbolic_constants(m, 30)
+            gamma, rho, secant = (value.to_arb() for value in (outcome.gamma, outcome.rho, outcome.L))
             step = arb(4 * m).log() / m
             excess = gamma / root2 - 1 + (1 + arb(4 * m).log()) / (4 * m)
             assert gamma_less_than(m, Fraction(2))
             assert step**2 * 3 / 32 < excess < step**2 / 6
-            assert m - Fraction(1, 2) < found.rho.lower < found.rho.upper < m
+            assert m - Fraction(1, 2) < outcome.rho.lower < outcome.rho.upper < m
             assert arb(-3) / (4 * m * m) < rho - (arb(2 * m - 1) / 2 + arb(9) / (16 * m)) < 0
             fall = (1 + root2 / asinh1) / 4
             excess = secant * asinh1 / root2 - 1 + fall * (1 + (m / fall).log()) / m
@@ -80,22 +80,22 @@ def test_no_false_bound_is_proved_for_every_m(share, last, verdict):
     u, step = exp(4 * log(x) / x), 4 * log(x) / x
     terms = 1 - log(x) / x - Fraction(last) / x + step**2 * Fraction(share)
     value = (1 + 1 / u) / 2 * (x / (x + 1)) ** 2
-    found = propose(for_all(terms**2 < value, 8)).verdict.value
-    assert found == verdict
+    outcome = propose(for_all(terms**2 < value, 8)).verdict.value
+    assert outcome == verdict
 
 
 def test_the_bounds_for_every_m_are_those_of_the_largest_members():
     """γ_m, ρ_m and L_m themselves keep to what the claims E say, up to m = 100,000."""
     with precision(200):
         for m in (2, 3, 1000, 100_000):
-            found = hyperbolic_constants(m, 40)
+            outcome = hyperbolic_constants(m, 40)
             step, terms = arb(4 * m).log() / m, 1 - (1 + arb(4 * m).log()) / (4 * m)
-            share = found.gamma.to_arb() / arb(2).sqrt()
+            share = outcome.gamma.to_arb() / arb(2).sqrt()
             assert terms + step**2 * 3 / 32 < share < terms + step**2 / 6
             high = Fraction(2 * m - 1, 2) + Fraction(9, 16 * m)
-            assert high - Fraction(3, 4 * m**2) < found.rho.lower <= found.rho.upper < high
+            assert high - Fraction(3, 4 * m**2) < outcome.rho.lower <= outcome.rho.upper < high
             limit = arb(2).sqrt() / arb(1).asinh()
-            assert limit * (1 - step * 3 / 4) < found.L.to_arb() < limit
+            assert limit * (1 - step * 3 / 4) < outcome.L.to_arb() < limit
 
 
 SAMPLES = [Fraction(k, 7) for k in range(1, 200, 9)]
@@ -123,7 +123,7 @@ def test_the_pieces_of_the_bound_of_rho_are_the_slope(m):
 def test_a_witness_is_a_number_that_can_be_shown():
     """e^(e^x) is above 2 everywhere; a state of that is found, and none of a million digits is tried."""
     x = var("x")
-    found = propose(for_all(exp(exp(x)) <= 2, 0))
-    assert found.verdict.value == "refuted"
-    assert all(len(end) < 2000 for side in ("left", "right") for end in found.witness[side])
+    outcome = propose(for_all(exp(exp(x)) <= 2, 0))
+    assert outcome.verdict.value == "refuted"
+    assert all(len(end) < 2000 for side in ("left", "right") for end in outcome.witness[side])
     assert propose(for_all(exp(exp(x)) <= 2, 20, 40)).verdict.value == "undecided"

@@ -34,8 +34,8 @@ REASONS = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_each_concludes_and_refuses_what_is_wrong(name):
     rows = run_proof(f"{name}.py", ms=(2,)).claims
-    found = {row.id: row.verdict.value for row in rows}
-    assert found == dict.fromkeys(found, "proved") | REFUSED[name]
+    result = {row.id: row.verdict.value for row in rows}
+    assert result == dict.fromkeys(result, "proved") | REFUSED[name]
     conclusion = next(row for row in rows if row.id == "P")
     assert "stable" in conclusion.statement[:200]
     for (script, claim), reason in REASONS.items():

@@ -180,8 +180,8 @@ def test_the_gains_at_hand_matter(tmp_path, elbow, damping, verdicts):
     path.write_text(GAINS.format(elbow=elbow, damping=damping), encoding="utf-8")
     ids = ("10p.gains", "19.gains", "18.gains")
     rows = run_proof("published.py", ms=(2,), gains=path, only=ids).claims
-    found = {row.id: row.verdict.value for row in rows}
-    assert tuple(found[name] for name in ids) == verdicts
+    outcome = {row.id: row.verdict.value for row in rows}
+    assert tuple(outcome[name] for name in ids) == verdicts
 
 
 def test_whether_a_bound_of_the_damping_is_necessary_depends_on_the_bound(tmp_path):

@@ -114,8 +114,8 @@ def test_the_constants_of_the_arm_are_above_sampled_ones():
 
 def test_an_eps0_that_is_too_large_is_refuted_and_takes_the_conclusion_along(altered):
     path = altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(101, 100)")
-    found = verdicts(path, ("arm.theta", "arm.stable", "arms.stable"))
-    assert found == {"arm.theta": "refuted", "arm.stable": "undecided", "arms.stable": "proved"}
+    outcome = verdicts(path, ("arm.theta", "arm.stable", "arms.stable"))
+    assert outcome == {"arm.theta": "refuted", "arm.stable": "undecided", "arms.stable": "proved"}
 
 
 @pytest.mark.slow
@@ -138,22 +138,22 @@ def test_another_arm_with_gains_of_its_own():
 def test_without_friction_nothing_is_concluded_about_the_arm():
     model = load("buap3")
     number = replace(model.viscous[0], value=Fraction(0), low=None, high=None)
-    found = verdicts("scalar.py", robot=replace(model, viscous=(number, *model.viscous[1:])))
-    assert found["arm.M"] == found["arm.C"] == "proved"
-    assert found["arm.stable"] == found["arm.theta"] == found["arm.states"] == "undecided"
-    assert found["arms.all"] == "proved"
+    outcome = verdicts("scalar.py", robot=replace(model, viscous=(number, *model.viscous[1:])))
+    assert outcome["arm.M"] == outcome["arm.C"] == "proved"
+    assert outcome["arm.stable"] == outcome["arm.theta"] == outcome["arm.states"] == "undecided"
+    assert outcome["arms.all"] == "proved"
 
 
 def test_gains_for_another_number_of_joints_leave_the_arm_open():
-    found = verdicts("scalar.py", robot="pendulum1")
-    assert found["arm.stable"] == "undecided"
-    assert found["arms.stable"] == found["arm.M"] == "proved"
+    outcome = verdicts("scalar.py", robot="pendulum1")
+    assert outcome["arm.stable"] == "undecided"
+    assert outcome["arms.stable"] == outcome["arm.M"] == "proved"
 
 
 @pytest.mark.slow
 def test_large_members_and_many_joints_for_every_arm():
-    found = verdicts("scalar.py", ("arms.stable", "arms.all"), ms=(12,), n=4)
-    assert found == {"arms.stable": "proved", "arms.all": "proved"}
+    outcome = verdicts("scalar.py", ("arms.stable", "arms.all"), ms=(12,), n=4)
+    assert outcome == {"arms.stable": "proved", "arms.all": "proved"}
 
 
 # Faults -----------------------------------------------------------------------------------------------------

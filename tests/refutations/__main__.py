@@ -11,14 +11,14 @@ from tests.refutations.suite import LEAST, outcomes, planted, wrongly_proved
 def main() -> int:
     """Run the whole suite."""
     plan = planted()
-    found = outcomes(plan.false)
+    result = outcomes(plan.false)
     REPORT.parent.mkdir(exist_ok=True)
-    REPORT.write_text(markdown(plan, found), encoding="utf-8")
-    print(summary(found))
-    wrong = wrongly_proved(found)
+    REPORT.write_text(markdown(plan, result), encoding="utf-8")
+    print(summary(result))
+    wrong = wrongly_proved(result)
     for name in wrong:
         print(f"false, yet proved: {name}")
-    return int(bool(wrong) or len(found) < LEAST)
+    return int(bool(wrong) or len(result) < LEAST)
 
 
 if __name__ == "__main__":

@@ -50,11 +50,11 @@ class Fault:
 
 def faults_of(part: Part) -> list[Fault]:
     """The faults planted in one statement."""
-    found: list[Fault] = []
+    result: list[Fault] = []
     for kind, rule in RULES.items():
         mutants = [mutant for mutant in rule(part.statement) if _is_sound_data(mutant, part.statement)]
-        found += [Fault(part, kind, k + 1, mutant) for k, mutant in enumerate(_spread(mutants))]
-    return found
+        result += [Fault(part, kind, k + 1, mutant) for k, mutant in enumerate(_spread(mutants))]
+    return result
 
 
 def _is_sound_data(mutant: Statement, original: Statement) -> bool:
@@ -173,20 +173,20 @@ def _reversed(statement: Statement) -> list[Statement]:
 
 def _strictness(statement: Statement) -> list[Statement]:
     """< for ≤ where it is claimed, ≤ for < where it is given, and open ends closed."""
-    found = [
+    result = [
         put(replace(r, operator="<=" if given else "<"))
         for r, given, put in _relations(statement)
         if r.strict is given
     ]
     if isinstance(statement, ForAll):
-        found += [replace(statement, open_low=False)] * statement.open_low
-        found += [replace(statement, open_high=False)] * statement.open_high
+        result += [replace(statement, open_low=False)] * statement.open_low
+        result += [replace(statement, open_high=False)] * statement.open_high
     if isinstance(statement, (Implies, ForSmall)):
         for k, v in enumerate(statement.variables):
             if v.strict and v.low is not None:
                 weak = (*statement.variables[:k], replace(v, strict=False), *statement.variables[k + 1 :])
-                found.append(replace(statement, variables=weak))
-    return found
+                result.append(replace(statement, variables=weak))
+    return result
 
 
 def _without_hypothesis(statement: Statement) -> list[Statement]:
@@ -200,12 +200,12 @@ def _wider(statement: Statement) -> list[Statement]:
     """A half-line or an interval made longer than it was."""
     if not isinstance(statement, ForAll):
         return []
-    found: list[Statement] = []
+    result: list[Statement] = []
     if statement.low is not None:
-        found += [replace(statement, low=None), replace(statement, low=statement.low - 1)]
+        result += [replace(statement, low=None), replace(statement, low=statement.low - 1)]
     if statement.high is not None:
-        found += [replace(statement, high=None), replace(statement, high=statement.high + 1)]
-    return found
+        result += [replace(statement, high=None), replace(statement, high=statement.high + 1)]
+    return result
 
 
 def _digits(text: str) -> list[str]:
@@ -226,12 +226,12 @@ def _wrong_digit(statement: Statement) -> list[Statement]:
         ]
     if not isinstance(statement, Agrees):
         return []
-    found: list[Statement] = [replace(statement, printed=text) for text in _digits(statement.printed)]
+    result: list[Statement] = [replace(statement, printed=text) for text in _digits(statement.printed)]
     for k, (name, text) in enumerate(statement.inputs):
         for other in _digits(text):
             inputs = (*statement.inputs[:k], (name, other), *statement.inputs[k + 1 :])
-            found.append(replace(statement, inputs=inputs))
-    return found
+            result.append(replace(statement, inputs=inputs))
+    return result
 
 
 def _wrong_norms(statement: Statement) -> list[Statement]:

@@ -23,19 +23,19 @@ not known to be false, are not counted. `proved` must be 0. Written by `python -
 """
 
 
-def summary(found: list[Outcome]) -> str:
+def summary(result: list[Outcome]) -> str:
     """One line with the figures."""
-    counts = Counter(outcome.verdict for outcome in found)
+    counts = Counter(outcome.verdict for outcome in result)
     verdicts = ", ".join(f"{counts[verdict]} {verdict.value}" for verdict in COLUMNS)
-    return f"{len(found)} planted faults that are false: {verdicts}"
+    return f"{len(result)} planted faults that are false: {verdicts}"
 
 
-def markdown(plan: Planted, found: list[Outcome]) -> str:
+def markdown(plan: Planted, result: list[Outcome]) -> str:
     """The whole report."""
     lines = [
         "# Refutation suite",
         "",
-        summary(found) + ".",
+        summary(result) + ".",
         "",
         *INTRODUCTION.splitlines(),
         "",
@@ -43,17 +43,17 @@ def markdown(plan: Planted, found: list[Outcome]) -> str:
         "",
         "## By kind of fault",
         "",
-        *_table("fault", RULES, found, lambda o: o.fault.kind, plan.others),
+        *_table("fault", RULES, result, lambda o: o.fault.kind, plan.others),
         "",
         "## By proof",
         "",
-        *_table("proof", _proofs(found), found, lambda o: o.fault.part.proof, None),
+        *_table("proof", _proofs(result), result, lambda o: o.fault.part.proof, None),
         "",
         "## By kind of statement",
         "",
-        *_table("statement", _kinds(found), found, _kind, None),
+        *_table("statement", _kinds(result), result, _kind, None),
         "",
-        *_listed("Undecided", [o.fault.name for o in found if o.verdict is Verdict.UNDECIDED]),
+        *_listed("Undecided", [o.fault.name for o in result if o.verdict is Verdict.UNDECIDED]),
         *_listed("False as they stand in the proofs, so not changed", plan.broken),
         *_listed("No numbers to judge them by, so not changed", plan.unjudged),
     ]
@@ -68,11 +68,11 @@ def _at_random() -> str:
 def _table(
     title: str,
     rows: Iterable[str],
-    found: list[Outcome],
+    result: list[Outcome],
     key: Callable[[Outcome], str],
     others: Counter[str] | None,
 ) -> list[str]:
-    counts = Counter((key(outcome), outcome.verdict) for outcome in found)
+    counts = Counter((key(outcome), outcome.verdict) for outcome in result)
     more = ["not known to be false"] if others is not None else []
     heads = [title, "false", *(verdict.value for verdict in COLUMNS), *more]
     lines = [_row(heads), _row(["---"] + ["---:"] * (len(heads) - 1))]
@@ -91,12 +91,12 @@ def _kind(outcome: Outcome) -> str:
     return type(outcome.fault.statement).__name__
 
 
-def _kinds(found: list[Outcome]) -> list[str]:
-    return sorted({_kind(outcome) for outcome in found})
+def _kinds(result: list[Outcome]) -> list[str]:
+    return sorted({_kind(outcome) for outcome in result})
 
 
-def _proofs(found: list[Outcome]) -> list[str]:
-    return sorted({outcome.fault.part.proof for outcome in found})
+def _proofs(result: list[Outcome]) -> list[str]:
+    return sorted({outcome.fault.part.proof for outcome in result})
 
 
 def _listed(title: str, names: Iterable[str]) -> list[str]:

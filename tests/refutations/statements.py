@@ -41,7 +41,7 @@ class Part:
 @lru_cache(maxsize=1)
 def parts() -> tuple[Part, ...]:
     """Every statement of every proof for the paper's case, in the order of the scripts."""
-    found: list[Part] = []
+    result: list[Part] = []
     for path in sorted(PROOFS.glob("*.py")):
         proof = load_proof(path)
         for claim in proof.claims.values():
@@ -49,8 +49,8 @@ def parts() -> tuple[Part, ...]:
                 statement = claim.statement(paper_case(MEMBER))
             except Lacking:
                 continue
-            found += [Part(proof.name, claim.id, name, part) for name, part in _leaves("", statement)]
-    return tuple(found)
+            result += [Part(proof.name, claim.id, name, part) for name, part in _leaves("", statement)]
+    return tuple(result)
 
 
 def _leaves(name: str, statement: Statement) -> Iterator[tuple[str, Statement]]:

@@ -60,7 +60,7 @@ def partly_planted() -> Planted:
     kinds: dict[type[Statement], list[Part]] = {}
     for part in parts():
         kinds.setdefault(type(part.statement), []).append(part)
-    return plant(part for found in kinds.values() for part in found[::FEW])
+    return plant(part for result in kinds.values() for part in result[::FEW])
 
 
 def plant(originals: Iterable[Part]) -> Planted:
@@ -97,6 +97,6 @@ def outcomes(faults: Iterable[Fault], by: Decide = verdict_of) -> list[Outcome]:
     return [Outcome(fault, by(fault.statement)) for fault in faults]
 
 
-def wrongly_proved(found: Iterable[Outcome]) -> list[str]:
+def wrongly_proved(result: Iterable[Outcome]) -> list[str]:
     """The names of the false statements that were proved."""
-    return [outcome.fault.name for outcome in found if outcome.verdict is Verdict.PROVED]
+    return [outcome.fault.name for outcome in result if outcome.verdict is Verdict.PROVED]

@@ -59,18 +59,18 @@ def test_there_are_faults_of_every_kind_that_an_unsound_procedure_takes_for_true
 
 
 def test_a_share_of_the_false_statements_is_not_proved() -> None:
-    found = outcomes(partly_planted().false[::SHARE])
-    assert wrongly_proved(found) == []
-    assert Verdict.ERROR not in {outcome.verdict for outcome in found}
-    assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
+    result = outcomes(partly_planted().false[::SHARE])
+    assert wrongly_proved(result) == []
+    assert Verdict.ERROR not in {outcome.verdict for outcome in result}
+    assert sum(outcome.verdict is Verdict.REFUTED for outcome in result) > 0.8 * len(result)
 
 
 @pytest.mark.slow
 def test_no_false_statement_is_proved() -> None:
-    found = outcomes(planted().false)
-    assert wrongly_proved(found) == []
-    assert Verdict.ERROR not in {outcome.verdict for outcome in found}
-    assert sum(outcome.verdict is Verdict.REFUTED for outcome in found) > 0.8 * len(found)
+    result = outcomes(planted().false)
+    assert wrongly_proved(result) == []
+    assert Verdict.ERROR not in {outcome.verdict for outcome in result}
+    assert sum(outcome.verdict is Verdict.REFUTED for outcome in result) > 0.8 * len(result)
 
 
 def credulous(statement: Statement) -> Verdict:
@@ -195,8 +195,8 @@ def test_faults_change_one_place_and_keep_to_the_names_of_the_statement() -> Non
 
 
 def test_the_same_input_gives_the_same_report() -> None:
-    found = outcomes(partly_planted().false, by=credulous)
-    text = markdown(partly_planted(), found)
+    result = outcomes(partly_planted().false, by=credulous)
+    text = markdown(partly_planted(), result)
     assert text == markdown(partly_planted(), outcomes(partly_planted().false, by=credulous))
-    assert summary(found) in text
-    assert f"| {len(found)} |" not in text.splitlines()[0]
+    assert summary(result) in text
+    assert f"| {len(result)} |" not in text.splitlines()[0]

@@ -218,9 +218,9 @@ NOTES = published_notes()
 
 def test_refuted_claims_become_one_finding_for_all_their_members() -> None:
     rows = [claim("a", 1, "refuted"), claim("a", 2, "refuted"), claim("b", 1, "proved")]
-    found = findings(NOTES, rows, {})
-    assert [(item.subject, item.ms, item.weight) for item in found] == [("claim a", (1, 2), "B")]
-    assert "1 is not ≤ 0 at x = 3/2" in found[0].text
+    result = findings(NOTES, rows, {})
+    assert [(item.subject, item.ms, item.weight) for item in result] == [("claim a", (1, 2), "B")]
+    assert "1 is not ≤ 0 at x = 3/2" in result[0].text
 
 
 def test_a_refuted_claim_breaks_the_proof_where_the_proposition_rests_on_it() -> None:

@@ -76,13 +76,13 @@ def test_columns_are_sorted_both_ways_and_back(page: Tab) -> None:
     first = "document.querySelector('table.claims')"
     ids = f"[...{first}.tBodies[0].rows].map(row => row.cells[2].textContent)"
     before = page.run(ids)
-    found = []
+    result = []
     for _ in range(3):
         page.run(f"{first}.querySelectorAll('.sort')[2].click()")
-        found.append(page.run(ids))
-    assert found[0] == sorted(before)
-    assert found[1] == sorted(before, reverse=True)
-    assert found[2] == before
+        result.append(page.run(ids))
+    assert result[0] == sorted(before)
+    assert result[1] == sorted(before, reverse=True)
+    assert result[2] == before
 
 
 def test_the_switch_of_m_needs_no_script(page: Tab) -> None:

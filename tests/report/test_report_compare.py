@@ -36,10 +36,10 @@ def changed(*places: Any, to: Any) -> dict[str, Any]:
 
 
 def test_nothing_changed() -> None:
-    found = compare(OLD, OLD, "old")
-    assert found.changes == ()
-    assert found.exit_code == 0
-    assert "what it was" in str(found)
+    result = compare(OLD, OLD, "old")
+    assert result.changes == ()
+    assert result.exit_code == 0
+    assert "what it was" in str(result)
 
 
 @pytest.mark.parametrize(
@@ -57,19 +57,19 @@ def test_nothing_changed() -> None:
     ],
 )
 def test_a_change_is_found_and_weighed(new: dict[str, Any], what: str, worse: bool) -> None:
-    found = compare(OLD, new, "old")
-    assert [(change.what, change.worse) for change in found.changes] == [(what, worse)]
-    assert found.exit_code == int(worse)
+    result = compare(OLD, new, "old")
+    assert [(change.what, change.worse) for change in result.changes] == [(what, worse)]
+    assert result.exit_code == int(worse)
 
 
 def test_what_got_worse_comes_first_in_every_format() -> None:
     new = changed("claims", 1, "verdict", to="proved")
     new["gate"][0]["verdict"] = "rejected"
-    found = compare(OLD, new, "old")
-    assert [change.worse for change in found.changes] == [True, False]
-    assert found.written("markdown").index("Worse (1)") < found.written("markdown").index("Changed (1)")
-    assert "&lt;g&gt;" in found.written("html")
-    assert json.loads(found.written("json"))["changes"][0]["new"] == "rejected"
+    result = compare(OLD, new, "old")
+    assert [change.worse for change in result.changes] == [True, False]
+    assert result.written("markdown").index("Worse (1)") < result.written("markdown").index("Changed (1)")
+    assert "&lt;g&gt;" in result.written("html")
+    assert json.loads(result.written("json"))["changes"][0]["new"] == "rejected"
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "lyapcheck/report/1"}'])

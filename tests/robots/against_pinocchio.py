@@ -91,8 +91,8 @@ def compare(arm: robots.RobotModel, full: pin.Model) -> None:
     order = [joint.idx_v for joint in joints]
     rng = np.random.default_rng(20190301)
     states, rates_of = rng.uniform(-3, 3, (STATES, arm.n)), rng.uniform(-2, 2, (STATES, arm.n))
-    found = mine.mass(states), mine.gravity(states), mine.coriolis(states, rates_of)
-    for q, w, M, g, C in zip(states, rates_of, *found, strict=True):
+    result = mine.mass(states), mine.gravity(states), mine.coriolis(states, rates_of)
+    for q, w, M, g, C in zip(states, rates_of, *result, strict=True):
         there, rates = configuration(other, joints, q), np.zeros(other.nv)
         rates[order] = w
         upper = np.triu(pin.crba(other, data, there))
@@ -104,9 +104,9 @@ def compare(arm: robots.RobotModel, full: pin.Model) -> None:
         assert_close(C @ w, torque)
 
 
-def assert_close(found: np.ndarray, expected: np.ndarray) -> None:
+def assert_close(result: np.ndarray, expected: np.ndarray) -> None:
     scale = max(float(np.max(np.abs(expected))), 1e-3)
-    assert float(np.max(np.abs(found - expected))) <= TOLERANCE * scale
+    assert float(np.max(np.abs(result - expected))) <= TOLERANCE * scale
 
 
 def configuration(model: pin.Model, joints: Sequence[Any], q: np.ndarray) -> np.ndarray:
@@ -127,7 +127,7 @@ def with_right_angles(text: str) -> str:
         return repr(angle) if abs(float(word) - angle) <= 1e-9 else word
 
     return re.sub(
-        r'rpy\s*=\s*"([^"]*)"', lambda found: f'rpy="{" ".join(exact(w) for w in found[1].split())}"', text
+        r'rpy\s*=\s*"([^"]*)"', lambda result: f'rpy="{" ".join(exact(w) for w in result[1].split())}"', text
     )
 
 

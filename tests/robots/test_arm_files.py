@@ -274,8 +274,8 @@ def test_a_broken_file_is_told_what_is_wrong(
     tmp_path: Path, text: str, old: str, new: str, expected: list[str]
 ) -> None:
     assert old in text
-    told = "\n".join(problems(tmp_path, text.replace(old, new)))
-    assert all(part in told for part in expected), told
+    printed = "\n".join(problems(tmp_path, text.replace(old, new)))
+    assert all(part in printed for part in expected), printed
 
 
 def test_all_problems_at_once(tmp_path: Path) -> None:

@@ -67,8 +67,9 @@ def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm: robots.RobotM
         _, exact = both(arm, sin, cos, list(map(arb, X)), to_arb)
         assert all(ball.overlaps(value) for ball, value in zip(along, exact, strict=True))
         assert all(
-            float(found.lo.item()) <= float(value.upper()) and float(value.lower()) <= float(found.hi.item())
-            for found, value in zip(ranges, exact, strict=True)
+            float(result.lo.item()) <= float(value.upper())
+            and float(value.lower()) <= float(result.hi.item())
+            for result, value in zip(ranges, exact, strict=True)
         )
     sharp = max(float(ball.rad()) for ball in along)
     assert sharp < 0.01

@@ -40,12 +40,12 @@ def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) 
     """Numbers alone: the path of the arm depends on where the file is written."""
     code, _ = run("tune", str(EXAMPLES / f"{name}.toml"), "--m", "1:3", "--out", str(tmp_path / "gains.toml"))
     assert code == 0
-    found, kept = (
+    result, kept = (
         [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith(("kp", "kv"))]
         for file in (tmp_path / "gains.toml", EXAMPLES / f"{name}_gains.toml")
     )
-    assert len(found) == 6
-    assert found == kept
+    assert len(result) == 6
+    assert result == kept
 
 
 @pytest.mark.slow

@@ -70,8 +70,8 @@ def eval_fraction(text: str) -> float:
     ],
 )
 def test_a_slip_in_the_print_is_refuted(tmp_path: Path, old: str, new: str, refuted: set[str]) -> None:
-    found = verdicts(arm(tmp_path, old, new))
-    assert {name for name, verdict in found.items() if verdict == "refuted"} == refuted
+    result = verdicts(arm(tmp_path, old, new))
+    assert {name for name, verdict in result.items() if verdict == "refuted"} == refuted
 
 
 def test_a_skew_part_changes_the_matrix_and_not_the_torque(tmp_path: Path) -> None:

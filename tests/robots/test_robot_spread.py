@@ -14,8 +14,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 from tests.helpers.command import invoke
 
 F = Fraction
@@ -43,8 +43,8 @@ def test_no_spread_is_the_arm_itself() -> None:
 
 def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes() -> None:
     model = load("reyes-kelly2", spread=F(1, 20))
-    closure = Setting(GAINS[0], model, ranges=True).closure(F(1, 10))
-    free = [low < high for low, high in closure.parameters]
+    loop = ControlledArm(GAINS[0], model, ranges=True).loop(F(1, 10))
+    free = [low < high for low, high in loop.parameters]
     assert dict(zip(model.parameters, free, strict=True)) == {
         name: name.startswith("inertia") for name in model.parameters
     }
@@ -52,27 +52,27 @@ def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes() -> None:
 
 def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
     narrow, wide = (
-        Setting(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
+        ControlledArm(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
     )
-    outcome = certify(Problem(narrow.closure(F(6, 10))), 60_000)
+    outcome = certify(Problem(narrow.loop(F(6, 10))), 60_000)
     assert outcome.proved
-    assert proves(narrow.closure(F(6, 10)), outcome.tree)
-    assert not proves(wide.closure(F(6, 10)), outcome.tree)
+    assert proves(narrow.loop(F(6, 10)), outcome.tree)
+    assert not proves(wide.loop(F(6, 10)), outcome.tree)
 
 
 @pytest.mark.slow
 def test_a_wider_spread_certifies_and_refutes_less() -> None:
-    found = [
+    result = [
         epsilon(GAINS[0], load("reyes-kelly2", spread=x), ranges=True, starts=3, max_boxes=1500)
         for x in (F(1, 100), F(1, 10))
     ]
-    assert found[0].certified is not None
-    assert found[1].certified is not None
-    assert found[0].falsified is not None
-    assert found[1].falsified is not None
-    assert found[1].certified < found[0].certified
-    assert found[1].falsified < found[0].falsified < F("0.8106")
-    assert any(number != load("reyes-kelly2").numbers.get(name) for name, number in found[1].corner.items())
+    assert result[0].certified is not None
+    assert result[1].certified is not None
+    assert result[0].falsified is not None
+    assert result[1].falsified is not None
+    assert result[1].certified < result[0].certified
+    assert result[1].falsified < result[0].falsified < F("0.8106")
+    assert any(number != load("reyes-kelly2").numbers.get(name) for name, number in result[1].corner.items())
 
 
 @pytest.mark.parametrize("percent", ["0", "100", "-5", "nan"])

@@ -188,11 +188,11 @@ def rate_of(vector: list[sp.Expr], q: list, w: list) -> list[sp.Expr]:
     return [sum(sp.diff(x, q[k]) * w[k] for k in range(len(q))) for x in vector]
 
 
-def assert_same(expected: list[sp.Expr], found: sp.Matrix, symbols: list[sp.Symbol]) -> None:
+def assert_same(expected: list[sp.Expr], result: sp.Matrix, symbols: list[sp.Symbol]) -> None:
     """Equal at states whose sines and cosines are far from special, to 40 digits."""
     for shift in range(3):
         state = {s: sp.Rational(7 * i + 3 + shift, 11 + 2 * i) for i, s in enumerate(symbols)}
-        for left, right in zip(expected, found, strict=True):
+        for left, right in zip(expected, result, strict=True):
             assert abs(sp.N((left - right).subs(state), 40)) < sp.Rational(1, 10**30)
 
 

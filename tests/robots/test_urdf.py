@@ -62,12 +62,12 @@ def test_friction_limits_and_their_lines(tmp_path: Path) -> None:
 
 def test_what_the_file_does_not_say_is_told(tmp_path: Path) -> None:
     arm = load(tmp_path, TWO.replace('<dynamics damping="0.25"/>', ""))
-    told = "\n".join(arm.assumptions)
+    printed = "\n".join(arm.assumptions)
     assert arm.viscous[1].value == 0
-    assert "elbow_viscous = 0 N·m·s/rad is assumed: the file gives no damping" in told
-    assert "gravity_z = -9.81 m/s² is assumed" in told
-    assert "No torque limit is known where the file has none or 0: elbow" in told
-    assert "rounded by less than 1e-15 rad: joint flange" in told
+    assert "elbow_viscous = 0 N·m·s/rad is assumed: the file gives no damping" in printed
+    assert "gravity_z = -9.81 m/s² is assumed" in printed
+    assert "No torque limit is known where the file has none or 0: elbow" in printed
+    assert "rounded by less than 1e-15 rad: joint flange" in printed
 
 
 def test_a_fixed_joint_is_the_same_as_one_heavier_link(tmp_path: Path) -> None:
@@ -106,11 +106,11 @@ def compare(arm: robots.RobotModel, other: Arm) -> None:
         rest = np.zeros(n)
         gravity = other.torque(q, rest, rest)
         mass = np.array([other.torque(q, rest, unit_) - gravity for unit_ in np.eye(n)]).T
-        whirl = other.torque(q, w, rest) - gravity
+        coriolis = other.torque(q, w, rest) - gravity
         for mine, theirs in (
             (model.gravity(q), gravity),
             (model.mass(q), mass),
-            (model.coriolis(q, w) @ w, whirl),
+            (model.coriolis(q, w) @ w, coriolis),
         ):
             assert np.max(np.abs(mine - theirs)) <= 1e-12 * max(1.0, np.max(np.abs(theirs)))
 

@@ -140,10 +140,10 @@ BROKEN = [
 @pytest.mark.parametrize(("old", "new", "expected"), BROKEN)
 def test_a_broken_file_is_told_what_is_wrong(tmp_path: Path, old: str, new: str, expected: str) -> None:
     assert old in TWO
-    assert expected in told(tmp_path, TWO.replace(old, new))
+    assert expected in printed(tmp_path, TWO.replace(old, new))
 
 
-def told(folder: Path, text: str) -> str:
+def printed(folder: Path, text: str) -> str:
     file = folder / "arm.urdf"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as caught:
@@ -154,7 +154,7 @@ def told(folder: Path, text: str) -> str:
 
 def test_all_problems_at_once(tmp_path: Path) -> None:
     text = TWO.replace(MASS, '<mass value="-1.5"/>').replace(LIMIT, "").replace('value="2"', 'value="nan"')
-    assert len(told(tmp_path, text).splitlines()) == 3
+    assert len(printed(tmp_path, text).splitlines()) == 3
 
 
 @pytest.mark.parametrize(
@@ -187,7 +187,7 @@ def test_an_arm_that_nothing_keeps_in_place(tmp_path: Path) -> None:
     """A joint that moves no inertia leaves M singular."""
     light = TWO.replace('value="1.5"', 'value="0"').replace('value="0.25"', 'value="0"')
     light = light.replace('iyy="0.02" iyz="0" izz="0.02"', 'iyy="0" iyz="0" izz="0"').replace("0.001", "0")
-    assert "M not positive definite" in told(tmp_path, light.replace("0.01", "0"))
+    assert "M not positive definite" in printed(tmp_path, light.replace("0.01", "0"))
 
 
 def test_more_joints_than_are_understood(tmp_path: Path) -> None:
@@ -197,7 +197,7 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
         f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
         for i in range(13)
     )
-    assert "has a chain of 13 joints, more than 12" in told(tmp_path, f"<robot>{links}{joints}</robot>")
+    assert "has a chain of 13 joints, more than 12" in printed(tmp_path, f"<robot>{links}{joints}</robot>")
 
 
 # Fuzzing, here guided by Hypothesis; tests/fuzz_readers runs many more -----

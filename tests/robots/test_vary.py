@@ -37,9 +37,9 @@ def varied(name: str, *texts: str):
     ],
 )
 def test_what_is_typed_is_read_exactly(text: str, name: str, low: F, high: F, relative: bool) -> None:
-    found = Vary.parsed(text)
-    assert (found.name, found.low, found.high, found.relative) == (name, low, high, relative)
-    assert Vary.parsed(found.text) == found
+    result = Vary.parsed(text)
+    assert (result.name, result.low, result.high, result.relative) == (name, low, high, relative)
+    assert Vary.parsed(result.text) == result
 
 
 @pytest.mark.parametrize(
@@ -79,10 +79,10 @@ def test_masses_and_payload_of_a_urdf_arm_move_its_dynamics() -> None:
 def test_the_corners_are_the_ends_of_all_that_varies() -> None:
     varies = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "base_inertia=0.4..0.6")))
     model = robots.load("buap3", vary=varies)
-    found = dict(corners(model, varies))
-    assert len(found) == 16
-    assert {float(arm.viscous[0].value) for arm in found.values()} == {0.2842, 0.406}
-    assert not any(arm.parameters or arm.viscous[0].ranged for arm in found.values())
+    result = dict(corners(model, varies))
+    assert len(result) == 16
+    assert {float(arm.viscous[0].value) for arm in result.values()} == {0.2842, 0.406}
+    assert not any(arm.parameters or arm.viscous[0].ranged for arm in result.values())
     many = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "mass=-10%..+10%")))
     assert len(list(corners(robots.load(UR5, vary=many), many))) == 4
 
@@ -119,6 +119,6 @@ def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
 
 def test_tuning_counts_the_worst_arm() -> None:
     bench = Bench(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
-    found = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
-    assert found.arms == 3
-    assert "each on 3 arms" in str(found).replace("\n", " ")
+    result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
+    assert result.arms == 3
+    assert "each on 3 arms" in str(result).replace("\n", " ")

@@ -19,9 +19,9 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search import certified, schur
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, cover
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.setting import Setting
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -37,19 +37,19 @@ FALSIFIED = (F("0.81057"), F("0.92638"), F("0.63621"))
 
 
 @cache
-def setting(robot: str, index: int) -> Setting:
-    return Setting(GAINS[robot][index], load(robot))
+def controlled(robot: str, index: int) -> ControlledArm:
+    return ControlledArm(GAINS[robot][index], load(robot))
 
 
 def problem(robot: str, index: int, eps0: Fraction) -> Problem:
-    case = setting(robot, index)
-    return Problem(case.closure(eps0))
+    case = controlled(robot, index)
+    return Problem(case.loop(eps0))
 
 
 class Terms:
     """X and Y without damping, from NumPy and the definitions alone."""
 
-    def __init__(self, case: Setting, eps0: float, q: Array, e: Array) -> None:
+    def __init__(self, case: ControlledArm, eps0: float, q: Array, e: Array) -> None:
         family, model = named(case.gains.family, case.gains.m), NumericModel(case.model)
         h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
         M, self.B = model.mass(q), np.diag(model.viscous)
@@ -83,7 +83,7 @@ def random_state(generator: np.random.Generator, n: int) -> tuple[Array, Array]:
 @pytest.mark.parametrize(("robot", "index"), one_in(4, CASES))
 def test_P_is_what_Q_needs_whatever_the_rates(robot: str, index: int) -> None:
     """Q(D) ⪰ Q̃ for 0 ≤ D ≤ L, and P is the Schur complement of Q̃: so P ≻ 0 gives Q(D) ≻ 0."""
-    case, generator = setting(robot, index), np.random.default_rng(index)
+    case, generator = controlled(robot, index), np.random.default_rng(index)
     positive = 0
     for _ in range(200):
         eps0 = float(10.0 ** generator.uniform(-3, 0.3))
@@ -109,23 +109,23 @@ def test_P_is_what_Q_needs_whatever_the_rates(robot: str, index: int) -> None:
 @pytest.mark.parametrize(("robot", "index"), one_in(4, CASES))
 def test_P_over_boxes_holds_P_of_every_state(robot: str, index: int) -> None:
     eps0 = F(1, 4)
-    task, case = problem(robot, index, eps0), setting(robot, index)
-    generator, first = np.random.default_rng(index), len(task.closure.angles)
+    task, case = problem(robot, index, eps0), controlled(robot, index)
+    generator, first = np.random.default_rng(index), len(task.loop.angles)
     sides = first + case.n
     width = 10.0 ** generator.uniform(-6, 0.5, (100, 1)) * generator.choice([0.0, 1.0], (100, sides))
     middle = generator.uniform(-2.5, 2.5, (100, sides)) * generator.choice([0.0, 1.0, 1.0], (100, sides))
     boxes = np.stack([middle - width, middle + width], axis=1)
-    found = task.schur(task.sides(boxes))
+    result = task.schur(task.sides(boxes))
     tight = 0
     for k, box in enumerate(boxes):
         for _ in range(3):
             point = np.clip(generator.uniform(box[0], box[1]), box[0], box[1])
             q = generator.uniform(-3, 3, case.n)
-            q[list(task.closure.angles)] = point[:first]
+            q[list(task.loop.angles)] = point[:first]
             P = Terms(case, float(eps0), q, point[first:]).P()
             for i in range(case.n):
                 for j in range(i + 1):
-                    low, high = found[i][j].lo[k], found[i][j].hi[k]
+                    low, high = result[i][j].lo[k], result[i][j].hi[k]
                     assert low - 1e-12 <= P[i, j] <= high + 1e-12
                     tight += high - low < 1e-9
     assert tight > 20
@@ -133,7 +133,7 @@ def test_P_over_boxes_holds_P_of_every_state(robot: str, index: int) -> None:
 
 def test_a_wrong_sign_of_coriolis_would_be_noticed() -> None:
     """Without Coriolis terms, or with their sign changed, intervals at points miss P."""
-    task, case = problem("reyes-kelly2", 0, F(1, 4)), setting("reyes-kelly2", 0)
+    task, case = problem("reyes-kelly2", 0, F(1, 4)), controlled("reyes-kelly2", 0)
     q, e = np.array([0.0, 1.0]), np.array([0.5, -0.3])
     point = np.concatenate([q[1:], e])
     exact = Terms(case, 0.25, q, e).P()
@@ -160,7 +160,9 @@ def test_proved_below_the_falsified_and_never_above(index: int) -> None:
     q, e = np.zeros(2), above.point[1:]
     q[1] = above.point[0]
     assert (
-        np.linalg.eigvalsh(Terms(setting("reyes-kelly2", index), float(FALSIFIED[index]) * 1.01, q, e).P())[0]
+        np.linalg.eigvalsh(
+            Terms(controlled("reyes-kelly2", index), float(FALSIFIED[index]) * 1.01, q, e).P()
+        )[0]
         < 1e-6
     )
 
@@ -169,7 +171,7 @@ def test_proved_below_the_falsified_and_never_above(index: int) -> None:
 @pytest.mark.parametrize("broken", ["friction", "inertia"])
 def test_a_weaker_arm_is_not_proved(index: int, broken: str) -> None:
     """A tenth of the friction of one joint, or ten times the inertia, at an ε₀ that the real arm bears."""
-    case = setting("reyes-kelly2", index)
+    case = controlled("reyes-kelly2", index)
     model, eps0 = case.fixed, FALSIFIED[index] * F(9, 10)
     if broken == "friction":
         first, *others = model.viscous
@@ -177,23 +179,23 @@ def test_a_weaker_arm_is_not_proved(index: int, broken: str) -> None:
     else:
         heavier = tuple(tuple(10 * entry for entry in row) for row in model.mass)
         model = replace(model, dynamics=replace(model.dynamics.polynomials, mass=heavier))
-    weak = Setting(case.gains, model)
-    assert not certify(Problem(weak.closure(eps0)), 20_000).proved
-    assert certify(Problem(weak.closure(eps0 / 40)), 20_000).proved
+    weak = ControlledArm(case.gains, model)
+    assert not certify(Problem(weak.loop(eps0)), 20_000).proved
+    assert certify(Problem(weak.loop(eps0 / 40)), 20_000).proved
 
 
 @pytest.mark.parametrize("index", [0, 1, 2])
 def test_every_state_lies_in_a_proved_leaf_or_in_the_tail(index: int) -> None:
     task = problem("reyes-kelly2", index, FALSIFIED[index] * F(9, 10))
-    closure, outcome = task.closure, certify(task, 20_000)
-    boxes = np.array([np.array(leaf).T for leaf in leaves(closure.start, outcome.tree)])
+    loop, outcome = task.loop, certify(task, 20_000)
+    boxes = np.array([np.array(leaf).T for leaf in leaves(loop.start, outcome.tree)])
     assert task.proved(boxes).all()
     generator = np.random.default_rng(index)
     symmetric = [s for s in np.ndindex(2, 2) if s[0] == s[1]]
     seen = 0
     for _ in range(500):
         q, e = random_state(generator, 2)
-        if np.linalg.norm(e) >= closure.radius:
+        if np.linalg.norm(e) >= loop.radius:
             continue
         images = [(q * (1 - 2 * s[0]), e * (1 - 2 * s[0])) for s in symmetric]
         points = [np.array([a[1], *b]) for a, b in images]
@@ -211,44 +213,44 @@ def test_errors_are_left_to_the_tail_from_its_radius_on(
     monkeypatch.setattr(schur, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
     task = problem("reyes-kelly2", 0, F(1, 2))
     for share, left in ((0.5, False), (0.999, False), (1.001, True)):
-        point = np.array([0.0, *(share * task.closure.radius * np.array(direction))])
+        point = np.array([0.0, *(share * task.loop.radius * np.array(direction))])
         assert task.proved(np.stack([point, point])[None]).item() is left
 
 
 def test_certified_epsilon_comes_near_the_falsified_and_not_beyond() -> None:
-    found = certified_epsilon(setting("reyes-kelly2", 0), FALSIFIED[0] * F(11, 10), 50_000)
-    assert found.proof is not None
-    assert found.eps0 is not None
-    assert F(9, 10) < found.eps0 / FALSIFIED[0] < 1
-    assert proves(found.proof.closure, found.proof.by.tree)
-    assert "more boxes would not help" in found.reason
-    assert found.looked_at >= found.proof.boxes
+    result = certified_epsilon(controlled("reyes-kelly2", 0), FALSIFIED[0] * F(11, 10), 50_000)
+    assert result.proof is not None
+    assert result.eps0 is not None
+    assert F(9, 10) < result.eps0 / FALSIFIED[0] < 1
+    assert proves(result.proof.loop, result.proof.by.tree)
+    assert "more boxes would not help" in result.reason
+    assert result.looked_at >= result.proof.boxes
 
 
 @pytest.mark.parametrize("budget", [0, 1, 20])
 def test_a_spent_budget_is_said(budget: int) -> None:
-    found = certified_epsilon(setting("reyes-kelly2", 1), FALSIFIED[1], budget)
-    assert found.proof is None
-    assert f"within {budget} boxes" in found.reason
+    result = certified_epsilon(controlled("reyes-kelly2", 1), FALSIFIED[1], budget)
+    assert result.proof is None
+    assert f"within {budget} boxes" in result.reason
 
 
 def test_gains_out_of_reach_are_said() -> None:
     """K̃ = K_p − ¼ ε₀ L K_v is not positive: an answer, not an exception."""
-    case = setting("reyes-kelly2", 0)
-    stiff = Setting(replace(case.gains, kv=(F(1000), F(1000))), case.model)
-    found = certified_epsilon(stiff, F(1), 1000)
-    assert found.proof is None
-    assert "K_p is too small beside K_v" in found.reason
+    case = controlled("reyes-kelly2", 0)
+    stiff = ControlledArm(replace(case.gains, kv=(F(1000), F(1000))), case.model)
+    result = certified_epsilon(stiff, F(1), 1000)
+    assert result.proof is None
+    assert "K_p is too small beside K_v" in result.reason
     linear = GainSet("pd", None, (F(60), F(5)), (F(1), F(1)), family="linear")
-    assert "unbounded" in certified_epsilon(Setting(linear, case.model), F(1), 1000).reason
+    assert "unbounded" in certified_epsilon(ControlledArm(linear, case.model), F(1), 1000).reason
 
 
 def test_boxes_that_the_checker_refuses_are_no_certificate(monkeypatch: pytest.MonkeyPatch) -> None:
     """An arithmetic that proves everything gets no further than the checker."""
     monkeypatch.setattr(Problem, "proved", lambda self, boxes: np.ones(len(boxes), dtype=bool))
-    found = certified_epsilon(setting("reyes-kelly2", 0), 100 * FALSIFIED[0], 1000)
-    assert found.eps0 is None
-    assert "refused by the checker" in found.reason or "K_p is too small" in found.reason
+    result = certified_epsilon(controlled("reyes-kelly2", 0), 100 * FALSIFIED[0], 1000)
+    assert result.eps0 is None
+    assert "refused by the checker" in result.reason or "K_p is too small" in result.reason
 
 
 def test_shares_rise_to_just_below_the_falsified() -> None:

@@ -12,7 +12,7 @@ import pytest
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, NoTorque, OwnMoments, StorageForms
 from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.inertia import PostureWitness
-from lyapcheck.check.loop.storage import hinges, turning_form
+from lyapcheck.check.loop.storage import hinges, invariant_form
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
@@ -104,7 +104,7 @@ def test_turning_forms_are_all_that_turns_leave_alone(vectors: int) -> None:
     """They span the kernel of P ↦ KᵀP + PK on symmetric matrices, K being the rate of turning."""
     n = 3 * vectors
     rate = np.kron(np.eye(vectors), np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]]))
-    forms = [doubles(turning_form(row, vectors)) for row in unit_rows(vectors * (3 * vectors + 1) // 2)]
+    forms = [doubles(invariant_form(row, vectors)) for row in unit_rows(vectors * (3 * vectors + 1) // 2)]
     assert all(not np.any(rate.T @ form + form @ rate) for form in forms)
     assert np.linalg.matrix_rank([form.ravel() for form in forms]) == len(forms)
     symmetric = [np.eye(n)[[i]].T @ np.eye(n)[[j]] for i in range(n) for j in range(i + 1)]
@@ -115,20 +115,20 @@ def test_turning_forms_are_all_that_turns_leave_alone(vectors: int) -> None:
 @pytest.mark.parametrize("name", but(["leaning", "pelican2"], ["leaning", "pelican2", "ur5", "panda"]))
 def test_no_state_lies_outside_and_some_come_close(name: str, tmp_path: Path) -> None:
     arm = arm_of(name, tmp_path)
-    found = {key: make() for key, make in storage_bounds(arm.chain).items() if key != "k_c"}
+    result = {key: make() for key, make in storage_bounds(arm.chain).items() if key != "k_c"}
     shown = {c.name: c for c in arm_constants(arm, 300, names=("lambda_min", "lambda_max", "k_g"))}
     model = NumericModel(arm)
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (1000, arm.n))
     values, weights = np.linalg.eigvalsh(model.mass(q)), model.gravity(q)
-    assert values.min() >= found["lambda_min"]
-    assert values.max() <= found["lambda_max"]
-    assert np.linalg.norm(weights, axis=1).max() <= found["k_g"]
+    assert values.min() >= result["lambda_min"]
+    assert values.max() <= result["lambda_max"]
+    assert np.linalg.norm(weights, axis=1).max() <= result["k_g"]
     for i in range(arm.n):
-        assert np.abs(weights[:, i]).max() <= found[f"k_g{i + 1}"]
+        assert np.abs(weights[:, i]).max() <= result[f"k_g{i + 1}"]
     # of the weight the forms can say less, where no axis is parallel to another
     for key in ("lambda_min", "lambda_max") if name == "leaning" else ("lambda_min", "lambda_max", "k_g"):
         inside = shown[key].enclosure.upper if key == "lambda_min" else shown[key].enclosure.lower
-        assert abs(found[key] - inside) <= F(1, 100) * inside
+        assert abs(result[key] - inside) <= F(1, 100) * inside
 
 
 def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
@@ -136,11 +136,11 @@ def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
     file = tmp_path / "one.toml"
     link = "mass = 2\nviscous = 1\naxis = [0, 1, 0]\norigin = [0, 0, 0]\ncom = [0.5, 0, 0]\ninertia = 0.1"
     file.write_text(f'title = "one"\ngravity = [0, 0, -10]\n[[links]]\nname = "a"\n{link}\n')
-    found = {key: make() for key, make in storage_bounds(load(file).chain).items()}
-    assert found["k_c"] is None
-    assert float(found["lambda_min"]) == pytest.approx(0.6, rel=1e-6)
-    assert float(found["lambda_max"]) == pytest.approx(0.6, rel=1e-6)
-    assert float(found["k_g1"]) == pytest.approx(10, rel=1e-4)
+    result = {key: make() for key, make in storage_bounds(load(file).chain).items()}
+    assert result["k_c"] is None
+    assert float(result["lambda_min"]) == pytest.approx(0.6, rel=1e-6)
+    assert float(result["lambda_max"]) == pytest.approx(0.6, rel=1e-6)
+    assert float(result["k_g1"]) == pytest.approx(10, rel=1e-4)
 
 
 # What must not be accepted -----
@@ -184,17 +184,17 @@ def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name: str, tmp_pat
     witness = PostureWitness(inner.q, (), inner.x)
     assert refused(shown.statement, witness)
     more = F(1001, 1000) if name == "lambda_min" else F(999, 1000)
-    found = verify(shown.at_end(inner.value * more), witness)
-    assert (found.verdict, found.grade) == ("refuted", "enclosure")
+    result = verify(shown.at_end(inner.value * more), witness)
+    assert (result.verdict, result.grade) == ("refuted", "enclosure")
 
 
 def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
     arm = arm_of("ur5", tmp_path)
-    found = storage_proof(arm.chain, "k_g5", still=True)
-    assert found.bound == 0
-    assert verify(found.statement, found.proof).grade == "exact"
+    result = storage_proof(arm.chain, "k_g5", still=True)
+    assert result.bound == 0
+    assert verify(result.statement, result.proof).grade == "exact"
     assert storage_proof(arm.chain, "k_g4", still=True) is None
-    leaning = replace(found.statement, fall=(F(0), F(1), F(-9)), joints=(1,))
+    leaning = replace(result.statement, fall=(F(0), F(1), F(-9)), joints=(1,))
     assert refused(leaning, NoTorque())
 
 
@@ -203,9 +203,9 @@ def test_properties_of_seven_skew_joints_are_decided(tmp_path: Path) -> None:
     file = tmp_path / "skew.urdf"
     file.write_text(generic(7))
     ids = [f"2.{k}" for k in (1, 2, 3, 4, 5, 6, 8)]
-    found = {row.id: row for row in run_proof("published.py", [1], str(file), only=ids).claims}
-    assert [name for name in ids if found[name].verdict is not Verdict.PROVED] == ["2.6"]
-    assert "too many to write out" in found["2.6"].decision.reason
+    result = {row.id: row for row in run_proof("published.py", [1], str(file), only=ids).claims}
+    assert [name for name in ids if result[name].verdict is not Verdict.PROVED] == ["2.6"]
+    assert "too many to write out" in result["2.6"].decision.reason
 
 
 def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
@@ -219,8 +219,8 @@ def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
 @pytest.mark.parametrize("identity", IDENTITIES)
 def test_identities_hold_of_every_chain_and_of_nothing_else(identity: str, tmp_path: Path) -> None:
     links = arm_of("leaning", tmp_path).chain.links
-    found = verify(ChainIdentity(links, identity), ByDefinition())
-    assert (found.verdict, found.grade) == ("proved", "exact")
+    result = verify(ChainIdentity(links, identity), ByDefinition())
+    assert (result.verdict, result.grade) == ("proved", "exact")
     assert refused(ChainIdentity(links, "M(q) = 0"), ByDefinition())
     assert refused(ChainIdentity((), identity), ByDefinition())
 
@@ -248,10 +248,10 @@ def test_what_is_no_link_is_no_statement(changes: dict[str, object], tmp_path: P
 def test_forms_that_turns_change_would_prove_something_false(tmp_path: Path) -> None:
     """ω_x² is no form of the list: a chain of it would bound M at q = 0 only."""
     coefficients = [F(k, 7) for k in range(1, 8)]
-    form = doubles(turning_form(coefficients, 2))
+    form = doubles(invariant_form(coefficients, 2))
     for angle in (0.3, 2.0):
         c, s = np.cos(angle), np.sin(angle)
         turn = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
         np.testing.assert_allclose(turn.T @ form @ turn, form, atol=1e-14)
     with pytest.raises(ValueError, match="another number of coefficients"):
-        turning_form(coefficients[1:], 2)
+        invariant_form(coefficients[1:], 2)

@@ -28,11 +28,11 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay import disturbance_bound, settling_bound
 from lyapcheck.search.decay_levels import level_within
 from lyapcheck.search.margins import Attempt, attempts, margin_at, reduced_radial
 from lyapcheck.search.radial import radial_data
-from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
 from tests.helpers.shares import one_in
 
@@ -44,16 +44,16 @@ DELTA = math.radians(10.0)
 
 
 @cache
-def setting(robot: str, index: int) -> Setting:
-    return Setting(read_gain_file(paper_gain_file(TABLE[robot])).gains[index], load(robot))
+def controlled(robot: str, index: int) -> ControlledArm:
+    return ControlledArm(read_gain_file(paper_gain_file(TABLE[robot])).gains[index], load(robot))
 
 
-def single(robot: str, m: int = 1) -> Setting:
+def single(robot: str, m: int = 1) -> ControlledArm:
     """Gains of some size for any arm."""
     model = load(robot)
     kp, kv = (F(10),) * model.n, (F(1, 4),) * model.n
     gains = GainSet(name="made", family="hyperbolic", m=m, kp=kp, kv=kv)
-    return Setting(gains, model)
+    return ControlledArm(gains, model)
 
 
 LIMIT = {"buap3": (F("0.134"), F("0.166"), F("0.104")), "reyes-kelly2": (F("0.81"), F("0.92"), F("0.63"))}
@@ -71,37 +71,37 @@ def shown(margin: Margin, positive: Proof, by: Proof) -> bool:
 @cache
 def accepted(robot: str, index: int) -> Attempt:
     """A margin with η = 1/4 at less than half of what is refuted."""
-    at = setting(robot, index)
+    at = controlled(robot, index)
     data = radial_data(at)
     assert data is not None
     tried = attempts(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), data))
     return next(one for one in tried if shown(one.margin, at.inertia_proof, one.by))
 
 
-def goal(at: Setting) -> tuple[float, ...]:
+def goal(at: ControlledArm) -> tuple[float, ...]:
     return GOAL[at.n]
 
 
 @cache
 def run(robot: str, index: int, T: float = 20.0, torque: float = 0.0, dry: bool = False) -> DisturbedRun:
-    at = setting(robot, index)
+    at = controlled(robot, index)
     friction = [float(c.value) for c in at.model.coulomb if c is not None] if dry else ()
     push = [torque] * at.n
     return disturbed(at.gains, at.model, goal(at), T=T, torque=push, dry=friction, points=401)
 
 
-def level_along(at: Setting, eps0: Fraction, motion: DisturbedRun) -> np.ndarray:
+def level_along(at: ControlledArm, eps0: Fraction, motion: DisturbedRun) -> np.ndarray:
     numeric = LyapunovNumeric(at.model, at.family, list(at.kp), list(at.kv), float(eps0))
     return numeric.V(motion.q, motion.e, motion.w)
 
 
 @pytest.mark.parametrize(("robot", "index"), one_in(5, CASES))
 def test_dV_dt_is_below_the_margin_at_random_states(robot: str, index: int) -> None:
-    at, margin = setting(robot, index), accepted(robot, index).margin
+    at, margin = controlled(robot, index), accepted(robot, index).margin
     random = np.random.default_rng(7)
     q, w = random.uniform(-np.pi, np.pi, (2000, at.n)), random.normal(size=(2000, at.n)) * 3
     e = random.normal(size=(2000, at.n)) * 10.0 ** random.uniform(-2, 1, (2000, 1))
-    eps0, eta, kappa = (float(x) for x in (margin.closure.eps0, margin.friction, margin.stiffness))
+    eps0, eta, kappa = (float(x) for x in (margin.loop.eps0, margin.friction, margin.stiffness))
     rate = LyapunovNumeric(at.model, at.family, list(at.kp), list(at.kv), eps0).rate(q, e, w)
     eps = eps0 / (1 + np.linalg.norm(e, axis=1, keepdims=True))
     h = at.family.h(e)
@@ -115,11 +115,11 @@ def test_dV_dt_is_below_the_margin_at_random_states(robot: str, index: int) -> N
 
 @pytest.mark.parametrize(("robot", "index"), one_in(5, CASES))
 def test_V_of_a_run_stays_under_the_envelope(robot: str, index: int) -> None:
-    at, found = setting(robot, index), accepted(robot, index)
-    estimate = Estimate(found.margin, Disturbance.none(at.n))
+    at, result = controlled(robot, index), accepted(robot, index)
+    estimate = Estimate(result.margin, Disturbance.none(at.n))
     start = tuple(map(F, goal(at))), (F(0),) * at.n
     motion = run(robot, index)
-    V = level_along(at, found.margin.closure.eps0, motion)
+    V = level_along(at, result.margin.loop.eps0, motion)
     first = estimate.start_level(*start)
     assert V[0] <= first
     assert np.all(float(first) * (1 + 1e-9) >= V)
@@ -129,46 +129,46 @@ def test_V_of_a_run_stays_under_the_envelope(robot: str, index: int) -> None:
 
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 1), ("buap3", 0)]))
 def test_the_time_bound_is_kept_by_the_run(robot: str, index: int) -> None:
-    at = setting(robot, index)
-    found = settling_bound(at, goal(at), delta=DELTA)
-    assert found.time is not None
-    assert found.rests_on is not None
+    at = controlled(robot, index)
+    result = settling_bound(at, goal(at), delta=DELTA)
+    assert result.time is not None
+    assert result.rests_on is not None
     motion = run(robot, index)
     outside = np.abs(motion.e).max(axis=1) > DELTA
     late = motion.t[outside]
-    assert late.size == 0 or late[-1] <= found.time
-    V = level_along(at, found.rests_on.eps0, motion)
-    times, levels = (np.array([float(x[k]) for x in found.envelope]) for k in (0, 1))
+    assert late.size == 0 or late[-1] <= result.time
+    V = level_along(at, result.rests_on.eps0, motion)
+    times, levels = (np.array([float(x[k]) for x in result.envelope]) for k in (0, 1))
     assert np.all(np.diff(times) > 0)
     assert np.all(np.diff(levels) < 0)
     allowed = levels[np.searchsorted(times, motion.t, side="right") - 1]
     assert np.all(allowed * (1 + 1e-9) >= V)
-    assert found.exponential == (at.gains.m == 1)
+    assert result.exponential == (at.gains.m == 1)
 
 
 @pytest.mark.parametrize("robot", one_in(2, ["pendulum1", "pelican2"]))
 def test_other_arms_have_bounds(robot: str) -> None:
     at = single(robot)
-    found = settling_bound(at, goal(at), delta=DELTA)
+    result = settling_bound(at, goal(at), delta=DELTA)
     motion = disturbed(at.gains, at.model, goal(at), T=20.0, points=401)
     late = motion.t[np.abs(motion.e).max(axis=1) > DELTA]
-    assert found.time is not None
-    assert float(found.time) >= late[-1]
+    assert result.time is not None
+    assert float(result.time) >= late[-1]
 
 
 def test_an_arm_of_one_joint_is_bounded_sharply_enough_to_be_of_use() -> None:
     at = single("pendulum1")
-    found = settling_bound(at, goal(at), delta=math.radians(1.0))
-    assert found.time is not None
-    assert found.time < 60
+    result = settling_bound(at, goal(at), delta=math.radians(1.0))
+    assert result.time is not None
+    assert result.time < 60
 
 
 @pytest.mark.slow
 def test_a_smaller_angle_or_a_farther_start_takes_longer() -> None:
-    at, found = setting("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
+    at, result = controlled("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
     times = [settling_bound(at, goal(at), delta=x).time for x in (0.4, 0.1)]
     assert all(a is not None and b is not None and a < b for a, b in itertools.pairwise(times))
-    estimate = Estimate(found.margin, Disturbance.none(2))
+    estimate = Estimate(result.margin, Disturbance.none(2))
     near, far = ((F(1, 2), F(1, 2)), (F(0),) * 2), ((F(1), F(1)), (F(1),) * 2)
     assert estimate.start_level(*near) < estimate.start_level(*far)
     assert level_within(estimate, F(1, 10)) < level_within(estimate, F(1, 5))
@@ -176,34 +176,34 @@ def test_a_smaller_angle_or_a_farther_start_takes_longer() -> None:
 
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 2), ("buap3", 0)]))
 def test_runs_with_dry_friction_come_inside(robot: str, index: int) -> None:
-    at = setting(robot, index)
+    at = controlled(robot, index)
     friction = [c.value for c in at.model.coulomb if c is not None]
-    found = disturbance_bound(at, goal(at), dry=friction)
-    assert found.level is not None
-    assert found.rests_on is not None
-    assert found.start_level is not None
+    result = disturbance_bound(at, goal(at), dry=friction)
+    assert result.level is not None
+    assert result.rests_on is not None
+    assert result.start_level is not None
     motion = run(robot, index, dry=True)
-    V = level_along(at, found.rests_on.eps0, motion)
-    assert V[-1] <= found.level < found.start_level
-    assert np.all(np.abs(motion.e[-1]) <= np.array(found.errors))
+    V = level_along(at, result.rests_on.eps0, motion)
+    assert V[-1] <= result.level < result.start_level
+    assert np.all(np.abs(motion.e[-1]) <= np.array(result.errors))
     # the regularised friction lets joints creep, so what is at rest is only reached slowly
-    assert all(x is not None and x <= y for x, y in zip(found.rest, found.errors, strict=True))
+    assert all(x is not None and x <= y for x, y in zip(result.rest, result.errors, strict=True))
 
 
 @pytest.mark.slow
 def test_a_run_with_a_constant_torque_comes_inside() -> None:
-    at = setting("reyes-kelly2", 0)
-    found = disturbance_bound(at, goal(at), torque=[0.05, 0.05])
+    at = controlled("reyes-kelly2", 0)
+    result = disturbance_bound(at, goal(at), torque=[0.05, 0.05])
     motion = run("reyes-kelly2", 0, T=100.0, torque=0.05)
-    assert found.level is not None
-    assert np.all(np.abs(motion.e[-1]) <= np.array(found.errors))
-    resting = np.array([x for x in found.rest if x is not None])
+    assert result.level is not None
+    assert np.all(np.abs(motion.e[-1]) <= np.array(result.errors))
+    resting = np.array([x for x in result.rest if x is not None])
     assert np.all(np.abs(motion.e[-1]) <= resting * (1 + 1e-6) + 1e-6)
 
 
 @pytest.mark.slow
 def test_more_disturbance_leaves_more() -> None:
-    at = setting("reyes-kelly2", 0)
+    at = controlled("reyes-kelly2", 0)
     levels = [disturbance_bound(at, goal(at), torque=[x, x]).level for x in (0.02, 0.05)]
     assert levels[0] is not None
     assert levels[1] is not None
@@ -212,22 +212,22 @@ def test_more_disturbance_leaves_more() -> None:
 
 @pytest.mark.slow
 def test_a_torque_that_moves_the_arm_away_from_its_goal_is_bounded() -> None:
-    at = setting("reyes-kelly2", 0)
-    found = disturbance_bound(at, [0.0, 0.0], torque=[0.05, 0.05])
+    at = controlled("reyes-kelly2", 0)
+    result = disturbance_bound(at, [0.0, 0.0], torque=[0.05, 0.05])
     motion = disturbed(at.gains, at.model, goal(at), goal(at), T=20.0, torque=[0.05, 0.05], points=101)
-    assert len(found.largest_errors) == 2
+    assert len(result.largest_errors) == 2
     assert np.abs(motion.e).max() > 0
-    assert np.all(np.abs(motion.e) <= np.array([float(x) for x in found.largest_errors]))
+    assert np.all(np.abs(motion.e) <= np.array([float(x) for x in result.largest_errors]))
 
 
 def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
-    at = setting("reyes-kelly2", 0)
-    found = disturbance_bound(at, goal(at), dry=[61, 6])
-    assert found.level is None
-    assert found.errors == ()
-    assert "too large" in found.reason
-    assert found.resting is None
-    assert found.rest == (None, None)
+    at = controlled("reyes-kelly2", 0)
+    result = disturbance_bound(at, goal(at), dry=[61, 6])
+    assert result.level is None
+    assert result.errors == ()
+    assert "too large" in result.reason
+    assert result.resting is None
+    assert result.rest == (None, None)
 
 
 def test_the_least_value_of_a_well_is_below_all_samples() -> None:
@@ -235,7 +235,7 @@ def test_the_least_value_of_a_well_is_below_all_samples() -> None:
 
     x = np.linspace(0.0, 6.0, 3001)
     for m, c, f, a in ((1, 1.0, 0.3, 0.4), (2, 2.0, 0.0, 0.5), (3, 1.5, 0.6, 0.05), (8, 3.0, 0.0, 1.0)):
-        family = Setting(replace(setting("reyes-kelly2", 0).gains, m=m), load("reyes-kelly2")).family
+        family = ControlledArm(replace(controlled("reyes-kelly2", 0).gains, m=m), load("reyes-kelly2")).family
         well = Well(member("hyperbolic", m), to_arb(F(c)), to_arb(F(f)), to_arb(F(a)))
         sampled = float(np.min(c * family.h(x) ** 2 - f * family.h(x) - a * family.potential(x)))
         least = float(well.least(6.0))
@@ -243,23 +243,23 @@ def test_the_least_value_of_a_well_is_below_all_samples() -> None:
 
 
 def test_a_margin_that_is_too_large_is_refused() -> None:
-    at, found = setting("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
-    margin = found.margin
-    assert shown(margin, at.inertia_proof, found.by)
-    assert not shown(replace(margin, friction=F(19, 20)), at.inertia_proof, found.by)
-    assert not shown(replace(margin, stiffness=F(1)), at.inertia_proof, found.by)
-    assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), at.inertia_proof, found.by)
+    at, result = controlled("reyes-kelly2", 0), accepted("reyes-kelly2", 0)
+    margin = result.margin
+    assert shown(margin, at.inertia_proof, result.by)
+    assert not shown(replace(margin, friction=F(19, 20)), at.inertia_proof, result.by)
+    assert not shown(replace(margin, stiffness=F(1)), at.inertia_proof, result.by)
+    assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), at.inertia_proof, result.by)
     smaller = replace(margin.inertia, inertia=margin.inertia.inertia / 2)
-    assert not shown(replace(margin, inertia=smaller), at.inertia_proof, found.by)
+    assert not shown(replace(margin, inertia=smaller), at.inertia_proof, result.by)
     heavier = replace(margin.inertia, weights=tuple(2 * d for d in margin.inertia.weights))
-    assert not shown(replace(margin, inertia=heavier), at.inertia_proof, found.by)
+    assert not shown(replace(margin, inertia=heavier), at.inertia_proof, result.by)
     assert not shown(
         margin_at(at, F(1), margin.friction, F(0), margin.inertia), at.inertia_proof, BoxTree(".")
     )
 
 
 def test_data_in_r_alone_show_a_margin_too() -> None:
-    at = setting("reyes-kelly2", 0)
+    at = controlled("reyes-kelly2", 0)
     data = radial_data(at)
     assert data is not None
     margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
@@ -271,7 +271,7 @@ def test_data_in_r_alone_show_a_margin_too() -> None:
 
 @pytest.mark.parametrize("friction", [F(1, 10), F(3, 5)])
 def test_bounds_of_the_inertia_hold_beside_the_friction_that_is_left(friction: Fraction) -> None:
-    at = setting("buap3", 0)
+    at = controlled("buap3", 0)
     data = radial_data(at)
     assert data is not None
     margin = margin_at(at, F(1, 100), friction, F(0), data)
@@ -292,13 +292,13 @@ def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:
 
 
 def test_unusable_requests_are_all_named() -> None:
-    at = setting("reyes-kelly2", 0)
+    at = controlled("reyes-kelly2", 0)
     with pytest.raises(InputError) as caught:
         settling_bound(at, [math.nan, 0.0], [0.0], delta=-1.0)
     assert {problem.key for problem in caught.value.problems} == {"e0", "w0", "delta"}
     with pytest.raises(InputError):
         disturbance_bound(at, [0.1, 0.1], torque=[-1.0, 0.0])
-    pd = Setting(read_gain_file(paper_gain_file("table2_pd")).gains[0], load("buap3"))
+    pd = ControlledArm(read_gain_file(paper_gain_file("table2_pd")).gains[0], load("buap3"))
     with pytest.raises(InputError, match="unbounded"):
         settling_bound(pd, [0.1, 0.1, 0.1])
 

@@ -12,9 +12,9 @@ from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.control.gains import GainSet
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import Witness, falsify, round_up, worst_states
 from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
-from lyapcheck.search.setting import Setting
 from lyapcheck.search.worst_states import expressions, fast_states, finite_states, level_states
 from tests.helpers.shares import one_in
 
@@ -26,18 +26,18 @@ def gains(m: int | None, kp: str, kv: str, **other: str) -> GainSet:
     return GainSet("set", m, tuple(map(F, kp.split())), tuple(map(F, kv.split())), **other)
 
 
-def two_joints(m: int) -> Setting:
-    return Setting(gains(m, "60 5", "0.233 0.233"), load("reyes-kelly2"))
+def two_joints(m: int) -> ControlledArm:
+    return ControlledArm(gains(m, "60 5", "0.233 0.233"), load("reyes-kelly2"))
 
 
 SETTINGS = [
     two_joints(1),
     two_joints(3),
-    Setting(gains(2, "27 50 5", "0.223 0.223 0.223"), load("buap3")),
-    Setting(gains(1, "4", "0.5"), load("pendulum1")),
-    Setting(gains(None, "60 5", "2 1", family="linear"), load("reyes-kelly2")),
-    Setting(gains(None, "1 0.1", "0.2 0.1", family="linear", angle_unit="deg"), load("pelican2")),
-    Setting(gains(None, "60 5", "2 1", family="arctan"), load("pelican2")),
+    ControlledArm(gains(2, "27 50 5", "0.223 0.223 0.223"), load("buap3")),
+    ControlledArm(gains(1, "4", "0.5"), load("pendulum1")),
+    ControlledArm(gains(None, "60 5", "2 1", family="linear"), load("reyes-kelly2")),
+    ControlledArm(gains(None, "1 0.1", "0.2 0.1", family="linear", angle_unit="deg"), load("pelican2")),
+    ControlledArm(gains(None, "60 5", "2 1", family="arctan"), load("pelican2")),
 ]
 
 
@@ -45,38 +45,38 @@ def exact_state(states: States, k: int) -> State:
     return State(*(tuple(F(float(x)) for x in part[k]) for part in (states.q, states.e, states.w)))
 
 
-@pytest.mark.parametrize("setting", SETTINGS)
-def test_quadratic_in_eps0_agrees_with_the_balls(setting: Setting) -> None:
-    states = sample(setting, 40, 1)
+@pytest.mark.parametrize("controlled", SETTINGS)
+def test_quadratic_in_eps0_agrees_with_the_balls(controlled: ControlledArm) -> None:
+    states = sample(controlled, 40, 1)
     for eps0 in (0.0, 0.3, 2.0):
-        found = quadratic(setting, states).at(eps0)
-        scale = size(setting, 1.0, states)
+        result = quadratic(controlled, states).at(eps0)
+        scale = size(controlled, 1.0, states)
         for k in range(40):
-            proved = rate(setting.arm, setting.controller, F(eps0), exact_state(states, k))
-            assert abs(float(proved.mid()) - found[k]) <= 1e-11 * (abs(found[k]) + scale[k])
+            proved = rate(controlled.arm, controlled.controller, F(eps0), exact_state(states, k))
+            assert abs(float(proved.mid()) - result[k]) <= 1e-11 * (abs(result[k]) + scale[k])
 
 
-@pytest.mark.parametrize("setting", SETTINGS)
-def test_graph_agrees_with_numpy(setting: Setting) -> None:
+@pytest.mark.parametrize("controlled", SETTINGS)
+def test_graph_agrees_with_numpy(controlled: ControlledArm) -> None:
     import casadi as ca
 
-    x = expressions(setting)
+    x = expressions(controlled)
     call = ca.Function("a", [x.q, x.e, x.w], [x.a0, x.a1, x.a2])
-    states = sample(setting, 50, 2)
-    found = quadratic(setting, states)
+    states = sample(controlled, 50, 2)
+    result = quadratic(controlled, states)
     for k in range(50):
         values = [float(v) for v in call(states.q[k], states.e[k], states.w[k])]
         # fast states cancel, so each coefficient is compared on the scale of what it is a sum of
-        scale = size(setting, 1.0, states.take(np.array([k])))[0] * 10
-        expected = (found.a0[k], found.a1[k], found.a2[k])
+        scale = size(controlled, 1.0, states.take(np.array([k])))[0] * 10
+        expected = (result.a0[k], result.a1[k], result.a2[k])
         assert np.allclose(values, expected, rtol=1e-9, atol=1e-11 * scale)
 
 
-@pytest.mark.parametrize("setting", SETTINGS)
-def test_fast_states_approach_their_limit(setting: Setting) -> None:
-    states = sample(setting, 200, 3)
-    limit, directions = fastest_directions(setting, states.q, states.e)
-    reached = quadratic(setting, States(states.q, states.e, directions * 1e9)).reciprocal()
+@pytest.mark.parametrize("controlled", SETTINGS)
+def test_fast_states_approach_their_limit(controlled: ControlledArm) -> None:
+    states = sample(controlled, 200, 3)
+    limit, directions = fastest_directions(controlled, states.q, states.e)
+    reached = quadratic(controlled, States(states.q, states.e, directions * 1e9)).reciprocal()
     assert np.all(np.abs(reached - np.maximum(limit, 0))[limit > 1e-3] < 1e-5 * limit[limit > 1e-3] + 1e-5)
 
 
@@ -87,12 +87,12 @@ def test_samples_repeat_with_their_seed() -> None:
 
 
 def test_reciprocal_is_where_the_rate_changes_sign() -> None:
-    setting = two_joints(2)
-    found = quadratic(setting, sample(setting, 3000, 4))
-    failing = found.reciprocal() > 1e-3
-    eps0 = 1 / np.where(failing, found.reciprocal(), 1.0)
-    rates = -found.a0 + eps0 * (found.a1 + eps0 * found.a2)
-    scale = found.a0 + np.abs(eps0 * found.a1) + np.abs(eps0**2 * found.a2)
+    controlled = two_joints(2)
+    result = quadratic(controlled, sample(controlled, 3000, 4))
+    failing = result.reciprocal() > 1e-3
+    eps0 = 1 / np.where(failing, result.reciprocal(), 1.0)
+    rates = -result.a0 + eps0 * (result.a1 + eps0 * result.a2)
+    scale = result.a0 + np.abs(eps0 * result.a1) + np.abs(eps0**2 * result.a2)
     assert failing.sum() > 100
     assert np.all(np.abs(rates)[failing] < 1e-9 * scale[failing])
 
@@ -113,42 +113,44 @@ def test_two_joints_at_zero_error_by_hand() -> None:
     assert 1 / largest < float(witness.eps0) < (1 + 1e-5) / largest
 
 
-@pytest.mark.parametrize("setting", one_in(4, SETTINGS))
-def test_witness_replays_and_a_tampered_one_does_not(setting: Setting) -> None:
-    witness = falsify(setting, **FEW)
+@pytest.mark.parametrize("controlled", one_in(4, SETTINGS))
+def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) -> None:
+    witness = falsify(controlled, **FEW)
     assert witness is not None
-    replay = setting.arm, setting.controller, witness.eps0
+    replay = controlled.arm, controlled.controller, witness.eps0
     assert confirms_positive(*replay, witness.state)
     assert witness.rate.lower > 0
-    assert not confirms_positive(*replay, replace(witness.state, w=(F(0),) * setting.n))
-    assert not confirms_positive(*replay, replace(witness.state, e=(F(20),) * setting.n))
-    assert not confirms_positive(setting.arm, setting.controller, witness.eps0 * F(9, 10), witness.state)
+    assert not confirms_positive(*replay, replace(witness.state, w=(F(0),) * controlled.n))
+    assert not confirms_positive(*replay, replace(witness.state, e=(F(20),) * controlled.n))
+    assert not confirms_positive(
+        controlled.arm, controlled.controller, witness.eps0 * F(9, 10), witness.state
+    )
 
 
 @pytest.mark.parametrize("m", [1, 2, 3])
 def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
-    setting = two_joints(m)
-    states = sample(setting, 2000, 5)
-    speed, directions = fastest_directions(setting, states.q, states.e)
+    controlled = two_joints(m)
+    states = sample(controlled, 2000, 5)
+    speed, directions = fastest_directions(controlled, states.q, states.e)
     chosen = spread(states, speed, 6)
     starts = States(states.q[chosen], states.e[chosen], directions[chosen])
-    fast = fast_states(setting, starts)
-    level = level_states(setting, starts)
-    reached = max(fastest_directions(setting, s.q, s.e)[0].max() for s in (fast, level))
+    fast = fast_states(controlled, starts)
+    level = level_states(controlled, starts)
+    reached = max(fastest_directions(controlled, s.q, s.e)[0].max() for s in (fast, level))
     assert reached >= speed.max() * (1 - 1e-9)
-    near = quadratic(setting, states).reciprocal()
+    near = quadratic(controlled, states).reciprocal()
     picked = states.take(spread(states, near, 6))
-    assert quadratic(setting, finite_states(setting, picked)).reciprocal().max() >= (
-        0.999 * quadratic(setting, picked).reciprocal().max() if m > 1 else 0.0
+    assert quadratic(controlled, finite_states(controlled, picked)).reciprocal().max() >= (
+        0.999 * quadratic(controlled, picked).reciprocal().max() if m > 1 else 0.0
     )
 
 
 def test_worst_states_for_a_given_eps0_change_sign_at_the_falsified_one() -> None:
-    setting = two_joints(2)
-    witness = falsify(setting, **FEW)
+    controlled = two_joints(2)
+    witness = falsify(controlled, **FEW)
     assert witness is not None
-    below = worst_states(setting, 0.9 * float(witness.eps0), **FEW)
-    above = worst_states(setting, 1.1 * float(witness.eps0), **FEW)
+    below = worst_states(controlled, 0.9 * float(witness.eps0), **FEW)
+    above = worst_states(controlled, 1.1 * float(witness.eps0), **FEW)
     assert {state.kind for state in below} == {"sampled", "optimised"}
     assert all(state.rate < 0 for state in below)
     assert any(state.rate > 0 for state in above)
@@ -173,7 +175,7 @@ def test_other_valleys_are_found() -> None:
 
 def test_wrong_number_of_joints_is_an_input_error() -> None:
     with pytest.raises(InputError, match="3 joints"):
-        Setting(gains(1, "28 60 5", "0.2 0.2 0.2"), load("reyes-kelly2"))
+        ControlledArm(gains(1, "28 60 5", "0.2 0.2 0.2"), load("reyes-kelly2"))
 
 
 @pytest.mark.parametrize(

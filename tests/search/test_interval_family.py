@@ -67,14 +67,14 @@ def boxes(family: Family, generator: np.random.Generator, count: int) -> tuple[A
 def test_ranges_hold_balls(family: Family, form: str) -> None:
     generator = np.random.default_rng(family.m or 0)
     low, high = boxes(family, generator, 1500)
-    found = over(family, form, Interval(low, high))
+    result = over(family, form, Interval(low, high))
     share = generator.choice([0.0, 1.0, 0.5, 0.1, 0.77], low.shape)
     points = np.clip(low + share * (high - low), low, high)
     with precision(BITS):
         for k, x in enumerate(points.tolist()):
             exact = Enclosure.from_arb(ball(family, form, x))
-            assert float(found.lo[k]) <= exact.upper, (low[k], high[k], x)
-            assert exact.lower <= float(found.hi[k]), (low[k], high[k], x)
+            assert float(result.lo[k]) <= exact.upper, (low[k], high[k], x)
+            assert exact.lower <= float(result.hi[k]), (low[k], high[k], x)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -85,13 +85,13 @@ def test_ranges_are_those_of_a_dense_grid(family: Family, form: str) -> None:
     generator = np.random.default_rng(5)
     for _ in range(60):
         low, high = np.sort(generator.uniform(-4, 4, 2))
-        found = over(family, form, Interval(np.asarray(low), np.asarray(high)))
+        result = over(family, form, Interval(np.asarray(low), np.asarray(high)))
         values = function(np.linspace(low, high, 4001))
-        assert found.lo <= values.min()
-        assert found.hi >= values.max()
+        assert result.lo <= values.min()
+        assert result.hi >= values.max()
         slack = 1e-3 * max(1.0, float(np.abs(values).max()))
-        assert values.min() - found.lo < slack
-        assert found.hi - values.max() < slack
+        assert values.min() - result.lo < slack
+        assert result.hi - values.max() < slack
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -100,11 +100,11 @@ def test_every_real_number_and_undefined_ends(family: Family, form: str) -> None
     infinite = Interval(np.asarray(-np.inf), np.asarray(np.inf))
     known = family.constants()
     bound = {"h": known.gamma, "dh": known.rho}[form]
-    found = over(family, form, infinite)
+    result = over(family, form, infinite)
     if bound is not None:
-        assert found.hi >= bound.upper * F(10**15 - 1, 10**15)
-        assert found.hi <= bound.upper * F(10**12 + 1, 10**12)
-    assert form == "dh" or found.lo == -found.hi
+        assert result.hi >= bound.upper * F(10**15 - 1, 10**15)
+        assert result.hi <= bound.upper * F(10**12 + 1, 10**12)
+    assert form == "dh" or result.lo == -result.hi
     for ends in ((np.nan, 1.0), (0.0, np.nan), (np.nan, np.nan)):
         undefined = over(family, form, Interval(*map(np.asarray, ends)))
         assert undefined.lo == -np.inf
@@ -159,13 +159,13 @@ def test_mass_and_coriolis_matrices_hold_balls(name: str) -> None:
         box = arm_box(generator, arm.n)
         x = [F(float(value)) for value in generator.normal(size=arm.n)]
         over_box = arm.at([Interval(np.asarray(a), np.asarray(b)) for a, b in box])
-        found = over_box.mass(), coriolis(over_box.symbols(), [Interval.of(value) for value in x])
+        result = over_box.mass(), coriolis(over_box.symbols(), [Interval.of(value) for value in x])
         for _ in range(3):
             point = [float(generator.choice([a, b, generator.uniform(a, b)])) for a, b in box]
             # what the arm says does not matter may be anything
             point = [a if i in arm.angles else 9.0 for i, a in enumerate(point)]
             with precision(BITS):
-                for matrix, exact in zip(found, exact_entries(name, point, x), strict=True):
+                for matrix, exact in zip(result, exact_entries(name, point, x), strict=True):
                     for row, exact_row in zip(matrix, exact, strict=True):
                         for entry, value in zip(row, exact_row, strict=True):
                             low, high = (

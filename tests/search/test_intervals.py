@@ -58,14 +58,14 @@ def interval(box: Box) -> Interval:
     return Interval(np.asarray(box[0]), np.asarray(box[1]))
 
 
-def holds(found: Interval, exact: Fraction) -> bool:
+def holds(result: Interval, exact: Fraction) -> bool:
     """Comparisons of floats and fractions are exact, with infinite ends too; NaN holds nothing."""
-    return float(found.lo) <= exact <= float(found.hi)
+    return float(result.lo) <= exact <= float(result.hi)
 
 
-def holds_ball(found: Interval, ball: arb) -> bool:
+def holds_ball(result: Interval, ball: arb) -> bool:
     exact = Enclosure.from_arb(ball)
-    return float(found.lo) <= exact.upper and exact.lower <= float(found.hi)
+    return float(result.lo) <= exact.upper and exact.lower <= float(result.hi)
 
 
 def within(inner: Interval, outer: Interval) -> bool:
@@ -84,11 +84,11 @@ OPERATIONS: dict[str, Callable[..., object]] = {
 def test_sums_and_products_hold_exact_ones(
     name: str, x: tuple[Box, Fraction], y: tuple[Box, Fraction]
 ) -> None:
-    found = OPERATIONS[name](interval(x[0]), interval(y[0]))
-    assert isinstance(found, Interval)
+    result = OPERATIONS[name](interval(x[0]), interval(y[0]))
+    assert isinstance(result, Interval)
     exact = OPERATIONS[name](x[1], y[1])
     assert isinstance(exact, Fraction)
-    assert holds(found, exact)
+    assert holds(result, exact)
 
 
 @pytest.mark.parametrize("name", OPERATIONS)
@@ -96,13 +96,13 @@ def test_sums_and_products_hold_exact_ones(
 def test_plain_numbers_are_exact(name: str, x: tuple[Box, Fraction], y: float | Fraction) -> None:
     """Also on the left, and integers and fractions that are no doubles."""
     operation = OPERATIONS[name]
-    found, turned = operation(interval(x[0]), y), operation(y, interval(x[0]))
+    result, turned = operation(interval(x[0]), y), operation(y, interval(x[0]))
     exact, exact_turned = operation(x[1], F(y)), operation(F(y), x[1])
-    assert isinstance(found, Interval)
+    assert isinstance(result, Interval)
     assert isinstance(turned, Interval)
     assert isinstance(exact, Fraction)
     assert isinstance(exact_turned, Fraction)
-    assert holds(found, exact)
+    assert holds(result, exact)
     assert holds(turned, exact_turned)
 
 
@@ -135,9 +135,9 @@ def test_middle_lies_inside_and_radius_reaches_both_ends(x: tuple[Box, Fraction]
 
 @given(value=st.one_of(st.fractions(), st.integers(-(10**400), 10**400), st.just(F(1, 10**400))))
 def test_interval_of_a_rational(value: Fraction | int) -> None:
-    found = Interval.of(value)
-    assert holds(found, F(value))
-    assert math.nextafter(float(found.lo), math.inf) >= found.hi
+    result = Interval.of(value)
+    assert holds(result, F(value))
+    assert math.nextafter(float(result.lo), math.inf) >= result.hi
 
 
 sizes = st.floats(1e-150, 1e150)
@@ -170,8 +170,8 @@ def test_operations_are_monotone_in_their_boxes(
 def test_enclosures_are_tight() -> None:
     """Without this an arithmetic that always answers (−∞, ∞) would pass."""
     third = Interval.of(F(1, 3))
-    for found in (third + third, third * third, third - 1.0, third.square(), third.sqrt(), sine(third)):
-        assert found.hi - found.lo < 1e-14
+    for result in (third + third, third * third, third - 1.0, third.square(), third.sqrt(), sine(third)):
+        assert result.hi - result.lo < 1e-14
     assert third.reciprocal().hi - third.reciprocal().lo < 1e-13
     assert unit_vector([third, third])[0].hi < 0.70711
 
@@ -185,9 +185,9 @@ def test_no_truth_value() -> None:
 def test_undefined_ends_prove_nothing(bad: float) -> None:
     """No operation turns an undefined or infinite end into a bound that excludes anything."""
     one, odd = Interval.exact(1.0), Interval(np.asarray(-abs(bad)), np.asarray(abs(bad)))
-    for found in (one + odd, odd - one, one * odd, odd * 2.0, odd * odd):
-        assert found.lo == -math.inf
-        assert found.hi == math.inf
+    for result in (one + odd, odd - one, one * odd, odd * 2.0, odd * odd):
+        assert result.lo == -math.inf
+        assert result.hi == math.inf
     assert (odd * 0.0).lo == -math.inf
     assert odd.square().hi == math.inf
     for trigonometric in (sine(odd), cosine(odd)):
@@ -221,17 +221,17 @@ def angle_boxes(generator: np.random.Generator, count: int) -> tuple[Array, Arra
 def test_sine_and_cosine_hold_balls(name: str) -> None:
     generator = np.random.default_rng(1)
     low, high = angle_boxes(generator, 3000)
-    found = {"sin": sine, "cos": cosine}[name](Interval(low, high))
+    result = {"sin": sine, "cos": cosine}[name](Interval(low, high))
     share = generator.choice([0.0, 1.0, 0.5, 0.123], low.shape)
     points = np.clip(low + share * (high - low), low, high)
     with precision(BITS):
         for k, x in enumerate(points.tolist()):
-            assert holds_ball(found[k], getattr(arb(x), name)())
+            assert holds_ball(result[k], getattr(arb(x), name)())
             if high[k] - low[k] > 6.3:
-                assert found.lo[k] == -1.0
-                assert found.hi[k] == 1.0
-    assert np.all(found.lo >= -1)
-    assert np.all(found.hi <= 1)
+                assert result.lo[k] == -1.0
+                assert result.hi[k] == 1.0
+    assert np.all(result.lo >= -1)
+    assert np.all(result.hi <= 1)
 
 
 def test_sine_finds_the_extremes_inside() -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.constant import Task
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
@@ -39,47 +39,47 @@ def angles(n: int, count: int = 20_000) -> Array:
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_no_sampled_state_lies_outside(name: str) -> None:
-    found, model = robot_constants(load(name)), NumericModel(load(name))
+    result, model = robot_constants(load(name)), NumericModel(load(name))
     q = angles(model.n)
     eigenvalues = np.linalg.eigvalsh(model.mass(q))
-    assert eigenvalues.min() >= found.lambda_min.lower * (1 - F(1, 10**12))
-    assert eigenvalues.max() <= found.lambda_max.upper * (1 + F(1, 10**12))
+    assert eigenvalues.min() >= result.lambda_min.lower * (1 - F(1, 10**12))
+    assert eigenvalues.max() <= result.lambda_max.upper * (1 + F(1, 10**12))
     x = np.random.default_rng(0).normal(size=q.shape)
     x /= np.linalg.norm(x, axis=1)[:, None]
     norms = np.linalg.norm(model.coriolis(q, x), ord=2, axis=(1, 2))
-    assert norms.max() <= found.k_c.upper + F(1, 10**12)
+    assert norms.max() <= result.k_c.upper + F(1, 10**12)
     # and the bounds are not merely safe
-    assert eigenvalues.min() < found.lambda_min.upper * F(11, 10)
-    assert eigenvalues.max() > found.lambda_max.lower * F(9, 10)
-    assert norms.max() >= found.k_c.lower * F(8, 10)
+    assert eigenvalues.min() < result.lambda_min.upper * F(11, 10)
+    assert eigenvalues.max() > result.lambda_max.lower * F(9, 10)
+    assert norms.max() >= result.k_c.lower * F(8, 10)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_states_handed_back_show_the_inside_bounds(name: str) -> None:
-    found, model = robot_constants(load(name)), NumericModel(load(name))
-    least = np.linalg.eigvalsh(model.mass(np.array(found.lambda_min_at)))[0]
-    largest = np.linalg.eigvalsh(model.mass(np.array(found.lambda_max_at)))[-1]
-    assert least == pytest.approx(float(found.lambda_min.upper), rel=1e-9)
-    assert largest == pytest.approx(float(found.lambda_max.lower), rel=1e-9)
+    result, model = robot_constants(load(name)), NumericModel(load(name))
+    least = np.linalg.eigvalsh(model.mass(np.array(result.lambda_min_at)))[0]
+    largest = np.linalg.eigvalsh(model.mass(np.array(result.lambda_max_at)))[-1]
+    assert least == pytest.approx(float(result.lambda_min.upper), rel=1e-9)
+    assert largest == pytest.approx(float(result.lambda_max.lower), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_gaps_are_small(name: str) -> None:
-    found = robot_constants(load(name))
-    for enclosure in (found.lambda_min, found.lambda_max, found.k_c):
+    result = robot_constants(load(name))
+    for enclosure in (result.lambda_min, result.lambda_max, result.k_c):
         assert enclosure.lower <= enclosure.upper
         assert enclosure.width <= F(1, 1000) * enclosure.upper
-    assert found.lambda_min.lower > 0
+    assert result.lambda_min.lower > 0
 
 
 def test_a_pendulum_has_its_inertia_and_no_coriolis() -> None:
     model = load("pendulum1")
-    found = robot_constants(model)
+    result = robot_constants(model)
     inertia = F(int(model.mass[0][0].coefficient(0).p), int(model.mass[0][0].coefficient(0).q))
-    for enclosure in (found.lambda_min, found.lambda_max):
+    for enclosure in (result.lambda_min, result.lambda_max):
         assert enclosure.lower <= inertia <= enclosure.upper
         assert enclosure.width < F(1, 10**11)
-    assert found.k_c == Enclosure.exact(0)
+    assert result.k_c == Enclosure.exact(0)
 
 
 @pytest.mark.parametrize(("name", "bend"), [("reyes-kelly2", 0.084), ("pelican2", None)])
@@ -94,22 +94,22 @@ def test_two_joints_in_closed_form(name: str, bend: float | None) -> None:
     assert bend is None or k == pytest.approx(bend)
     (a, b), (_, d) = M[0]
     root = sqrt((a - d) ** 2 + 4 * b * b)
-    found = robot_constants(model)
+    result = robot_constants(model)
     expected = {"lambda_min": (a + d - root) / 2, "lambda_max": (a + d + root) / 2}
     turn = np.linspace(0, np.pi, 20_001)
     x1, x2, zero = np.cos(turn), np.sin(turn), np.zeros_like(turn)
     shape = np.stack([np.stack([x2, x1 + x2], -1), np.stack([-x1, zero], -1)], -2)
     expected["k_c"] = k * float(np.linalg.norm(shape, ord=2, axis=(1, 2)).max())
     for constant, value in expected.items():
-        enclosure = getattr(found, constant)
+        enclosure = getattr(result, constant)
         assert enclosure.lower * (1 - F(1, 10**8)) <= value <= enclosure.upper * (1 + F(1, 10**8))
 
 
 def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
     model = load("reyes-kelly2")
-    found, bounds = robot_constants(model), robot_bounds(model)
-    assert (bounds.beta_M, bounds.k_c) == (found.lambda_max.upper, found.k_c.upper)
-    assert bounds.lambda_min_M == found.lambda_min.lower
+    result, bounds = robot_constants(model), robot_bounds(model)
+    assert (bounds.beta_M, bounds.k_c) == (result.lambda_max.upper, result.k_c.upper)
+    assert bounds.lambda_min_M == result.lambda_min.lower
     assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
 
 
@@ -124,8 +124,8 @@ def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str
 
 
 def test_only_the_constants_asked_for() -> None:
-    found = arm_constants(load("pelican2"), names=("k_g2", "lambda_max"))
-    assert [constant.name for constant in found] == ["lambda_max", "k_g2"]
+    result = arm_constants(load("pelican2"), names=("k_g2", "lambda_max"))
+    assert [constant.name for constant in result] == ["lambda_max", "k_g2"]
 
 
 def test_the_constants_of_a_model_are_found_once() -> None:
@@ -138,9 +138,9 @@ def test_an_indefinite_inertia_is_not_called_positive() -> None:
     model = load("reyes-kelly2")
     (a, b), (_, d) = model.mass
     wrong = replace(model, dynamics=replace(model.dynamics.polynomials, mass=((a, 20 * b), (20 * b, d))))
-    found = robot_constants(wrong)
-    assert found.lambda_min.upper < 0
-    assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= found.lambda_min.lower
+    result = robot_constants(wrong)
+    assert result.lambda_min.upper < 0
+    assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= result.lambda_min.lower
 
 
 # Bounds on single boxes -----
@@ -163,7 +163,7 @@ TASKS = {
 @pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
 def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: float) -> None:
     """Boxes around the state of the largest value would pass even without their linear part; these do not."""
-    task: Task = TASKS[constant](ArmWaves(arm_of(name)))
+    task: Task = TASKS[constant](ArmHarmonics(arm_of(name)))
     rng = np.random.default_rng(5)
     middle, half = rng.uniform(-3, 3, (8, task.torus.n)), rng.uniform(0.2, 1, (8, task.torus.n)) * size
     low, high = task.bounds(middle, half)
@@ -178,7 +178,7 @@ def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: flo
 @pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
 def test_bounds_close_up_on_single_states(name: str) -> None:
     """Without a width nothing but rounding and the bound of k_c at one state remains."""
-    arm = ArmWaves(arm_of(name))
+    arm = ArmHarmonics(arm_of(name))
     middle = np.random.default_rng(6).uniform(-3, 3, (8, arm.n))
     for constant, make in TASKS.items():
         low, high = make(arm).bounds(middle, np.zeros_like(middle))
@@ -211,12 +211,12 @@ def test_any_relation_bounds_the_quartic_form(seed: int, n: int) -> None:
     square = np.swapaxes(stack, -1, -2) @ stack
     x = rng.normal(size=(500, n))
     x /= np.linalg.norm(x, axis=1)[:, None]
-    found = np.sum(np.einsum("ijk,sj,sk->si", tensor[0], x, x) ** 2, axis=1).max()
+    result = np.sum(np.einsum("ijk,sj,sk->si", tensor[0], x, x) ** 2, axis=1).max()
     # a target that is wrong costs sharpness alone
-    for target in (found, 0.0, 3 * found):
+    for target in (result, 0.0, 3 * result):
         relation = forms.relation(square, np.array([target]))
         top = np.linalg.eigvalsh(square + relation)[0, -1]
-        assert found <= top * (1 + 1e-9)
+        assert result <= top * (1 + 1e-9)
         assert top <= np.linalg.eigvalsh(square)[0, -1] * (1 + 1e-9)
 
 
@@ -238,5 +238,5 @@ def test_an_undefined_bound_is_no_bound() -> None:
         high = np.where(half[:, 0] < 1, np.nan, 7.0)
         return -(middle[:, 0] ** 2), high
 
-    found = maximise(np.ones(1), bounds, lambda m, half: half, (np.zeros(1), 0.0), 50, 1e-3)
-    assert (found.inside, found.outside) == (0.0, 7.0)
+    result = maximise(np.ones(1), bounds, lambda m, half: half, (np.zeros(1), 0.0), 50, 1e-3)
+    assert (result.inside, result.outside) == (0.0, 7.0)

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.control.gains import GainSet
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
@@ -24,45 +24,45 @@ EXPECTED = {"pendulum1": (0,), "reyes-kelly2": (0,), "pelican2": (0,)}
 """One joint: M is constant. Two joints: M depends on cos q₂ and M₁₂ ≠ 0, so both signs change together."""
 
 
-def setting(name: str, m: int = 2) -> Setting:
+def controlled(name: str, m: int = 2) -> ControlledArm:
     model = load(name)
     gains = GainSet("some", m, (F(40), F(30), F(20))[: model.n], (F(3, 10), F(1, 5), F(1, 10))[: model.n])
-    return Setting(gains, model)
+    return ControlledArm(gains, model)
 
 
-def closure(name: str) -> Closure:
-    return setting(name).closure(F(1, 10))
+def loop(name: str) -> ClosedLoop:
+    return controlled(name).loop(F(1, 10))
 
 
 def seen_symmetries(name: str) -> list[Array]:
     """All σ for which M(σq) = Σ M(q) Σ at random angles, in doubles."""
     model, generator = NumericModel(load(name)), np.random.default_rng(3)
     q = generator.uniform(-np.pi, np.pi, (50, model.n))
-    M, found = model.mass(q), []
+    M, result = model.mass(q), []
     for signs in product((1.0, -1.0), repeat=model.n):
         s = np.array(signs)
         if np.allclose(model.mass(q * s), s[:, None] * M * s, rtol=0, atol=1e-12):
-            found.append(s)
-    return found
+            result.append(s)
+    return result
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_every_error_has_an_image_with_the_one_sided_signs(name: str) -> None:
-    symmetries, sided = seen_symmetries(name), list(closure(name).one_sided)
+    symmetries, sided = seen_symmetries(name), list(loop(name).one_sided)
     for signs in product((1.0, -1.0, 0.0), repeat=load(name).n):
         assert any(np.all((np.array(signs) * s)[sided] >= 0) for s in symmetries)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_as_many_errors_are_halved_as_there_are_independent_symmetries(name: str) -> None:
-    assert 2 ** len(closure(name).one_sided) == len(seen_symmetries(name))
-    assert closure(name).one_sided == EXPECTED.get(name, closure(name).one_sided)
+    assert 2 ** len(loop(name).one_sided) == len(seen_symmetries(name))
+    assert loop(name).one_sided == EXPECTED.get(name, loop(name).one_sided)
 
 
 @pytest.mark.parametrize("m", [1, 3])
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_V_and_its_rate_keep_their_values(name: str, m: int) -> None:
-    case = setting(name, m)
+    case = controlled(name, m)
     V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
     generator = np.random.default_rng(m)
     q, e, w = (generator.normal(size=(200, case.n)) * scale for scale in (2.0, 1.0, 3.0))
@@ -73,7 +73,7 @@ def test_V_and_its_rate_keep_their_values(name: str, m: int) -> None:
 
 def test_other_signs_do_change_the_rate() -> None:
     """The test above would be empty if every change of signs passed it."""
-    case = setting("reyes-kelly2")
+    case = controlled("reyes-kelly2")
     V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
     generator = np.random.default_rng(0)
     q, e, w = generator.normal(size=(3, 200, 2))
@@ -84,7 +84,7 @@ def test_other_signs_do_change_the_rate() -> None:
 
 def test_a_sine_in_the_inertia_breaks_the_symmetry() -> None:
     """M₁₁ with sin q₂: the mirror image is another arm, and nothing may be skipped."""
-    case = closure("reyes-kelly2")
+    case = loop("reyes-kelly2")
     assert case.one_sided == (0,)
     (a, b), (c, d) = case.arm.mass
     tilted = (((*a, ((0, 1, 0, 0), F(1, 10))), b), (c, d))

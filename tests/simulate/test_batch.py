@@ -265,12 +265,12 @@ def test_what_an_arm_cannot_be_given_is_refused(change, key):
 
 
 def test_progress_rises_to_the_end():
-    told: list[float] = []
+    printed: list[float] = []
     model = robots.load("pendulum1")
     sets = [gains(1, 1 + k % 3) for k in range(9)]
-    simulate_many(sets, model, [0.5], [0.0], 0.1, on_progress=lambda done, _: told.append(done))
-    assert told == sorted(told)
-    assert told[-1] == 1.0
+    simulate_many(sets, model, [0.5], [0.0], 0.1, on_progress=lambda done, _: printed.append(done))
+    assert printed == sorted(printed)
+    assert printed[-1] == 1.0
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 6])

@@ -250,9 +250,9 @@ def test_gains_for_another_arm_are_refused():
 
 
 def test_progress_rises_to_the_end():
-    told: list[float] = []
+    printed: list[float] = []
     simulate(
-        gains(1), robots.load("pendulum1"), [1.0], on_progress=lambda fraction, note: told.append(fraction)
+        gains(1), robots.load("pendulum1"), [1.0], on_progress=lambda fraction, note: printed.append(fraction)
     )
-    assert told == sorted(told)
-    assert 0.0 <= told[0] <= told[-1] <= 1.0
+    assert printed == sorted(printed)
+    assert 0.0 <= printed[0] <= printed[-1] <= 1.0

@@ -86,9 +86,9 @@ def test_overshoot_of_the_second_order_system(damping, sign):
 
 def test_no_overshoot_and_no_step():
     e = np.column_stack((np.exp(-T), 0.1 * np.sin(T)))
-    found = overshoots(e)
-    assert found[0] == 0.0
-    assert math.isnan(found[1])
+    result = overshoots(e)
+    assert result[0] == 0.0
+    assert math.isnan(result[1])
 
 
 def test_peaks_and_final_errors():

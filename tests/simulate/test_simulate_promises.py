@@ -18,8 +18,8 @@ from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
 from lyapcheck.robots import Number
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.breach import Watched, bound_monitor, fall_monitor, first_breach
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.confirm import Sample, torques
@@ -41,7 +41,7 @@ def broken(gain_set: GainSet, model, *task, **options) -> PromiseBroken:
 def test_an_eps0_above_the_falsified_one_is_stopped_at_its_witness():
     """The state that refutes ε₀ is a start; the promise breaks there and nowhere else is looked at."""
     model, gain_set = robots.load("reyes-kelly2"), TWO_JOINTS[0]
-    witness = falsify(Setting(gain_set, model), starts=6, samples=2000)
+    witness = falsify(ControlledArm(gain_set, model), starts=6, samples=2000)
     at = [[float(x) for x in part] for part in (witness.state.q, witness.state.e, witness.state.w)]
     speed = max(map(abs, at[2]))
     at[2] = [900 * rate / speed for rate in at[2]]  # fast enough for K_v h(w) to be small beside B w
@@ -59,11 +59,11 @@ def test_an_eps0_above_the_falsified_one_is_stopped_at_its_witness():
 
 def test_the_state_that_broke_the_promise_proves_it_on_its_own():
     failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
-    found, setting = failure.breach, Setting(TABLE2[0], robots.load("buap3"))
-    state = State(*(tuple(map(Fraction, part)) for part in (found.at.q, found.at.e, found.at.w)))
-    assert found.confirmed
-    assert confirms_positive(setting.arm, setting.controller, Fraction(50), state)
-    assert found.value > 0.0 == found.limit
+    result, controlled = failure.breach, ControlledArm(TABLE2[0], robots.load("buap3"))
+    state = State(*(tuple(map(Fraction, part)) for part in (result.at.q, result.at.e, result.at.w)))
+    assert result.confirmed
+    assert confirms_positive(controlled.arm, controlled.controller, Fraction(50), state)
+    assert result.value > 0.0 == result.limit
 
 
 @pytest.mark.parametrize("gain_set", one_in(3, TABLE2), ids=lambda one: one.name)
@@ -95,20 +95,20 @@ def test_a_limit_that_breaks_between_samples_is_found():
 
 def test_a_stopped_run_ends_with_the_breach_and_is_marked():
     failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
-    partial, found = failure.partial, failure.breach
+    partial, result = failure.partial, failure.breach
     assert isinstance(failure, SimulationFailed)
-    assert partial.breach == found
+    assert partial.breach == result
     assert not partial.complete
-    assert partial.t[-1] == found.t < 5.0
+    assert partial.t[-1] == result.t < 5.0
     assert partial.t.size < 2001
-    assert tuple(partial.q[-1]) == found.at.q
+    assert tuple(partial.q[-1]) == result.at.q
     assert ",no," in runs_csv([partial])
     answer = SetPointRuns((partial,))
     assert answer.document().title == "✗ buap3: promises broken by 1 of 1 gain set"
-    assert f"promise broken: {TABLE2[0].name}: {found.sentence}" in answer.complaints()
-    assert answer.data()["results"][0]["breach"]["q"] == list(found.at.q)
+    assert f"promise broken: {TABLE2[0].name}: {result.sentence}" in answer.complaints()
+    assert answer.data()["results"][0]["breach"]["q"] == list(result.at.q)
     (case,) = answer.annotations()
-    assert (case.level, case.rule, case.message) == (Level.FAILED, "promises", found.sentence)
+    assert (case.level, case.rule, case.message) == (Level.FAILED, "promises", result.sentence)
     assert answer.exit_code is Exit.REFUTED
 
 
@@ -136,7 +136,7 @@ def test_a_torque_exactly_at_its_limit_is_no_breach():
     """Balls decide: the limit is the torque of the start, rounded up."""
     at = Sample((0.0,) * 3, PAPER_TASK.q_d, (0.0,) * 3)
     with precision(64):
-        start = torques(Setting(TABLE2[0], robots.load("buap3")), at)[0]
+        start = torques(ControlledArm(TABLE2[0], robots.load("buap3")), at)[0]
     limit = Fraction(float(start)) + Fraction(1, 10**15)
     tight = replace(robots.load("buap3"), torque_limit=(Number(limit), None, None))
     assert simulate(TABLE2[0], tight, PAPER_TASK.q_d).breach is None
@@ -152,17 +152,17 @@ def test_published_gains_keep_all_promises_at_half_of_what_is_certified(gain_set
 
 def test_torques_in_balls_are_those_of_the_run():
     run = simulate(TABLE2[2], robots.load("buap3"), PAPER_TASK.q_d, T=1.0, points=11)
-    setting = Setting(TABLE2[2], robots.load("buap3"))
+    controlled = ControlledArm(TABLE2[2], robots.load("buap3"))
     for i in (0, 4, 10):
         at = Sample(*(tuple(x[i].tolist()) for x in (run.q, run.e, run.w)))
         with precision(64):
-            np.testing.assert_allclose([float(x) for x in torques(setting, at)], run.tau[i], rtol=1e-12)
+            np.testing.assert_allclose([float(x) for x in torques(controlled, at)], run.tau[i], rtol=1e-12)
 
 
 def watched(V, tau) -> Watched:
     zeros, t = np.zeros((len(V), 3)), np.arange(len(V), dtype=float)
-    setting = Setting(TABLE2[0], robots.load("buap3"))
-    return Watched(setting, 0.0, t, zeros, zeros, zeros, np.array(tau), np.array(V), -t, noise=1e-9)
+    controlled = ControlledArm(TABLE2[0], robots.load("buap3"))
+    return Watched(controlled, 0.0, t, zeros, zeros, zeros, np.array(tau), np.array(V), -t, noise=1e-9)
 
 
 def test_the_earliest_breach_is_the_one_that_is_told():

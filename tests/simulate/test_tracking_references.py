@@ -64,7 +64,10 @@ def test_two_derivatives_are_continuous(reference: Reference):
 def test_the_bounds_hold_at_all_times_and_are_not_idle(reference: Reference):
     at = reference.at(np.linspace(0.0, 5.0, 20_001))
     bounds = reference.suprema()
-    for order, each, norm in ((1, bounds.rate, bounds.speed), (2, bounds.acceleration, bounds.push)):
+    for order, each, norm in (
+        (1, bounds.rate, bounds.speed),
+        (2, bounds.acceleration, bounds.acceleration_norm),
+    ):
         size = np.abs(at[:, order]).max(axis=0)
         assert np.all(size <= np.array(each, float))
         assert np.all(size >= 0.97 * np.array(each, float))
@@ -85,7 +88,9 @@ def test_the_minimum_jerk_is_at_rest_at_both_ends():
     ends = motion.at(np.array([0.0, 2.0, 7.0]))[:, :, 0]
     np.testing.assert_allclose(ends, [[0, 0, 0], [math.pi / 2, 0, 0], [math.pi / 2, 0, 0]], atol=1e-15)
     assert float(motion.suprema().speed) == pytest.approx(15 / 8 * (math.pi / 2) / 2, rel=1e-11)
-    assert float(motion.suprema().push) == pytest.approx(10 / math.sqrt(3) * (math.pi / 2) / 4, rel=1e-11)
+    assert float(motion.suprema().acceleration_norm) == pytest.approx(
+        10 / math.sqrt(3) * (math.pi / 2) / 4, rel=1e-11
+    )
 
 
 def test_a_spline_goes_through_its_samples_and_gives_polynomials_back():
@@ -110,7 +115,7 @@ def test_the_bounds_of_any_spline_hold(values, gaps):
         at = np.abs(motion.at(np.linspace(0.0, motion.span, 3000))[:, 1:, 0]).max(axis=0)
         bounds = motion.suprema()
         assert at[0] <= float(bounds.speed)
-        assert at[1] <= float(bounds.push)
+        assert at[1] <= float(bounds.acceleration_norm)
 
 
 def written(folder: Path, text: str, samples: str = "") -> Path:

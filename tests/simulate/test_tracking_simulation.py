@@ -20,7 +20,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.family import named
 from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.setting import Setting
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.tracking.form import TrackingForm, tracking_form
 from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
@@ -63,10 +63,10 @@ def arm_under_21(gain_set: GainSet, model, reference, q0, t):
 
     def rate(time, y):
         q, velocity = y[:n], y[n:]
-        goal, speed, push = reference.at(np.array([time]))[0]
+        goal, speed, acceleration = reference.at(np.array([time]))[0]
         C, M, friction = arm.coriolis(q, velocity), arm.mass(q), arm.viscous
         tau = np.array(held.kp) * h(goal - q) + np.array(held.kv) * h(speed - velocity)
-        tau += M @ push + C @ speed + arm.gravity(q) + friction * speed
+        tau += M @ acceleration + C @ speed + arm.gravity(q) + friction * speed
         pull = tau - C @ velocity - arm.gravity(q) - friction * velocity
         return np.concatenate((velocity, np.linalg.solve(M, pull)))
 
@@ -148,20 +148,20 @@ def random_motion(seed: int, speed: float, count: int = 4000) -> Motion:
 @pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
 def test_the_form_bounds_dV_at_states_of_all_sizes(gain_set):
     """For any ε₀, admissible or not; and with a v_d that is too small it is broken."""
-    setting, held = Setting(gain_set, robots.load("buap3")), gains_for(gain_set, 3)
+    controlled, held = ControlledArm(gain_set, robots.load("buap3")), gains_for(gain_set, 3)
     motion = random_motion(1, 1000.0)
     for eps0 in (0.01, 0.5):
-        _, dV = energies(setting, held, eps0, motion)
-        bound = bound_of(tracking_form(setting, Fraction(1000)), held, eps0, motion)
+        _, dV = energies(controlled, held, eps0, motion)
+        bound = bound_of(tracking_form(controlled, Fraction(1000)), held, eps0, motion)
         assert np.all(dV <= bound + 1e-9 * np.abs(bound))
-        low = bound_of(tracking_form(setting, Fraction(0)), held, eps0, motion)
+        low = bound_of(tracking_form(controlled, Fraction(0)), held, eps0, motion)
         assert np.any(dV > low + 1e-6)
 
 
 @pytest.mark.parametrize("speed", [0, 2, 50])
 def test_the_largest_eps0_is_where_the_form_ceases_to_be_definite(speed):
     """By eigenvalues of Θ'(ε) on a grid of ε, without the argument that the end decides."""
-    form = tracking_form(Setting(TABLE2[0], robots.load("buap3")), Fraction(speed))
+    form = tracking_form(ControlledArm(TABLE2[0], robots.load("buap3")), Fraction(speed))
     largest = form.largest()
     k, beta, c, d = (
         float(x) for x in (form.still.stiffness, form.still.friction, form.still.drift, form.still.cross)
@@ -182,14 +182,14 @@ def test_the_largest_eps0_is_where_the_form_ceases_to_be_definite(speed):
 
 
 def test_faster_references_admit_less():
-    setting = Setting(TABLE2[0], robots.load("buap3"))
-    found = [tracking_form(setting, Fraction(speed)).largest() for speed in (0, 1, 5, 100)]
-    assert found == sorted(found, reverse=True)
-    assert found[-1] > 0
+    controlled = ControlledArm(TABLE2[0], robots.load("buap3"))
+    result = [tracking_form(controlled, Fraction(speed)).largest() for speed in (0, 1, 5, 100)]
+    assert result == sorted(result, reverse=True)
+    assert result[-1] > 0
 
 
 def test_without_friction_there_is_no_eps0():
-    form = tracking_form(Setting(TABLE2[0], robots.load("buap3")), Fraction(1))
+    form = tracking_form(ControlledArm(TABLE2[0], robots.load("buap3")), Fraction(1))
     assert TrackingForm(replace(form.still, friction=Fraction(0)), form.turn).largest() is None
 
 
@@ -209,15 +209,15 @@ def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
 
 def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     """The promise of v_d = 0 is planted on states at 1000 rad/s: the form is seen to break."""
-    setting, held = Setting(TABLE2[0], robots.load("buap3")), gains_for(TABLE2[0], 3)
+    controlled, held = ControlledArm(TABLE2[0], robots.load("buap3")), gains_for(TABLE2[0], 3)
     motion, promise = random_motion(3, 1000.0, 500), run_of(T=0.1, points=11).promise
     still = replace(promise, eps0=0.01, torque=None)
-    V, dV = energies(setting, held, 0.01, motion)
-    low = bound_of(tracking_form(setting, Fraction(0)), held, 0.01, motion)
-    high = bound_of(tracking_form(setting, Fraction(1000)), held, 0.01, motion)
-    falling, limits = -np.arange(500.0), setting.model.torque_limit
-    assert "Θ'" in broken(setting, limits, still, motion, falling, np.minimum(dV, -1e-12), low).promise
-    assert broken(setting, limits, still, motion, falling, np.minimum(dV, -1e-12), high) is None
+    V, dV = energies(controlled, held, 0.01, motion)
+    low = bound_of(tracking_form(controlled, Fraction(0)), held, 0.01, motion)
+    high = bound_of(tracking_form(controlled, Fraction(1000)), held, 0.01, motion)
+    falling, limits = -np.arange(500.0), controlled.model.torque_limit
+    assert "Θ'" in broken(controlled, limits, still, motion, falling, np.minimum(dV, -1e-12), low).promise
+    assert broken(controlled, limits, still, motion, falling, np.minimum(dV, -1e-12), high) is None
     assert V.shape == dV.shape
 
 
@@ -232,10 +232,10 @@ def test_no_motion_leaves_the_bounds_of_the_torque(start, m):
 
 def test_the_bound_of_the_torque_at_rest_is_the_rule_joint_by_joint():
     """γ (k_pi + k_vi) + k_gi with γ = 1: 28.233, 60.233 + 40.28 and 5.233 + 1.81."""
-    setting = Setting(TABLE2[0], robots.load("buap3"))
-    found = torque_bounds(setting, STILL.suprema(), [0] * 3, [0.0] * 3, [0.0] * 3)
-    assert [float(x) for x in found.total] == pytest.approx([28.233, 100.513, 7.043])
-    assert found.error_rate == 0
+    controlled = ControlledArm(TABLE2[0], robots.load("buap3"))
+    result = torque_bounds(controlled, STILL.suprema(), [0] * 3, [0.0] * 3, [0.0] * 3)
+    assert [float(x) for x in result.total] == pytest.approx([28.233, 100.513, 7.043])
+    assert result.error_rate == 0
 
 
 def test_the_largest_torque_comes_near_its_bound():
@@ -300,18 +300,20 @@ def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
     """The proof that a promise broke is about the same dV/dt and τ as the samples show."""
     from lyapcheck.check.loop.states import State, rate
     from lyapcheck.check.numbers.balls import precision
-    from lyapcheck.simulate.confirm import Sample, exceeds, rises, torques, turning
+    from lyapcheck.simulate.confirm import Sample, exceeds, reference_term, rises, torques
 
-    run, setting = run_of(eps0=0.3, points=21, stop=False), Setting(TABLE2[0], robots.load("buap3"))
+    run, controlled = run_of(eps0=0.3, points=21, stop=False), ControlledArm(TABLE2[0], robots.load("buap3"))
     m = run.motion
     for i in (0, 3, 11, 20):
-        at = Sample(*(tuple(x[i].tolist()) for x in (m.q, m.e, m.w, m.speed, m.push)))
+        at = Sample(*(tuple(x[i].tolist()) for x in (m.q, m.e, m.w, m.speed, m.acceleration)))
         state = State(*(tuple(map(Fraction, part)) for part in (at.q, at.e, at.w)))
         with precision(128):
-            found = rate(setting.arm, setting.controller, Fraction(0.3), state) + turning(setting, 0.3, at)
-            np.testing.assert_allclose([float(x) for x in torques(setting, at)], m.tau[i], rtol=1e-10)
-        assert float(found) == pytest.approx(run.dV[i], rel=1e-9)
-        assert rises(setting, 0.3, at) == (run.dV[i] > 0)
+            result = rate(controlled.arm, controlled.controller, Fraction(0.3), state) + reference_term(
+                controlled, 0.3, at
+            )
+            np.testing.assert_allclose([float(x) for x in torques(controlled, at)], m.tau[i], rtol=1e-10)
+        assert float(result) == pytest.approx(run.dV[i], rel=1e-9)
+        assert rises(controlled, 0.3, at) == (run.dV[i] > 0)
         size = Fraction(abs(m.tau[i, 1]))
-        assert exceeds(setting, 1, size * Fraction(999, 1000), at)
-        assert not exceeds(setting, 1, size * Fraction(1001, 1000), at)
+        assert exceeds(controlled, 1, size * Fraction(999, 1000), at)
+        assert not exceeds(controlled, 1, size * Fraction(1001, 1000), at)

@@ -93,9 +93,9 @@ def _place(error: Exception) -> str:
 
 def _fault(made: Made, verdict: str, decision: Any, seed: int) -> str:
     if verdict == PROVED:
-        found = objection(made.statement, seed)
-        if found is not None:
-            return str(found)
+        result = objection(made.statement, seed)
+        if result is not None:
+            return str(result)
         if made.truth in (FALSE, NEITHER, UNPROVABLE):
             return f"{made.truth} by construction"
     if verdict == REFUTED:

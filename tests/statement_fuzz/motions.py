@@ -16,7 +16,7 @@ from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.procedures.states import setting_of
+from lyapcheck.claims.procedures.states import controlled_arm_of
 from lyapcheck.search.decay import disturbance_bound, settling_bound
 from lyapcheck.verdicts import Verdict
 
@@ -71,12 +71,14 @@ def found(index: int) -> tuple[Settling, Any]:
     each = [Fraction(getattr(asked, name)) for name in ("viscous", "kp", "kv", "torque", "dry")]
     b, kp, kv, torque, dry = ((x,) * n for x in each)
     ranges = tuple((x, x) for x in b)
-    setting = setting_of(Decreasing(asked.mass, ranges, (), asked.family, asked.m, kp, kv, Fraction(1), ()))
+    controlled = controlled_arm_of(
+        Decreasing(asked.mass, ranges, (), asked.family, asked.m, kp, kv, Fraction(1), ())
+    )
     start = ((asked.start,) * n, (asked.rate,) * n)
     if any(torque) or any(dry):
-        shown = disturbance_bound(setting, *start, torque, dry, max_boxes=MAX_BOXES).shown
+        shown = disturbance_bound(controlled, *start, torque, dry, max_boxes=MAX_BOXES).shown
     else:
-        shown = settling_bound(setting, *start, 0.1, max_boxes=MAX_BOXES).shown
+        shown = settling_bound(controlled, *start, 0.1, max_boxes=MAX_BOXES).shown
     if shown is None:
         raise LookupError(f"the search finds no bound for {asked}")
     return shown.statement, shown.proof

@@ -32,9 +32,9 @@ def _step(judged: Judged, seed: int) -> Judged | None:
     for statement in variants(judged.made.statement):
         if _size(statement) >= size:
             continue
-        found = judge(Made(statement, judged.made.family), seed)
-        if found.signature == judged.signature:
-            return found
+        result = judge(Made(statement, judged.made.family), seed)
+        if result.signature == judged.signature:
+            return result
     return None
 
 

@@ -46,8 +46,8 @@ def run(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture(scope="module")
 def verdicts_of_the_script() -> dict[str, str]:
-    found = run("-c", CHECK, "check", SCRIPT, "--format", "json", "--m", 2)
-    return {row["id"]: row["verdict"] for row in json.loads(found.stdout)["claims"]}
+    result = run("-c", CHECK, "check", SCRIPT, "--format", "json", "--m", 2)
+    return {row["id"]: row["verdict"] for row in json.loads(result.stdout)["claims"]}
 
 
 @pytest.mark.parametrize("number", range(len(FAULTS)), ids=lambda number: FAULTS[number].name)
@@ -64,8 +64,8 @@ def accepted_certificates(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
         about = About(f"F{number}", fault.name, None, None, "known-faults")
         made = Certificate(about, fault.statement, fault.verdict, fault.grade, fault.proof)
         (folder / f"F{number}.json").write_text(made.text(), encoding="utf-8")
-    found = run("-m", "lyapcheck.check", folder, "--format", "json")
-    rows = json.loads(found.stdout)["certificates"]
+    result = run("-m", "lyapcheck.check", folder, "--format", "json")
+    rows = json.loads(result.stdout)["certificates"]
     assert len(rows) == len(FAULTS)
     return {Path(row["file"]).stem for row in rows if row["accepted"]}
 

@@ -97,8 +97,8 @@ def stubborn(statement: Any) -> Any:
 
 @pytest.mark.parametrize("wrong", [credulous, contrary, stubborn])
 def test_an_unsound_procedure_is_caught(wrong: Any) -> None:
-    found = [judge(draw(5, k), k, by=wrong) for k in range(60)]
-    assert sum(bool(one.fault) for one in found) > 10
+    result = [judge(draw(5, k), k, by=wrong) for k in range(60)]
+    assert sum(bool(one.fault) for one in result) > 10
 
 
 @pytest.mark.parametrize(
@@ -120,9 +120,9 @@ BY_POINTS = OF_ARMS[:11]
 @pytest.mark.parametrize("kind", one_in(4, OF_ARMS))
 def test_the_oracle_sees_by_itself_what_is_false_of_arms(kind: str) -> None:
     made = [draw(6, k, kind) for k in range(20 if kind == "Settling" else 60)]
-    found = [bool(judge(replace(one, truth=None), k, by=credulous).fault) for k, one in enumerate(made)]
-    assert sum(found) >= 3
-    for one, objected in zip(made, found, strict=True):
+    result = [bool(judge(replace(one, truth=None), k, by=credulous).fault) for k, one in enumerate(made)]
+    assert sum(result) >= 3
+    for one, objected in zip(made, result, strict=True):
         if one.truth is not None:
             assert objected is (one.truth != TRUE), one
 
@@ -130,14 +130,14 @@ def test_the_oracle_sees_by_itself_what_is_false_of_arms(kind: str) -> None:
 @pytest.mark.parametrize("kind", one_in(3, BY_POINTS))
 def test_a_witness_against_an_arm_is_one_only_where_it_stands(kind: str) -> None:
     decided = ((one.statement, decide(one.statement)) for one in (draw(8, k, kind) for k in range(60)))
-    statement, found = next(pair for pair in decided if pair[1].verdict is Verdict.REFUTED)
-    assert confirms(statement, found.witness)
-    moved = {name: value for name, value in found.witness["point"].items() if name != "q1"}
+    statement, result = next(pair for pair in decided if pair[1].verdict is Verdict.REFUTED)
+    assert confirms(statement, result.witness)
+    moved = {name: value for name, value in result.witness["point"].items() if name != "q1"}
     assert not confirms(statement, {"point": moved})
     for bound, value in (("high", Fraction(10**40)), ("low", Fraction(0)), ("printed", ())):
         if hasattr(statement, bound):
             weaker = replace(statement, **{bound: value})
-            assert confirms(weaker, found.witness) is (objection(weaker, 0) is not None)
+            assert confirms(weaker, result.witness) is (objection(weaker, 0) is not None)
 
 
 def blind_to_a_factor(statement: Any) -> Any:
@@ -148,8 +148,8 @@ def blind_to_a_factor(statement: Any) -> Any:
 
 
 def test_a_coriolis_matrix_of_half_the_size_is_caught() -> None:
-    found = (judge(draw(7, k, "CoriolisBelow"), k, by=blind_to_a_factor) for k in range(40))
-    assert any(one.verdict == "proved" and one.fault for one in found)
+    result = (judge(draw(7, k, "CoriolisBelow"), k, by=blind_to_a_factor) for k in range(40))
+    assert any(one.verdict == "proved" and one.fault for one in result)
 
 
 def blind_to_friction(statement: Any) -> Any:
@@ -175,8 +175,8 @@ def blind_to_strictness(statement: Any) -> Any:
 
 
 def test_a_procedure_that_takes_strict_for_weak_is_caught() -> None:
-    found = [judge(draw(7, k, "Constant"), k, by=blind_to_strictness) for k in range(300)]
-    assert any("equal numbers" in one.made.family and one.fault for one in found)
+    result = [judge(draw(7, k, "Constant"), k, by=blind_to_strictness) for k in range(300)]
+    assert any("equal numbers" in one.made.family and one.fault for one in result)
 
 
 NO_FAULTS = {
@@ -212,8 +212,8 @@ def test_the_oracle_has_no_objection_to_what_is_true(name: str) -> None:
 @pytest.mark.parametrize("name", OBJECTIONABLE)
 def test_the_oracle_objects_to_what_is_not(name: str) -> None:
     statement, what = OBJECTIONABLE[name]
-    found = objection(statement, 0)
-    assert (found.what if found else None) == what
+    result = objection(statement, 0)
+    assert (result.what if result else None) == what
 
 
 def test_a_witness_is_a_point_of_the_domain_where_all_is_defined() -> None:

@@ -94,11 +94,11 @@ def test_graphs_do_what_compiled_code_does() -> None:
 def test_without_a_compiler_a_small_study_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LYAPCHECK_NO_COMPILER", "1")
     compiled_bench.cache_clear()
-    found = study([SETS["tau_pd"]], ARM, spread=9, corners=2, search=False, seed=2)
+    result = study([SETS["tau_pd"]], ARM, spread=9, corners=2, search=False, seed=2)
     compiled_bench.cache_clear()
-    assert found is not None
-    assert not found.search
-    assert found.runs == found.sets[0].at_once.arms + 1 == 1 + LEVELS * len(ASSUMED) + 11 + 1
+    assert result is not None
+    assert not result.search
+    assert result.runs == result.sets[0].at_once.arms + 1 == 1 + LEVELS * len(ASSUMED) + 11 + 1
 
 
 def test_smaller_steps_change_the_index_by_less_than_is_shown() -> None:
@@ -141,9 +141,9 @@ def test_shares_of_the_variance_are_those_of_sobol(
     function: Callable[[np.ndarray], np.ndarray], expected: tuple[float, ...]
 ) -> None:
     points = design(UNIT, 4096, 0, 7).spread
-    found = shares(points, function(points))
-    assert found is not None
-    assert np.allclose(found, expected, atol=0.08)
+    result = shares(points, function(points))
+    assert result is not None
+    assert np.allclose(result, expected, atol=0.08)
 
 
 def test_a_constant_has_no_shares() -> None:
@@ -157,9 +157,9 @@ def test_the_search_finds_a_corner_that_no_sample_holds() -> None:
     def missing(x: np.ndarray) -> np.ndarray:
         return (3.0 - x.sum(axis=1))[:, None]
 
-    found = approach(points, missing(points), missing, lambda seen: np.array([False]), seed=1)
+    result = approach(points, missing(points), missing, lambda seen: np.array([False]), seed=1)
     assert missing(points).min() > 0.1
-    assert missing(found).min() < 1e-3
+    assert missing(result).min() < 1e-3
 
 
 def test_halving_closes_in_on_a_root_and_on_a_jump() -> None:
@@ -186,9 +186,9 @@ def test_figures_print_the_torques_that_the_proof_holds_against_table_2() -> Non
 
 @pytest.fixture(scope="module")
 def small() -> Study:
-    found = study([SETS["tau_m1"], SETS["tau_pd"]], ARM, spread=64, corners=64, seed=4)
-    assert found is not None
-    return found
+    result = study([SETS["tau_m1"], SETS["tau_pd"]], ARM, spread=64, corners=64, seed=4)
+    assert result is not None
+    return result
 
 
 def arm_at(at: tuple[float, ...]) -> RobotModel:
@@ -207,16 +207,16 @@ def arm_at(at: tuple[float, ...]) -> RobotModel:
 
 @pytest.mark.slow
 def test_an_arm_that_explains_a_print_does_so_in_the_other_simulator(small: Study) -> None:
-    for found in small.sets:
-        index = found.numbers[0]
+    for result in small.sets:
+        index = result.numbers[0]
         assert index.answer is Answer.YES
         assert index.at is not None
-        other = experiment(SETS[found.name], arm_at(index.at), PAPER_TASK.q_d)
+        other = experiment(SETS[result.name], arm_at(index.at), PAPER_TASK.q_d)
         assert pytest.approx(index.printed.value, abs=0.1) == other.L2
 
 
 def test_spreads_hold_the_nominal_value_and_single_changes(small: Study) -> None:
-    for number in (number for found in small.sets for number in found.numbers):
+    for number in (number for result in small.sets for number in result.numbers):
         ends = [x for pair in number.alone for x in pair if x is not None]
         if number.low is not None and number.high is not None:
             assert all(number.low <= x <= number.high for x in ends)
@@ -224,7 +224,7 @@ def test_spreads_hold_the_nominal_value_and_single_changes(small: Study) -> None
 
 
 def test_no_arm_has_a_part_in_the_torque_at_the_start(small: Study) -> None:
-    torques = [n for found in small.sets for n in found.numbers if n.printed.quantity == "start_torque"]
+    torques = [n for result in small.sets for n in result.numbers if n.printed.quantity == "start_torque"]
     assert len(torques) == 6
     for number in torques:
         assert number.answer is Answer.NO_PART

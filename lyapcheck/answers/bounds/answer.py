@@ -58,14 +58,14 @@ class Comparisons(Answer):
 
     def document(self) -> Document:
         """The times of all gain sets, then the errors of each, joint by joint."""
-        behind = (Section(found.settling.name, tuple(_behind(found))) for found in self.results)
-        assumed = dict.fromkeys(text for found in self.results for text in found.assumptions)
+        behind = (Section(result.settling.name, tuple(_behind(result))) for result in self.results)
+        assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
         notes = (*LEGEND, *(f"{text}." for text in assumed))
         return Document(title(self.results), (_times(self.results), *behind), notes)
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, robot, settling, disturbance, simulated, …}]``."""
-        return {"results": [comparison_data(found) for found in self.results]}
+        return {"results": [comparison_data(result) for result in self.results]}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a gain set, without the envelopes and what the statements say."""
@@ -84,14 +84,14 @@ class Comparisons(Answer):
 
     def annotations(self) -> list[Annotation]:
         """Two cases a gain set: its settling time, and what disturbances leave."""
-        return [one for found in self.results for one in self._judged(found)]
+        return [one for result in self.results for one in self._judged(result)]
 
-    def _judged(self, found: Comparison) -> list[Annotation]:
-        place = gain_place(self.file, found.gains)._asdict()
-        about = partial(Annotation, group=found.settling.name, **place)
+    def _judged(self, result: Comparison) -> list[Annotation]:
+        place = gain_place(self.file, result.gains)._asdict()
+        about = partial(Annotation, group=result.settling.name, **place)
         judged: list[tuple[str, str, MotionBound]] = [
-            ("settling", "settling time", found.settling),
-            ("disturbed", "disturbed errors", found.disturbance),
+            ("settling", "settling time", result.settling),
+            ("disturbed", "disturbed errors", result.disturbance),
         ]
         cases = [
             about(
@@ -103,7 +103,7 @@ class Comparisons(Answer):
             )
             for rule, case, bound in judged
         ]
-        if found.settling.time is not None and not found.settling.exponential:
+        if result.settling.time is not None and not result.settling.exponential:
             rule, case = "no-rate", "settling time"
             cases.append(about(level=Level.REMARK, rule=rule, rule_text=RULES[rule], case=case, message=FLAT))
         return cases
@@ -111,61 +111,62 @@ class Comparisons(Answer):
 
 def _times(results: Sequence[Comparison]) -> Table:
     """When the errors are small for good, if nothing acts."""
-    angles = ", ".join(dict.fromkeys(angle_text(found.settling.delta) for found in results))
+    angles = ", ".join(dict.fromkeys(angle_text(result.settling.delta) for result in results))
     rows = [
-        (found.settling.name, seconds_up(found.settling.time), simulated_time(found)) for found in results
+        (result.settling.name, seconds_up(result.settling.time), simulated_time(result)) for result in results
     ]
     return Table(("gains", "certified", "simulated"), tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
 
 
-def _behind(found: Comparison) -> list[Table | Bullets]:
+def _behind(result: Comparison) -> list[Table | Bullets]:
     """The errors of a gain set, and what its bounds rest on or why there are none."""
-    settling, left = found.settling, found.disturbance
+    settling, left = result.settling, result.disturbance
     said = []
     for name, bound in (("settling time", settling), ("disturbed errors", left)):
         if bound.time is None:
             said.append(f"no certified {name}: {bound.reason}.")
-        elif bound.rests_on is not None and (bound is settling or _acting(found)):
+        elif bound.rests_on is not None and (bound is settling or _acting(result)):
             said.append(f"{name} proved by {provenance_text(bound.rests_on)}.")
     if settling.time is not None and not settling.exponential:
         said.append(f"{FLAT}.")
-    return [*_errors(found), Bullets(tuple(said))]
+    return [*_errors(result), Bullets(tuple(said))]
 
 
-def _errors(found: Comparison) -> list[Table]:
+def _errors(result: Comparison) -> list[Table]:
     """The largest error of each joint; no table where nothing is known."""
-    left, n = found.disturbance, len(found.joints)
+    left, n = result.disturbance, len(result.joints)
     columns: list[tuple[str, Sequence[str]]] = []
-    if found.settling.largest_errors:
-        columns.append(("on the way", list(map(angle_up, found.settling.largest_errors))))
-    acting = _acting(found)
+    if result.settling.largest_errors:
+        columns.append(("on the way", list(map(angle_up, result.settling.largest_errors))))
+    acting = _acting(result)
     columns += [(f"{name} N·m", [f"{float(x):g}" for x in values]) for name, values in acting.items()]
     if acting:
         columns += [
             ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
-            ("disturbed, simulated", list(map(angle_up, found.simulated_errors))),
+            ("disturbed, simulated", list(map(angle_up, result.simulated_errors))),
         ]
         if left.resting is not None:
             columns.append(("at rest, certified", list(map(angle_up, left.rest))))
     if not columns:
         return []
-    rows = zip(found.joints, *(cells for _, cells in columns), strict=True)
-    return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(found))]
+    rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
+    return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(result))]
 
 
-def _caption(found: Comparison) -> str:
+def _caption(result: Comparison) -> str:
     """What the errors are, and from when on."""
-    if not _acting(found):
+    if not _acting(result):
         return "Largest |e_i|:"
-    acting = " and ".join(f"{name} of any sign" if name == TORQUE else name for name in _acting(found))
-    time = found.disturbance.time
+    acting = " and ".join(f"{name} of any sign" if name == TORQUE else name for name in _acting(result))
+    time = result.disturbance.time
     since = "" if time is None else f"certified from {seconds_up(time)} on, "
     return (
-        f"Largest |e_i|; disturbed, under {acting}: {since}simulated in the last tenth of {found.task.T:g} s."
+        f"Largest |e_i|; disturbed, under {acting}: {since}simulated in the last tenth "
+        f"of {result.task.T:g} s."
     )
 
 
-def _acting(found: Comparison) -> dict[str, tuple[Fraction, ...]]:
+def _acting(result: Comparison) -> dict[str, tuple[Fraction, ...]]:
     """What disturbs, joint by joint."""
-    both = {TORQUE: found.disturbance.torque, "dry friction": found.disturbance.dry}
+    both = {TORQUE: result.disturbance.torque, "dry friction": result.disturbance.dry}
     return {name: values for name, values in both.items() if any(values)}

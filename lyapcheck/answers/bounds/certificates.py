@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 PROOF = "bounds"
 
 
-def certificates(found: Comparison) -> dict[str, Certificate]:
+def certificates(result: Comparison) -> dict[str, Certificate]:
     """Certificates by file name; what nothing was accepted of has none."""
-    settling, left = found.settling, found.disturbance
+    settling, left = result.settling, result.disturbance
     made: dict[str, tuple[str, Statement, Proof]] = {}
     if settling.shown is not None:
         says = f"every |e_i| comes below {float(settling.delta):.6g} rad for good"
@@ -29,13 +29,13 @@ def certificates(found: Comparison) -> dict[str, Certificate]:
     if left.resting is not None:
         made["resting"] = "how far from the goal it can rest", left.resting, AT_REST
     return {
-        f"{file_stem(settling.name)}.{kind}.json": _certificate(found, kind, *parts)
+        f"{file_stem(settling.name)}.{kind}.json": _certificate(result, kind, *parts)
         for kind, parts in made.items()
     }
 
 
-def _certificate(found: Comparison, kind: str, says: str, statement: Statement, proof: Proof) -> Certificate:
-    bound, n = found.settling, len(found.task.q_d)
+def _certificate(result: Comparison, kind: str, says: str, statement: Statement, proof: Proof) -> Certificate:
+    bound, n = result.settling, len(result.task.q_d)
     about = About(f"{bound.name}.{kind}", f"{says}: {bound.name} on {bound.robot}", bound.m, n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
     return Certificate(about, statement, "proved", "enclosure", proof, {}, used)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay import disturbance_bound, settling_bound
-from lyapcheck.search.setting import Setting
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
@@ -76,29 +76,29 @@ def compare(
         jobs: processes for the checker.
         on_progress: told the share done.
     """
-    tell = on_progress or (lambda fraction, note: None)
-    setting = Setting(gain_set, model)
+    progress = on_progress or (lambda fraction, note: None)
+    controlled = ControlledArm(gain_set, model)
     friction = coulomb(model) if dry is None else tuple(dry)
     settling = settling_bound(
-        setting,
+        controlled,
         task.step,
         task.w0,
         delta,
         max_boxes=max_boxes,
         jobs=jobs,
-        on_progress=lambda f, note: tell(0.45 * f, note),
+        on_progress=lambda f, note: progress(0.45 * f, note),
     )
     left = disturbance_bound(
-        setting,
+        controlled,
         task.step,
         task.w0,
         torque,
         friction,
         max_boxes=max_boxes,
         jobs=jobs,
-        on_progress=lambda f, note: tell(0.45 + 0.45 * f, note),
+        on_progress=lambda f, note: progress(0.45 + 0.45 * f, note),
     )
-    tell(0.9, "simulation")
+    progress(0.9, "simulation")
     calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T)
     pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
     return Comparison(

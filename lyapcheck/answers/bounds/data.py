@@ -15,22 +15,22 @@ if TYPE_CHECKING:
     from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
 
 
-def comparison_data(found: Comparison) -> dict[str, Any]:
+def comparison_data(result: Comparison) -> dict[str, Any]:
     """One gain set; angles in degrees, rounded up."""
-    task = found.task
+    task = result.task
     return {
-        "name": found.settling.name,
-        "robot": found.settling.robot,
+        "name": result.settling.name,
+        "robot": result.settling.robot,
         "target": [_degrees(x) for x in task.q_d],
         "start": [_degrees(x) for x in task.q0],
-        "settling": _settling(found.settling),
-        "disturbance": _disturbance(found.disturbance),
+        "settling": _settling(result.settling),
+        "disturbance": _disturbance(result.disturbance),
         "simulated": {
             "duration": task.T,
-            "time": found.simulated_time,
-            "errors": [_degrees(x) for x in found.simulated_errors],
+            "time": result.simulated_time,
+            "errors": [_degrees(x) for x in result.simulated_errors],
         },
-        "assumptions": list(found.assumptions),
+        "assumptions": list(result.assumptions),
     }
 
 
@@ -69,14 +69,14 @@ def _text(statement: Statement | None) -> str | None:
     return None if statement is None else statement.text()
 
 
-def _provenance(found: Provenance | None) -> dict[str, Any] | None:
-    if found is None:
+def _provenance(result: Provenance | None) -> dict[str, Any] | None:
+    if result is None:
         return None
-    shares = {"friction_share": found.friction, "stiffness_share": found.stiffness}
-    numbers = {"eps0": found.eps0, **shares}
+    shares = {"friction_share": result.friction, "stiffness_share": result.stiffness}
+    numbers = {"eps0": result.eps0, **shares}
     return {
-        "by": found.by,
-        "boxes": found.boxes,
+        "by": result.by,
+        "boxes": result.boxes,
         **{name: decimal_text(value) for name, value in numbers.items()},
     }
 

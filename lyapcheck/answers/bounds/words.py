@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 def title(results: Sequence[Comparison]) -> str:
     """Whether all bounds are certified."""
-    robots = ", ".join(dict.fromkeys(found.settling.robot for found in results))
-    whole = sum(found.certified for found in results)
+    robots = ", ".join(dict.fromkeys(result.settling.robot for result in results))
+    whole = sum(result.certified for result in results)
     if len(results) == 1:
         return _one(results[0])
     if whole == len(results) > 0:
@@ -25,14 +25,14 @@ def title(results: Sequence[Comparison]) -> str:
     return f"? the bounds of {whole} of {len(results)} gain sets are certified on {robots or 'no arm'}"
 
 
-def _one(found: Comparison) -> str:
-    bound = found.settling
-    mark = "✓" if found.certified else "?"
+def _one(result: Comparison) -> str:
+    bound = result.settling
+    mark = "✓" if result.certified else "?"
     about = f"{mark} {bound.name} on {bound.robot}:"
     if bound.time is None:
         return f"{about} no settling time is certified"
     within = f"every |e_i| ≤ {angle_text(bound.delta)} for good within {seconds_up(bound.time)}"
-    if found.certified:
+    if result.certified:
         return f"{about} {within}, certified"
     return f"{about} {within} is certified, what disturbances leave is not"
 
@@ -42,11 +42,11 @@ def seconds_up(value: Fraction | None) -> str:
     return "—" if value is None else f"{_up(Enclosure(value, value).float_upper)} s"
 
 
-def simulated_time(found: Comparison) -> str:
+def simulated_time(result: Comparison) -> str:
     """When the run came to stay within δ."""
-    if found.simulated_time is None:
-        return f"not within {found.task.T:g} s"
-    return f"{found.simulated_time:.3g} s"
+    if result.simulated_time is None:
+        return f"not within {result.task.T:g} s"
+    return f"{result.simulated_time:.3g} s"
 
 
 def angle_text(value: Fraction | float) -> str:
@@ -59,11 +59,11 @@ def angle_up(value: Fraction | float | None) -> str:
     return "∞" if value is None else f"{_up(math.degrees(value))}°"
 
 
-def provenance_text(found: Provenance) -> str:
+def provenance_text(result: Provenance) -> str:
     """What a bound rests on."""
-    shares = f"{float(found.friction):.0%} of B and {float(found.stiffness):.0%} of K_p"
-    boxes = "box" if found.boxes == 1 else "boxes"
-    return f"{found.by} ({found.boxes} {boxes}), ε₀ = {float(found.eps0):g}, doing without {shares}"
+    shares = f"{float(result.friction):.0%} of B and {float(result.stiffness):.0%} of K_p"
+    boxes = "box" if result.boxes == 1 else "boxes"
+    return f"{result.by} ({result.boxes} {boxes}), ε₀ = {float(result.eps0):g}, doing without {shares}"
 
 
 def _up(value: float) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import to_json
-from lyapcheck.check.finding import shortened
+from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
 
 if TYPE_CHECKING:

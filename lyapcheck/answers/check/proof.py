@@ -111,9 +111,9 @@ class ProofResult(Answer):
 
     def _title(self) -> str:
         """The sign of the worst verdict, and how many claims have which."""
-        found = {verdict: self.counts()[verdict] for verdict in ORDER}
-        worst = next((verdict for verdict in ORDER if found[verdict]), Verdict.UNDECIDED)
-        tally = ", ".join(f"{count} {verdict}" for verdict, count in found.items() if count)
+        result = {verdict: self.counts()[verdict] for verdict in ORDER}
+        worst = next((verdict for verdict in ORDER if result[verdict]), Verdict.UNDECIDED)
+        tally = ", ".join(f"{count} {verdict}" for verdict, count in result.items() if count)
         return f"{worst.sign} {tally or 'no claims'}: {self.title or self.name}"
 
     def _run(self) -> str:
@@ -123,9 +123,9 @@ class ProofResult(Answer):
     def _index(self) -> Iterator[Table]:
         """What is not proved, in a few lines; nothing where that is one claim at most."""
         rows = [
-            (verdict.value, str(len(found)), _ids(found))
+            (verdict.value, str(len(result)), _ids(result))
             for verdict in ORDER
-            if verdict is not Verdict.PROVED and (found := self._with(verdict))
+            if verdict is not Verdict.PROVED and (result := self._with(verdict))
         ]
         if sum(int(count) for _, count, _ in rows) > 1:
             yield Table(("verdict", "count", "claims"), tuple(rows), align="lrl")
@@ -159,10 +159,10 @@ class ProofResult(Answer):
 
 def _ids(rows: Sequence[ClaimResult]) -> str:
     """The claims by their ids, each with all its m."""
-    found: dict[str, list[str]] = {}
+    result: dict[str, list[str]] = {}
     for row in rows:
-        found.setdefault(row.id, []).extend([] if row.m is None else [str(row.m)])
-    return ", ".join(f"{name} (m = {', '.join(ms)})" if ms else name for name, ms in found.items())
+        result.setdefault(row.id, []).extend([] if row.m is None else [str(row.m)])
+    return ", ".join(f"{name} (m = {', '.join(ms)})" if ms else name for name, ms in result.items())
 
 
 def _table(rows: Sequence[ClaimResult], timings: bool) -> Table:
@@ -188,8 +188,8 @@ def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
     support = [row.support for row in rows]
     methods = [f"method: {row.decision.method}" for row in rows]
     same = len(set(methods)) == 1
-    common = [text for text in support[0] if all(text in found for found in support)]
-    for row, found, method in zip(rows, support, methods, strict=True):
+    common = [text for text in support[0] if all(text in result for result in support)]
+    for row, result, method in zip(rows, support, methods, strict=True):
         yield {
             "": row.verdict.sign,
             "claim": row.id,
@@ -198,7 +198,7 @@ def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
             "seconds": f"{row.seconds:.2f}",
             "statement": row.statement,
         }
-        own = [*(text for text in found if text not in common), *([] if same else [method])]
+        own = [*(text for text in result if text not in common), *([] if same else [method])]
         yield from ({"statement": text} for text in own)
     last = [*common, rows[0].words, *(methods[:1] if same else [])]
     yield from ({"statement": text} for text in last)

@@ -27,11 +27,11 @@ def annotations_of(result: EpsilonResult, file: GainFile | None) -> list[Annotat
     about = partial(Annotation, group=result.name, **gain_place(file, result.gains)._asdict())
     level = Level.UNDECIDED if result.certified is None else Level.PASSED
     message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.certified is None else ""
-    found = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]
+    outcome = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]
     said = {} if result.witness is None else {FALSIFIED: f"falsified {witness_text(result.witness)}"}
     said |= {rule: text for rule, text in FINDINGS.items() if text in result.findings}
-    found += [
+    outcome += [
         about(level=Level.REMARK, rule=rule, rule_text=RULES[rule], case="ε₀", message=text)
         for rule, text in said.items()
     ]
-    return found
+    return outcome

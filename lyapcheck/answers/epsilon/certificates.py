@@ -13,44 +13,44 @@ from lyapcheck.files.names import file_stem
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
-    from lyapcheck.check.loop import Closure
+    from lyapcheck.check.loop import ClosedLoop
 
 PROOF = "epsilon"
 
 
 def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     """Certificates by file name: of each ε₀ that is called certified, of the scalar one if it has one."""
-    stem, found = file_stem(result.name), {}
+    stem, outcome = file_stem(result.name), {}
     if result.proof is not None:
-        found[f"{stem}.certified.json"] = _certificate(
-            result, result.proof.closure, "proved", result.proof.certificate
+        outcome[f"{stem}.certified.json"] = _certificate(
+            result, result.proof.loop, "proved", result.proof.certificate
         )
     if result.scalar_proof is not None:
         proof = result.scalar_proof
-        found[f"{stem}.scalar.json"] = _certificate(
-            result, proof.closure, "proved", proof.certificate, "scalar"
+        outcome[f"{stem}.scalar.json"] = _certificate(
+            result, proof.loop, "proved", proof.certificate, "scalar"
         )
     if result.weighted is not None:
         proof = result.weighted.proof
-        found[f"{stem}.weighted.json"] = _certificate(result, proof.closure, "proved", proof.certificate)
+        outcome[f"{stem}.weighted.json"] = _certificate(result, proof.loop, "proved", proof.certificate)
     if result.witness is not None and result.against is not None:
         state, against = result.witness.state, result.against
         proof_against = StateWitness(against.viscous, against.parameters, state.q, state.e, state.w)
-        found[f"{stem}.falsified.json"] = _certificate(result, against.closure, "refuted", proof_against)
-    return found
+        outcome[f"{stem}.falsified.json"] = _certificate(result, against.loop, "refuted", proof_against)
+    return outcome
 
 
 def _certificate(
-    result: EpsilonResult, closure: Closure, verdict: str, proof: Proof, kind: str = ""
+    result: EpsilonResult, loop: ClosedLoop, verdict: str, proof: Proof, kind: str = ""
 ) -> Certificate:
     arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
     says = (
         f"dV/dt < 0 at every state but the origin: {result.name} on {result.robot}, "
-        f"{arms}, ε₀ = {decimal_text(closure.eps0)}"
+        f"{arms}, ε₀ = {decimal_text(loop.eps0)}"
     )
-    weights = ", ".join(decimal_text(scale) for scale in closure.coupling)
+    weights = ", ".join(decimal_text(scale) for scale in loop.coupling)
     says += f", Λ = diag({weights})" if weights else ""
     kind = kind or ("weighted" if weights else verdict)
-    about = About(f"{result.name}.{kind}", says, result.m, closure.n, PROOF)
+    about = About(f"{result.name}.{kind}", says, result.m, loop.n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}
-    return Certificate(about, statement_of(closure), verdict, "enclosure", proof, {}, used)
+    return Certificate(about, statement_of(loop), verdict, "enclosure", proof, {}, used)

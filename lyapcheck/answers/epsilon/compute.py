@@ -22,6 +22,7 @@ from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import STARTS, Witness, falsify
 from lyapcheck.search.norms import norm_epsilon
@@ -29,7 +30,6 @@ from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
-from lyapcheck.search.setting import Setting
 from lyapcheck.search.weights import weighted_epsilon
 
 if TYPE_CHECKING:
@@ -74,40 +74,40 @@ def epsilon(
     Soundness: ``certified`` rests on ``proof``, which ``lyapcheck.check.verify`` accepted, ``falsified`` on
         the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
-    tell = on_progress or (lambda fraction, note: None)
-    setting, reasons = Setting(gain_set, model, ranges), {}
-    at, witness = _falsified(setting, starts, seed, lambda f, note: tell(0.3 * f, note))
+    progress = on_progress or (lambda fraction, note: None)
+    controlled, reasons = ControlledArm(gain_set, model, ranges), {}
+    at, witness = _falsified(controlled, starts, seed, lambda f, note: progress(0.3 * f, note))
     if witness is None:
         reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
-    tell(0.3, "scalar form")
-    bounds, constants = robot_bounds(model), setting.family.constants()
+    progress(0.3, "scalar form")
+    bounds, constants = robot_bounds(model), controlled.family.constants()
     published, reasons["published"] = _published(gain_set, constants, bounds)
     # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
     sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds))
-    scalar = _scalar(setting, bounds) or sharp
+    scalar = _scalar(controlled, bounds) or sharp
     reasons["scalar"] = scalar.reason
     hint = None if witness is None else witness.eps0
     looked_at, by = 0, ""
     proof: Proof | None = None
     scalar_proof: Proof | None = None
-    reasons["certified"] = unphysical(setting)
+    reasons["certified"] = unphysical(controlled)
     if not reasons["certified"]:
-        found = certified_epsilon(
-            setting,
+        result = certified_epsilon(
+            controlled,
             hint or 10 * (scalar.eps0 or Fraction(1)),
             max_boxes,
             jobs,
             seconds,
-            lambda f, note: tell(0.35 + (0.55 if weights else 0.65) * f, note),
+            lambda f, note: progress(0.35 + (0.55 if weights else 0.65) * f, note),
         )
-        looked_at = found.looked_at
-        proof, by, reasons["certified"] = _best(setting, found)
-        scalar_proof = _proof_of(setting, scalar.eps0)
-    certified = None if proof is None else proof.closure.eps0
+        looked_at = result.looked_at
+        proof, by, reasons["certified"] = _best(controlled, result)
+        scalar_proof = _proof_of(controlled, scalar.eps0)
+    certified = None if proof is None else proof.loop.eps0
     weighted = None
-    if weights and certified is not None and setting.family.bounded:
+    if weights and certified is not None and controlled.family.bounded:
         weighted = weighted_epsilon(
-            setting, certified, max_boxes, jobs, on_progress=lambda f, note: tell(0.9 + 0.1 * f, note)
+            controlled, certified, max_boxes, jobs, on_progress=lambda f, note: progress(0.9 + 0.1 * f, note)
         )
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
     require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
@@ -123,7 +123,7 @@ def epsilon(
         proof=proof,
         scalar_proof=scalar_proof,
         weighted=weighted,
-        against=_refutation(setting, at, witness),
+        against=_refutation(controlled, at, witness),
         ranges=ranges,
         corner=_corner(at) if ranges else {},
         certified_by=by,
@@ -134,57 +134,59 @@ def epsilon(
     )
 
 
-def _falsified(setting: Setting, starts: int, seed: int, tell: Progress) -> tuple[Setting, Witness | None]:
+def _falsified(
+    controlled: ControlledArm, starts: int, seed: int, progress: Progress
+) -> tuple[ControlledArm, Witness | None]:
     """The witness, and the arm it is about."""
-    if setting.ranges:
-        return falsify_corners(setting, starts, seed, tell)
-    return setting, falsify(setting, starts, seed=seed, on_progress=tell)
+    if controlled.ranges:
+        return falsify_corners(controlled, starts, seed, progress)
+    return controlled, falsify(controlled, starts, seed=seed, on_progress=progress)
 
 
-def _best(setting: Setting, found: Certified) -> tuple[Proof | None, str, str]:
+def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, str, str]:
     """The proof of the larger ε₀, what it is called, and what more could be tried."""
-    if found.proof is not None:
-        return found.proof, "branch and bound", found.reason
-    norm, reason = norm_epsilon(setting)
+    if result.proof is not None:
+        return result.proof, "branch and bound", result.reason
+    norm, reason = norm_epsilon(controlled)
     if norm is None:
         return None, "", reason
-    radial = radial_epsilon(setting)
-    if radial is not None and radial.closure.eps0 > norm.closure.eps0:
-        return radial, "bounds in ‖e‖ alone", found.reason
-    return norm, "norms alone", found.reason
+    radial = radial_epsilon(controlled)
+    if radial is not None and radial.loop.eps0 > norm.loop.eps0:
+        return radial, "bounds in ‖e‖ alone", result.reason
+    return norm, "norms alone", result.reason
 
 
-def _proof_of(setting: Setting, eps0: Fraction | None) -> Proof | None:
+def _proof_of(controlled: ControlledArm, eps0: Fraction | None) -> Proof | None:
     """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
-    if eps0 is None or not setting.family.bounded:
+    if eps0 is None or not controlled.family.bounded:
         return None
-    proof = Proof(setting.closure(eps0), BoxTree("."), setting.inertia_proof)
-    return proof if certifies(proof.closure.tail, eps0) and proof.accepted() else None
+    proof = Proof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
+    return proof if certifies(proof.loop.tail, eps0) and proof.accepted() else None
 
 
-def _refutation(setting: Setting, at: Setting, witness: Witness | None) -> Refutation | None:
+def _refutation(controlled: ControlledArm, at: ControlledArm, witness: Witness | None) -> Refutation | None:
     """What the witness refutes; ``None`` for an unbounded h, of which there are no such certificates."""
-    if witness is None or not setting.family.bounded:
+    if witness is None or not controlled.family.bounded:
         return None
-    values = tuple(number.value for number in at.model.parameters.values()) if setting.ranges else ()
-    return Refutation(setting.closure(witness.eps0), at.arm.viscous, values)
+    values = tuple(number.value for number in at.model.parameters.values()) if controlled.ranges else ()
+    return Refutation(controlled.loop(witness.eps0), at.arm.viscous, values)
 
 
-def _scalar(setting: Setting, bounds: RobotBounds) -> ScalarResult | None:
+def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | None:
     """The scalar form of what the setting is about; ``None`` where h is unbounded."""
-    if not setting.family.bounded:
+    if not controlled.family.bounded:
         return None
-    if setting.ranges:
-        return scalar_epsilon(setting.closure(Fraction(1)).tail)
-    form = scalar_form(setting.gains, setting.family.constants(), bounds)
+    if controlled.ranges:
+        return scalar_epsilon(controlled.loop(Fraction(1)).tail)
+    form = scalar_form(controlled.gains, controlled.family.constants(), bounds)
     return None if form is None else scalar_epsilon(form)
 
 
-def _corner(setting: Setting) -> dict[str, Fraction]:
+def _corner(controlled: ControlledArm) -> dict[str, Fraction]:
     """The values of everything about the arm that has a range."""
-    joints = zip(setting.model.joints, setting.model.viscous, strict=True)
+    joints = zip(controlled.model.joints, controlled.model.viscous, strict=True)
     friction = {f"viscous friction of {joint}": number for joint, number in joints}
-    numbers = {**setting.model.parameters, **friction}
+    numbers = {**controlled.model.parameters, **friction}
     return {name: number.value for name, number in numbers.items() if number.ranged}
 
 

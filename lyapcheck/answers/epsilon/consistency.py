@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.loop.states import confirms_positive
 
 if TYPE_CHECKING:
+    from lyapcheck.search.controlled_arm import ControlledArm
     from lyapcheck.search.falsify import Witness
-    from lyapcheck.search.setting import Setting
 
 
 FINDINGS: Mapping[str, str] = {
@@ -33,27 +33,27 @@ class Contradiction(RuntimeError):
 
 
 def require_consistent(
-    setting: Setting, witness: Witness | None, claimed: Mapping[str, Fraction | None]
+    controlled: ControlledArm, witness: Witness | None, claimed: Mapping[str, Fraction | None]
 ) -> None:
     """Raise `Contradiction` if the witness has dV/dt > 0 at an ε₀ that is claimed to be certified."""
     for name, eps0 in claimed.items():
         if witness is None or eps0 is None:
             continue
-        if confirms_positive(setting.arm, setting.controller, eps0, witness.state):
+        if confirms_positive(controlled.arm, controlled.controller, eps0, witness.state):
             raise Contradiction(
-                f"{setting.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
+                f"{controlled.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
             )
         if name == "scalar" and eps0 >= witness.eps0:
-            raise Contradiction(f"{setting.gains.name}: the scalar ε₀ is not below a falsified one")
+            raise Contradiction(f"{controlled.gains.name}: the scalar ε₀ is not below a falsified one")
 
 
 def findings(published: Fraction | None, certified: Fraction | None, witness: Witness | None) -> list[str]:
     """What the numbers say about each other, one sentence each."""
-    found = []
+    result = []
     if published is not None and witness is not None and witness.eps0 < published:
-        found.append("published-refuted")
+        result.append("published-refuted")
     if published is not None and certified is not None and published <= certified:
-        found.append("published-certified")
+        result.append("published-certified")
     if certified is not None and witness is not None and certified > witness.eps0:
-        found.append("no-interval")
-    return [FINDINGS[rule] for rule in found]
+        result.append("no-interval")
+    return [FINDINGS[rule] for rule in result]

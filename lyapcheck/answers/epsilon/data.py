@@ -37,10 +37,10 @@ def result_data(result: EpsilonResult) -> dict[str, Any]:
 
 
 def _weighted(weighted: Weighted) -> dict[str, Any]:
-    closure = weighted.proof.closure
+    loop = weighted.proof.loop
     return {
-        "eps0": exact(closure.eps0),
-        "lambda": [exact(scale) for scale in closure.Lambda],
+        "eps0": exact(loop.eps0),
+        "lambda": [exact(scale) for scale in loop.Lambda],
         "eps0_lambda": [exact(value) for value in weighted.products],
         "boxes": weighted.proof.boxes,
         "states": weighted.states,

@@ -14,7 +14,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
-    from lyapcheck.check.loop import Closure
+    from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.output.annotations import Annotation
     from lyapcheck.search.falsify import Witness
@@ -31,7 +31,7 @@ PARTS = ("witness", "weighted")
 class Refutation:
     """The closure that a witness refutes, and the values of what is uncertain at the arm it is a state of."""
 
-    closure: Closure
+    loop: ClosedLoop
     viscous: tuple[Fraction, ...]
     parameters: tuple[Fraction, ...]
 

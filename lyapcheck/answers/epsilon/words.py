@@ -51,12 +51,12 @@ def number_cell(result: EpsilonResult, kind: str) -> str:
 def title(results: Sequence[EpsilonResult]) -> str:
     """Whether every gain set has a certified ε₀."""
     robots = ", ".join(dict.fromkeys(result.robot for result in results))
-    found = sum(result.certified is not None for result in results)
+    outcome = sum(result.certified is not None for result in results)
     if len(results) == 1:
         return f"{_one(results[0])} on {robots}"
-    if found == len(results) > 0:
-        return f"✓ all {found} gain sets have a certified ε₀ on {robots}"
-    return f"? {found} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
+    if outcome == len(results) > 0:
+        return f"✓ all {outcome} gain sets have a certified ε₀ on {robots}"
+    return f"? {outcome} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
 
 
 def _one(result: EpsilonResult) -> str:

@@ -44,10 +44,10 @@ class GateAnswer(tuple[GateResult, ...], Answer):
     @property
     def exit_code(self) -> Exit:
         """1 if any set is rejected, else 3 if any is undecided, else 0; strictly, undecided leads to 1."""
-        found = {REJECTED if any(map(one.failed, one.failures)) else one.verdict for one in self}
-        if REJECTED in found:
+        result = {REJECTED if any(map(one.failed, one.failures)) else one.verdict for one in self}
+        if REJECTED in result:
             return Exit.REFUTED
-        return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
+        return Exit.UNDECIDED if UNDECIDED in result or not result else Exit.PROVED
 
     def document(self) -> Document:
         """How many sets got which verdict; a section a set."""

@@ -67,7 +67,7 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
     if not any(friction):
         return []
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    found = [
+    result = [
         f"γ k_p of {model.joints[i]} does not exceed its dry friction of {decimal_text(friction[i])} N·m"
         f"{assumed}: the joint rests wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
         for i in stuck
@@ -79,8 +79,8 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
         if f and e is not None
     ]
     if far:
-        found.append(f"dry friction{assumed} may leave, at most: {', '.join(far)} from the goal")
-    return found
+        result.append(f"dry friction{assumed} may leave, at most: {', '.join(far)} from the goal")
+    return result
 
 
 def rest_errors(gains: GainSet, model: RobotModel) -> list[float | None]:

@@ -60,29 +60,31 @@ def certificates(results: Sequence[GateResult]) -> Certified:
         for check in (*result.checks, *(() if result.otherwise is None else (result.otherwise,))):
             entering = gravity if check.id == "10" else gravity[check.joint or 0 :][:1]
             used = [one for one in entering if one is not None and check.id in ("10", "10p", "10i")]
-            found = _certificate(result, check, used)
-            if found is None:
+            outcome = _certificate(result, check, used)
+            if outcome is None:
                 continue
-            for one in used if found.uses else []:
+            for one in used if outcome.uses else []:
                 made.certificates[_file(one)] = one
-            if _file(found) in made.certificates:
+            if _file(outcome) in made.certificates:
                 raise argument_error(
                     "--certificates", result.name, "names gain sets of two files", "judge one file at a time"
                 )
-            made.certificates[_file(found)] = found
+            made.certificates[_file(outcome)] = outcome
     made.granted = list(dict.fromkeys(made.granted))
     return made
 
 
 def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) -> Certificate | None:
-    found = check.judgement
-    if found is None or found.proof is None:
+    outcome = check.judgement
+    if outcome is None or outcome.proof is None:
         return None
     parts = [result.name, check.id, *([] if check.joint is None else [joint_name(result, check)])]
     says = f"{result.name}, {joint_name(result, check)}: {RULES[check.id]}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
-    uses = {one.claim.id: one.digest for one in used} if found.shown == "proved" else {}
-    return Certificate(about, found.statement, found.shown, found.grade, found.proof, uses, _versions())
+    uses = {one.claim.id: one.digest for one in used} if outcome.shown == "proved" else {}
+    return Certificate(
+        about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses, _versions()
+    )
 
 
 @lru_cache(maxsize=16)
@@ -90,18 +92,18 @@ def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | No
     """A certificate of |g_i| ≤ k_gi for each joint; ``None`` where the checker is not shown it."""
     model = load(robot)
     ranges = tuple(number.bounds for number in model.parameters.values())
-    found: list[Certificate | None] = []
+    result: list[Certificate | None] = []
     for i, (torque, bound) in enumerate(zip(model.gravity, bounds, strict=True)):
         statement = GravityBelow(model.n, (tuple(to_terms(torque)),), ranges, bound)
         proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW else []))
         its = judged(statement, proofs)
         if its.proof is None or its.shown != "proved":
-            found.append(None)
+            result.append(None)
             continue
         says = f"{model.name}: |g_{i + 1}(q)| ≤ k_g{i + 1} = {decimal_text(bound)} N·m"
         about = About(f"{model.name}.k_g{i + 1}", says, None, model.n, PROOF)
-        found.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, _versions()))
-    return tuple(found)
+        result.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, _versions()))
+    return tuple(result)
 
 
 def _missing(gravity: Sequence[Certificate | None]) -> Iterator[int]:

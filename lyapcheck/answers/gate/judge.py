@@ -89,10 +89,10 @@ class GateResult:
 
     def verdict_of(self, conditions: Sequence[str]) -> str:
         """The verdict that some of the conditions give together."""
-        found = {check.verdict for check in self.checks if check.id in conditions}
-        if REJECTED in found:
+        result = {check.verdict for check in self.checks if check.id in conditions}
+        if REJECTED in result:
             return REJECTED
-        return UNDECIDED if UNDECIDED in found or not found else ACCEPTED
+        return UNDECIDED if UNDECIDED in result or not result else ACCEPTED
 
     def failed(self, check: Check) -> bool:
         """Whether a check counts as a failure, and not as a warning."""
@@ -128,19 +128,19 @@ def judged_sets(
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
         checks = (*conditions[key].all(gains, deciding), *certificates)
         explained = len(results) < MOST_EXPLAINED
-        found = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=explained)
-        results.append(_looked_into(found, gain_file.bounds.viscous_min) if explained else found)
+        result = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=explained)
+        results.append(_looked_into(result, gain_file.bounds.viscous_min) if explained else result)
     return results
 
 
-def _looked_into(found: GateResult, viscous_min: Fraction | None) -> GateResult:
+def _looked_into(result: GateResult, viscous_min: Fraction | None) -> GateResult:
     """The same, with a proof of stability where (19) fails and none was asked for."""
-    model = found.limits.model
-    if found.verdict_of(("19",)) != REJECTED or model is None or found.stable is not None:
-        return found
+    model = result.limits.model
+    if result.verdict_of(("19",)) != REJECTED or model is None or result.stable is not None:
+        return result
     from lyapcheck.answers.gate.otherwise import proved_otherwise
 
-    return replace(found, otherwise=proved_otherwise(found.gains, model, viscous_min, found.limits.varied))
+    return replace(result, otherwise=proved_otherwise(result.gains, model, viscous_min, result.limits.varied))
 
 
 def _require_known(deciding: Sequence[str]) -> None:

@@ -47,10 +47,10 @@ def proved_otherwise(
     if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > MOST_RANGED):
         return None
     arm = model if ranges else model.fixed()
-    found = _scalar(gains, arm, friction_of(model, viscous_min), ranges)
-    if found is None or found.verdict != ACCEPTED:
-        found = lasalle(arm)
-    return found if found.verdict == ACCEPTED else None
+    result = _scalar(gains, arm, friction_of(model, viscous_min), ranges)
+    if result is None or result.verdict != ACCEPTED:
+        result = lasalle(arm)
+    return result if result.verdict == ACCEPTED else None
 
 
 def unknown_function(gains: GainSet) -> str:
@@ -93,14 +93,14 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
     if not named(gains.family, gains.m).bounded:
         return None
     remember(arm)
-    closure = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
+    loop = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
     if friction is not None:
-        closure = replace(closure, viscous=friction)
-    proof, _ = norm_proof(closure, mass_proof(mass_of(arm)), conic=False)
+        loop = replace(loop, viscous=friction)
+    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)), conic=False)
     if proof is None:
         return None
-    found = judged(proof.statement, [proof.certificate])
-    return Check(SCALAR, None, found, proof.closure.eps0, None, None, found.reason)
+    result = judged(proof.statement, [proof.certificate])
+    return Check(SCALAR, None, result, proof.loop.eps0, None, None, result.reason)
 
 
 @lru_cache(maxsize=8)
@@ -111,5 +111,5 @@ def lasalle(arm: RobotModel) -> Check:
 
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
-    found = judged(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
-    return Check(LASALLE, None, found, None, None, None, found.reason)
+    result = judged(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
+    return Check(LASALLE, None, result, None, None, None, result.reason)

@@ -19,11 +19,11 @@ from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.radial import radial_epsilon
-from lyapcheck.search.setting import Setting
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
@@ -62,22 +62,22 @@ class Prover:
             return Check(name, None, None, None, None, None, _NO_ARM)
         if self.ranges and self.model.n > MOST_RANGED:
             return Check(name, None, None, None, None, None, _TOO_MANY)
-        setting = Setting(gains, self.model, self.ranges)
-        reason = unknown_function(gains) or self._unphysical(setting)
+        controlled = ControlledArm(gains, self.model, self.ranges)
+        reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None
         if not reason and name == LASALLE:
             return lasalle(self.model if self.ranges else self.model.fixed())
         if not reason:
             friction = friction_of(self.model, self.viscous_min)
             proof, reason = (
-                norm_epsilon(setting, friction)
+                norm_epsilon(controlled, friction)
                 if name == "scalar"
-                else self._global(setting, self.model.viscous)
+                else self._global(controlled, self.model.viscous)
             )
         if proof is None:
             return Check(name, None, None, None, None, None, reason)
-        found = judged(proof.statement, [proof.certificate])
-        return Check(name, None, found, proof.closure.eps0, None, None, found.reason)
+        result = judged(proof.statement, [proof.certificate])
+        return Check(name, None, result, proof.loop.eps0, None, None, result.reason)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -86,30 +86,30 @@ class Prover:
             return ()
         return (_RANGED if self.ranges else _NOMINAL, *self.model.assumptions)
 
-    def _unphysical(self, setting: Setting) -> str:
+    def _unphysical(self, controlled: ControlledArm) -> str:
         """Why there is nothing to prove on this arm, looked at once."""
         if self._fault is None:
-            self._fault = unphysical(setting)
+            self._fault = unphysical(controlled)
         return self._fault
 
     _fault: str | None = None
 
-    def _global(self, setting: Setting, viscous: Sequence[Number]) -> tuple[Proof | None, str]:
+    def _global(self, controlled: ControlledArm, viscous: Sequence[Number]) -> tuple[Proof | None, str]:
         if self.viscous_min not in (None, min(number.value for number in viscous)):
             return None, _OTHER_FRICTION
-        coarse, reason = norm_epsilon(setting)
+        coarse, reason = norm_epsilon(controlled)
         if coarse is None:
             return None, reason
-        return next(_proofs(setting, coarse), None), REFUSED
+        return next(_proofs(controlled, coarse), None), REFUSED
 
 
-def _proofs(setting: Setting, coarse: Proof) -> Iterator[Proof]:
+def _proofs(controlled: ControlledArm, coarse: Proof) -> Iterator[Proof]:
     """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
     for ceiling in CEILINGS:
-        found = certified_epsilon(setting, ceiling * coarse.closure.eps0, MAX_BOXES)
-        if found.proof is not None:
-            yield found.proof
-    radial = radial_epsilon(setting)
+        result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES)
+        if result.proof is not None:
+            yield result.proof
+    radial = radial_epsilon(controlled)
     if radial is not None:
         yield radial
     yield coarse

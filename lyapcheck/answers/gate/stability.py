@@ -29,14 +29,14 @@ def remarks(result: GateResult) -> list[str]:
     """What the conditions say about each other, and the bench about the gains, a sentence each."""
     damping, joints = result.verdict_of(("19",)), result.verdict_of(("10p",))
     missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
-    found = _without_19(result) if damping == REJECTED else []
+    outcome = _without_19(result) if damping == REJECTED else []
     if missing and result.verdict_of(("10p", "19")) == ACCEPTED:
-        found += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
+        outcome += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
     if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
-        found.append(_SINGLE.format(_flags(result, {"10p": "10i"})))
+        outcome.append(_SINGLE.format(_flags(result, {"10p": "10i"})))
     elif joints == REJECTED and result.stable is not None:
-        found.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
-    return [*found, *(at_the_bench(result) if result.explained else [])]
+        outcome.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
+    return [*outcome, *(at_the_bench(result) if result.explained else [])]
 
 
 def _without_19(result: GateResult) -> list[str]:
@@ -44,8 +44,8 @@ def _without_19(result: GateResult) -> list[str]:
     if known is not None:
         accepts = f"; {_flags(result, {'19': known.id})} accepts it" if "19" in result.deciding else ""
         where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
-        found = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}{accepts}"
-        return [found, _NO_FRICTION] if frictionless else [found]
+        outcome = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}{accepts}"
+        return [outcome, _NO_FRICTION] if frictionless else [outcome]
     if not result.limits.robot:
         return [_NO_ARM]
     if frictionless:

@@ -124,5 +124,9 @@ def _repair(result: GateResult, check: Check) -> str:
     if check.id not in ("10p", "10i") or check.joint is None:
         return f"lower it to at most {most}"
     kv = result.gains.kv[check.joint]
-    room = check.largest_admissible - kv
-    return f"lower k_p to at most {decimal_text(room)}" if room > 0 else f"lower k_p + k_v to at most {most}"
+    largest_kp = check.largest_admissible - kv
+    return (
+        f"lower k_p to at most {decimal_text(largest_kp)}"
+        if largest_kp > 0
+        else f"lower k_p + k_v to at most {most}"
+    )

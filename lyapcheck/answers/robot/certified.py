@@ -28,9 +28,9 @@ from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.bounds import ArmBounds
-from lyapcheck.claims.finding import Finding, broken, shown
+from lyapcheck.claims.search_result import SearchResult, broken, shown
 from lyapcheck.constants import SEED, Constant
-from lyapcheck.constants.arm_waves import ArmWaves
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel
@@ -102,16 +102,16 @@ def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Ques
             yield _question(constant.name, sides[0], sign, bound.state(outer[0]), *outer)
         inner = _inner(bound.seen, sign)
         if inner > 0 or sign < 0:
-            found = _at_posture(bound.witness, bound.seen, inner, sign)
-            yield _question(constant.name, sides[1], sign, bound.state(inner), inner, found)
+            result = _at_posture(bound.witness, bound.seen, inner, sign)
+            yield _question(constant.name, sides[1], sign, bound.state(inner), inner, result)
 
 
 def _along_links(constant: Constant, outside: Shown) -> Iterator[Question]:
     """Both ends of a constant of a chain: its storage forms, and the posture."""
     sign = -1 if constant.name == "lambda_min" else 1
     sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
-    found = shown(outside.proof, outside.proof.rule)
-    yield _question(constant.name, sides[0], sign, outside.statement, outside.bound, found)
+    result = shown(outside.proof, outside.proof.rule)
+    yield _question(constant.name, sides[0], sign, outside.statement, outside.bound, result)
     seen = constant.enclosure.lower if sign > 0 else constant.enclosure.upper
     inner, n = _inner(seen, sign), len(outside.statement.links)
     if inner > 0 or sign < 0:
@@ -128,12 +128,12 @@ def _inner(seen: Fraction, sign: int) -> Fraction:
     return max(_rounded(seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
 
 
-def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> Finding:
+def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> SearchResult:
     point = {f"q{i + 1}": str(angle) for i, angle in enumerate(witness.q)}
     point |= {f"x{i + 1}": str(x) for i, x in enumerate(witness.x)}
     ends = [list(Enclosure.exact(value).decimals(12)) for value in (seen, inner)]
-    told = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
-    return broken(witness, "a posture", told)
+    values = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
+    return broken(witness, "a posture", values)
 
 
 def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certified]:
@@ -144,15 +144,15 @@ def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certifie
         positive: whether M ≻ 0 is proved: only then ‖M‖ > b, which the refutation of ‖M‖ ≤ b comes to, is a
             statement about λmax(M).
     """
-    found: dict[str, Certified] = {}
+    result: dict[str, Certified] = {}
     for answer in answers:
         name, _, side = answer.question.id.rpartition(".")
         if answer.certificate is None or (name == "lambda_max" and side == "lower" and not positive):
             continue
         value = _value(answer.question.statement)
-        known = found.get(name, Certified())
-        found[name] = replace(known, lower=value) if side == "lower" else replace(known, upper=value)
-    return found
+        known = result.get(name, Certified())
+        result[name] = replace(known, lower=value) if side == "lower" else replace(known, upper=value)
+    return result
 
 
 def _value(statement: Statement) -> Fraction:
@@ -164,14 +164,14 @@ def _value(statement: Statement) -> Fraction:
 
 
 def _question(
-    name: str, side: str, sign: int, statement: Statement, value: Fraction, finding: Finding
+    name: str, side: str, sign: int, statement: Statement, value: Fraction, finding: SearchResult
 ) -> Question:
     grade = Grade.EXACT if isinstance(finding.proof, (HarmonicSizes, NoTorque)) else Grade.ENCLOSURE
     words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {decimal_text(value)}"
     return Question(f"{name}.{side}", words, statement, replace(finding, grade=grade))
 
 
-def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, Finding] | None:
+def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | None:
     """The best bound for all angles that is shown, and by what."""
     coarse = None if bound.sizes is None else _rounded(bound.sizes, sign)
     for margin in bound.margins if n <= FEW else ():
@@ -225,7 +225,7 @@ def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) ->
     size = float(sum(entry * entry for entry in x))
     return _Bound(
         lambda value: CoriolisBelow(mass, (), value),
-        lambda value: inertia.turning_below(value, BOXES),
+        lambda value: inertia.coriolis_below(value, BOXES),
         _unfolded(arm.robot) if arm.robot.n <= FEW else Fraction(0),
         arm.kc,
         PostureWitness(q, (), x, x),
@@ -257,7 +257,7 @@ def _of_gravity(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> 
 
 def _unfolded(robot: RobotModel) -> Fraction:
     """About the least bound of ‖C(q, x)y‖ that boxes can show: that of the better unfolding of the c_ijk."""
-    arm = ArmWaves(robot)
+    arm = ArmHarmonics(robot)
     states = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, robot.n))
     c = arm.tensor(arm.symbols.at(states))
     both = (np.einsum("bijk,bijl->bkl", c, c), np.einsum("bijk,bljk->bil", c, c))

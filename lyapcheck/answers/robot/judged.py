@@ -9,9 +9,9 @@ from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.certificates import versions
 from lyapcheck.claims.decision import Decision, decided
-from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.claims.handover import Key
+from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.robots import RobotModel
 
 
@@ -22,7 +22,7 @@ class Question:
     id: str
     says: str
     statement: Statement
-    finding: Finding
+    finding: SearchResult
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,10 @@ def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answered]:
         for row in rows
         if row.finding.proof is not None
     }
-    told = judge_afresh(made)
+    judged_rows = judge_afresh(made)
     answers = []
     for row in rows:
-        decision = decided(row.finding, told.get((row.id, None)))
+        decision = decided(row.finding, judged_rows.get((row.id, None)))
         accepted = None if decision.certificate is None else made[row.id, None]
         answers.append(Answered(row, decision, accepted))
     return answers

@@ -65,10 +65,10 @@ def evidence(row: Property) -> str:
 def _title(report: RobotReport) -> str:
     name = report.model.name
     for verdict, mark in MARKS.items():
-        found = [row.id for row in report.properties if row.verdict is verdict]
-        if found:
-            ending = "y" if len(found) == 1 else "ies"
-            return f"{mark} {name}: propert{ending} {', '.join(found)} {verdict.value}"
+        result = [row.id for row in report.properties if row.verdict is verdict]
+        if result:
+            ending = "y" if len(result) == 1 else "ies"
+            return f"{mark} {name}: propert{ending} {', '.join(result)} {verdict.value}"
     first, last = report.properties[0].id, report.properties[-1].id
     return f"✓ {name}: properties {first}–{last} proved"
 

@@ -12,9 +12,9 @@ from lyapcheck.answers.robot.properties import Property
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
-from lyapcheck.claims.finding import Finding
 from lyapcheck.claims.moving_arm import ranges_of
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel, trig
 from lyapcheck.search.inertia import mass_of
@@ -47,27 +47,27 @@ def questions(model: RobotModel) -> list[Question]:
 
 def _statements(model: RobotModel) -> dict[str, Statement]:
     printed, ranges = model.printed, ranges_of(model)
-    found: dict[str, Statement] = {}
+    result: dict[str, Statement] = {}
     if printed is None:
-        return found
+        return result
     numbers = _numbers(model)
     if printed.coriolis:
         symbols = printed.symbols(model.ring, numbers, model.n)
         # each printed term has exactly one rate, so that nothing is left without
         C = tuple(tuple((*map(_terms, entry), ()) for entry in row) for row in symbols)
-        found["C torque"] = CoriolisTorque(mass_of(model), ranges, C)
-        found["C rates"] = RateOfMass(mass_of(model), ranges, C)
+        result["C torque"] = CoriolisTorque(mass_of(model), ranges, C)
+        result["C rates"] = RateOfMass(mass_of(model), ranges, C)
     if printed.gravity:
         weights = tuple(map(_terms, printed.weights(model.ring, numbers)))
-        found["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
-    return found
+        result["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
+    return result
 
 
 def _terms(polynomial: fmpq_mpoly) -> Monomials:
     return tuple(trig.to_terms(polynomial))
 
 
-def _named(model: RobotModel, finding: Finding) -> Finding:
+def _named(model: RobotModel, finding: SearchResult) -> SearchResult:
     """The uncertain numbers of a witness by their names."""
     if finding.witness is None:
         return finding

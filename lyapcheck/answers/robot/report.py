@@ -63,19 +63,19 @@ class RobotReport(Answer):
     def records(self) -> list[dict[str, Any]]:
         """A row a property, a claim about the print, and a constant; ``kind`` tells which."""
         judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
-        told = [(kind, property_data(row)) for kind, row in judged]
-        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in told]
+        entries = [(kind, property_data(row)) for kind, row in judged]
+        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
         for constant in self.constants:
-            found = constant_data(self, constant)
-            kept = {key: found[key] for key in ("unit", "certified", "numeric", "gap", "q")}
-            rows.append({"kind": "constant", "id": found["name"], **kept, "x": found["x"] or []})
+            result = constant_data(self, constant)
+            kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
+            rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
         return rows
 
     def annotations(self) -> list[Annotation]:
         """A case a property; a refuted claim about the print is a remark."""
-        found = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
+        result = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
         wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
-        return [*found, *(self._annotation(row, Level.REMARK) for row in wrong)]
+        return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
 
     def _annotation(self, row: Property, level: Level) -> Annotation:
         said = "" if level is Level.PASSED else f"{row.verdict.value}: {row.statement}; {evidence(row)}"

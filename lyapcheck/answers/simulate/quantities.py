@@ -32,9 +32,9 @@ class Quantity:
         return int(np.count_nonzero(~np.isfinite(self.values)))
 
 
-def quantities(found: Sweep) -> list[Quantity]:
+def quantities(result: Sweep) -> list[Quantity]:
     """L2, then each index joint by joint."""
-    runs = found.runs
+    runs = result.runs
     tables = (
         ("settling [s]", runs.settling, "z.3f"),
         ("overshoot [%]", runs.overshoot, "z.2f"),
@@ -46,6 +46,6 @@ def quantities(found: Sweep) -> list[Quantity]:
         *(
             Quantity(f"{joint} {name}", table[:, i], form)
             for name, table, form in tables
-            for i, joint in enumerate(found.joints)
+            for i, joint in enumerate(result.joints)
         ),
     ]

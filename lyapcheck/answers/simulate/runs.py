@@ -83,7 +83,7 @@ class SetPointRuns(Simulation[Run]):
 
     def plain_data(self, one: Run) -> dict[str, Any]:
         """Names and units as in `Run`, angles in degrees."""
-        found, seen = one.indices, one.promises
+        result, seen = one.indices, one.promises
         return {
             "name": one.name,
             "m": one.m,
@@ -95,12 +95,12 @@ class SetPointRuns(Simulation[Run]):
             "start": plains(np.degrees(one.task.q0)),
             "target": plains(np.degrees(one.task.q_d)),
             "joints": list(one.joints),
-            "L2": plain(found.L2),
+            "L2": plain(result.L2),
             "settling_band": SETTLING_BAND,
-            "settling": plains(found.settling),
-            "overshoot": plains(found.overshoot),
-            "final_error": plains(found.final_error),
-            "peak_torque": plains(found.peak_torque),
+            "settling": plains(result.settling),
+            "overshoot": plains(result.overshoot),
+            "final_error": plains(result.final_error),
+            "peak_torque": plains(result.peak_torque),
             "torque_limit": list(one.torque_limit),
             "inside_limits": list(seen.inside_limits),
             "joint_bounds": None if seen.joint_bounds is None else plains(seen.joint_bounds),
@@ -123,19 +123,19 @@ class SetPointRuns(Simulation[Run]):
         return [record for one in self.results for record in self._joint_records(one)]
 
     def _joint_records(self, one: Run) -> list[dict[str, Any]]:
-        told = self.plain_data(one)
-        head = {key: told[key] for key in ("name", "m", "robot", "kind", "complete", "time", "reached")}
-        tail = {key: told[key] for key in PER_RUN}
-        paper = told["printed"] or {}
+        data = self.plain_data(one)
+        head = {key: data[key] for key in ("name", "m", "robot", "kind", "complete", "time", "reached")}
+        tail = {key: data[key] for key in PER_RUN}
+        paper = data["printed"] or {}
         return [
             {
                 **head,
                 "joint": joint,
-                "start": told["start"][i],
-                "target": told["target"][i],
-                **{key: told[key][i] for key in PER_JOINT},
-                "inside_limit": told["inside_limits"][i],
-                "joint_bound": None if told["joint_bounds"] is None else told["joint_bounds"][i],
+                "start": data["start"][i],
+                "target": data["target"][i],
+                **{key: data[key][i] for key in PER_JOINT},
+                "inside_limit": data["inside_limits"][i],
+                "joint_bound": None if data["joint_bounds"] is None else data["joint_bounds"][i],
                 **tail,
                 "printed_L2": paper.get("L2"),
                 "printed_settling": paper["settling"][i] if paper.get("settling") else None,
@@ -178,14 +178,14 @@ def _beside(one: Run) -> str:
 
 
 def _rows(one: Run) -> list[tuple[str, ...]]:
-    found, bounds = one.indices, one.promises.joint_bounds
+    result, bounds = one.indices, one.promises.joint_bounds
     return [
         (
             joint,
-            cell(found.settling[i], "z.3f"),
-            cell(found.overshoot[i], "z.2f"),
-            cell(found.final_error[i], "z.4f"),
-            cell(found.peak_torque[i], "z.2f"),
+            cell(result.settling[i], "z.3f"),
+            cell(result.overshoot[i], "z.2f"),
+            cell(result.final_error[i], "z.4f"),
+            cell(result.peak_torque[i], "z.2f"),
             cell(None if bounds is None else bounds[i], "z.2f"),
             cell(one.torque_limit[i], "g"),
             INSIDE[one.promises.inside_limits[i]],

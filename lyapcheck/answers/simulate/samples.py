@@ -57,7 +57,7 @@ def starts_csv(sweeps: Sequence[Sweep]) -> str:
         return _text(["gains", "run", "complete"], ())
     starts = [f"q{i + 1}(0) [rad]" for i in range(len(sweeps[0].joints))]
     indices = [csv_text(one.name) for one in quantities(sweeps[0])]
-    rows = (row for found in sweeps for row in _start_rows(found))
+    rows = (row for result in sweeps for row in _start_rows(result))
     return _text(["gains", "run", "complete", *starts, *indices], rows)
 
 
@@ -75,10 +75,10 @@ def _tracking_rows(run: TrackingRun) -> Iterable[list[object]]:
         yield [csv_text(run.name), _yes(run.complete), *map(repr, row), last]
 
 
-def _start_rows(found: Sweep) -> Iterable[list[object]]:
-    table = np.column_stack((found.q0, *(one.values for one in quantities(found))))
-    for number, (row, whole) in enumerate(zip(table.tolist(), found.runs.complete, strict=True), start=1):
-        yield [csv_text(found.name), number, _yes(bool(whole)), *map(repr, row)]
+def _start_rows(result: Sweep) -> Iterable[list[object]]:
+    table = np.column_stack((result.q0, *(one.values for one in quantities(result))))
+    for number, (row, whole) in enumerate(zip(table.tolist(), result.runs.complete, strict=True), start=1):
+        yield [csv_text(result.name), number, _yes(bool(whole)), *map(repr, row)]
 
 
 def _per_joint(signals: Sequence[tuple[str, str]], n: int) -> list[str]:

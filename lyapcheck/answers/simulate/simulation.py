@@ -108,9 +108,9 @@ class Simulation(Answer, Generic[Result]):
     def document(self) -> Document:
         """What went wrong, all gain sets beside each other, then each by itself; what is assumed."""
         wrong = self.complaints()
-        told = [Bullets(tuple(wrong))] if wrong else []
+        warnings = [Bullets(tuple(wrong))] if wrong else []
         overview = [self.overview()] if self.results else []
-        blocks: tuple[Block, ...] = (*told, *self.opening(), *overview, *map(self.section, self.results))
+        blocks: tuple[Block, ...] = (*warnings, *self.opening(), *overview, *map(self.section, self.results))
         return Document(self._title(), blocks, (*self.legend(), NUMERIC, *self._notes()))
 
     def data(self) -> dict[str, Any]:
@@ -182,8 +182,8 @@ class Simulation(Answer, Generic[Result]):
 
     def _place(self, name: str) -> GainPlace:
         known = () if self.file is None else self.file.gains
-        found = next((gain_set for gain_set in known if gain_set.name == name), None)
-        return GainPlace() if found is None else gain_place(self.file, found)
+        result = next((gain_set for gain_set in known if gain_set.name == name), None)
+        return GainPlace() if result is None else gain_place(self.file, result)
 
 
 def breach_record(breach: Breach | None) -> dict[str, Any]:

@@ -69,8 +69,8 @@ class RandomStarts(Simulation[Sweep]):
         """A row a quantity; why runs did not reach their end."""
         member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
         rows = [
-            (found.name, *(cell(x, found.form) for x in quantiles(found.values)), str(found.without))
-            for found in quantities(one)
+            (result.name, *(cell(x, result.form) for x in quantiles(result.values)), str(result.without))
+            for result in quantities(one)
         ]
         reasons = dict.fromkeys(reason for reason in one.runs.failure if reason)
         failed = [Bullets(tuple(f"not finished: {reason}" for reason in reasons))] if reasons else []
@@ -95,7 +95,7 @@ class RandomStarts(Simulation[Sweep]):
             "V_rose": _count(one.risen),
             "beyond_limits": _count(one.beyond),
             "shares": list(SHARES),
-            "quantiles": {found.name: plains(quantiles(found.values)) for found in quantities(one)},
+            "quantiles": {result.name: plains(quantiles(result.values)) for result in quantities(one)},
             "breach": None if one.breach is None else one.breach.data,
         }
 
@@ -104,18 +104,18 @@ class RandomStarts(Simulation[Sweep]):
         return [record for one in self.results for record in self._quantity_records(one)]
 
     def _quantity_records(self, one: Sweep) -> list[dict[str, Any]]:
-        told = self.plain_data(one)
+        data = self.plain_data(one)
         keys = ("name", "m", "robot", "kind", "runs", "spread", "seed", "time", "finished", "eps0")
-        head = {key: told[key] for key in (*keys, "V_rose", "beyond_limits")}
+        head = {key: data[key] for key in (*keys, "V_rose", "beyond_limits")}
         return [
             {
                 **head,
-                "quantity": found.name,
-                **dict(zip(QUANTILES, told["quantiles"][found.name], strict=True)),
-                "without": found.without,
+                "quantity": result.name,
+                **dict(zip(QUANTILES, data["quantiles"][result.name], strict=True)),
+                "without": result.without,
                 "breach": breach_record(one.breach),
             }
-            for found in quantities(one)
+            for result in quantities(one)
         ]
 
 

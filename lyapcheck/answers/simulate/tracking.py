@@ -59,7 +59,7 @@ class TrackingRuns(Simulation[TrackingRun]):
 
     def plain_data(self, one: TrackingRun) -> dict[str, Any]:
         """Rates in rad/s; what is promised is rounded outward."""
-        found, motion = one.indices, one.motion
+        result, motion = one.indices, one.motion
         return {
             "name": one.name,
             "m": one.gains.family.m,
@@ -71,13 +71,13 @@ class TrackingRuns(Simulation[TrackingRun]):
             "reached": plain(motion.t[-1]),
             "start": plains(np.degrees(motion.q[0])),
             "joints": list(one.joints),
-            "L2": plain(found.L2),
-            "rms": plains(found.rms),
-            "peak_error": plains(found.peak_error),
-            "final_error": plains(found.final_error),
+            "L2": plain(result.L2),
+            "rms": plains(result.rms),
+            "peak_error": plains(result.peak_error),
+            "final_error": plains(result.final_error),
             "band": plain(math.degrees(one.band)),
-            "entered": plains(found.entered),
-            "peak_torque": plains(found.peak_torque),
+            "entered": plains(result.entered),
+            "peak_torque": plains(result.peak_torque),
             "torque_limit": list(one.torque_limit),
             "V_start": plain(one.V[0]),
             "V_end": plain(one.V[-1]),
@@ -97,17 +97,17 @@ class TrackingRuns(Simulation[TrackingRun]):
         return [record for one in self.results for record in self._joint_records(one)]
 
     def _joint_records(self, one: TrackingRun) -> list[dict[str, Any]]:
-        told = self.plain_data(one)
+        data = self.plain_data(one)
         keys = ("name", "m", "robot", "kind", "reference", "complete", "time", "reached")
-        promised = told["promised"]
+        promised = data["promised"]
         bounds = promised.pop("torque_bound")
         return [
             {
-                **{key: told[key] for key in keys},
+                **{key: data[key] for key in keys},
                 "joint": joint,
-                **{key: told[key][i] for key in PER_JOINT},
+                **{key: data[key][i] for key in PER_JOINT},
                 "promised_torque": None if bounds is None else bounds[i],
-                **{key: told[key] for key in PER_RUN},
+                **{key: data[key] for key in PER_RUN},
                 "promised": promised,
                 "breach": breach_record(one.breach),
             }
@@ -163,15 +163,15 @@ def _heads(one: TrackingRun) -> tuple[str, ...]:
 
 
 def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
-    found, torque = one.indices, one.promise.torque
+    result, torque = one.indices, one.promise.torque
     return [
         (
             joint,
-            cell(found.rms[i], "z.4f"),
-            cell(found.peak_error[i], "z.3f"),
-            cell(found.entered[i], "z.3f"),
-            cell(found.final_error[i], "z.4f"),
-            cell(found.peak_torque[i], "z.2f"),
+            cell(result.rms[i], "z.4f"),
+            cell(result.peak_error[i], "z.3f"),
+            cell(result.entered[i], "z.3f"),
+            cell(result.final_error[i], "z.4f"),
+            cell(result.peak_torque[i], "z.2f"),
             NONE if torque is None else up(torque.total[i]),
             cell(one.torque_limit[i], "g"),
             _inside(one, i),
@@ -194,7 +194,7 @@ def _promise(one: TrackingRun) -> dict[str, Any]:
     promise, torque = one.promise, one.promise.torque
     return {
         "reference_speed": _double_above(promise.suprema.speed),
-        "reference_acceleration": _double_above(promise.suprema.push),
+        "reference_acceleration": _double_above(promise.suprema.acceleration_norm),
         "eps0": promise.eps0,
         "largest_eps0": None if promise.largest is None else decimal_text(promise.largest),
         "V_falls": promise.falls,

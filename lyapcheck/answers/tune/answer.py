@@ -63,10 +63,10 @@ class Tuning(Answer):
     @property
     def exit(self) -> Exit:
         """0 if every member has gains, else 2 if one provably has none, else 3."""
-        found = {item.status for item in self.sets}
-        if INFEASIBLE in found:
+        result = {item.status for item in self.sets}
+        if INFEASIBLE in result:
             return Exit.USAGE
-        return Exit.UNDECIDED if UNDECIDED in found or not found else Exit.PROVED
+        return Exit.UNDECIDED if UNDECIDED in result or not result else Exit.PROVED
 
     def document(self) -> Document:
         """A table a member, one for what it is compared with, and what it all rests on."""

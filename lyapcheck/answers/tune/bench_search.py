@@ -123,8 +123,8 @@ class Search:
 
     def _score(self, trial: Trial) -> tuple[float, ...]:
         """The worst first; ratios that are close count as the same, so that others may get better."""
-        found = np.max(list(trial.ratios(self.bench.wishes).values()), axis=0)
-        return (round(float(np.max(found)), 3), float(np.sum(np.square(found))))
+        result = np.max(list(trial.ratios(self.bench.wishes).values()), axis=0)
+        return (round(float(np.max(result)), 3), float(np.sum(np.square(result))))
 
     def set_of(self, gains: Gains) -> GainSet:
         """Gains as decimals within (10p), and (19) where it is to hold."""

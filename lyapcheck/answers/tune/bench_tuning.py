@@ -66,9 +66,9 @@ def tune_for(
         if not search.possible:
             reasons.append(_none(m, way))
             continue
-        found = search.run(share)
-        stable = _stable(found.gains, way, limits, robot)
-        sets.append(Candidate(found.gains, found.trial, way, stable, tuple(_held(found.gains, search))))
+        result = search.run(share)
+        stable = _stable(result.gains, way, limits, robot)
+        sets.append(Candidate(result.gains, result.trial, way, stable, tuple(_held(result.gains, search))))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
     sets = [*(_other(one, arms, bench, against) for one in beside), *sets]
     return BenchTuning(
@@ -76,8 +76,8 @@ def tune_for(
     )
 
 
-def _share(told: Progress | None, done: int, jobs: int, note: str) -> Callable[[float], None]:
-    return lambda share: None if told is None else told((done + share) / jobs, note)
+def _share(progress: Progress | None, done: int, jobs: int, note: str) -> Callable[[float], None]:
+    return lambda share: None if progress is None else progress((done + share) / jobs, note)
 
 
 def _overloaded(limits: Limits) -> list[str]:

@@ -29,12 +29,12 @@ def torque_budget(robot: str, table: Table) -> Budget:
 
 
 def _row(row: Constants, limits: Limits, bits: int) -> tuple[Enclosure | None, ...]:
-    found: list[Enclosure | None] = []
+    result: list[Enclosure | None] = []
     with precision(bits):
         scale = to_arb(limits.n).sqrt() * row.gamma.to_arb()
         for torque, gravity in zip(limits.torque, limits.gravity, strict=True):
             if torque is None or torque <= gravity:
-                found.append(None)
+                result.append(None)
             else:
-                found.append(Enclosure.from_arb(to_arb(torque - gravity) / scale))
-    return tuple(found)
+                result.append(Enclosure.from_arb(to_arb(torque - gravity) / scale))
+    return tuple(result)

@@ -24,14 +24,14 @@ def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> Compar
 def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJoint, ...]:
     gamma = gamma_of(other)
     torques, dampings = check_10p(other, limits, gamma), check_19(other, limits, gamma)
-    found = []
+    result = []
     for i, joint in enumerate(tuned.joints):
         kp, kv = other.kp[i], other.kv[i]
         broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
         left = joint.kp - kp
         shares = _millionths(left / joint.kp), _millionths((kp + kv) / joint.sum_limit.upper)
-        found.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
-    return tuple(found)
+        result.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
+    return tuple(result)
 
 
 def _millionths(share: Fraction) -> Fraction:

@@ -49,7 +49,7 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
 
     Soundness: floating point; one motion says nothing of others.
     """
-    found = []
+    result = []
     for gains in sets:
         try:
             run = simulate(gains, model, task.q_d, task.q0, task.w0, task.T, stop=False)
@@ -59,11 +59,11 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
         share = float(np.nanmax(run.peak_torque / limits)) if not np.all(np.isnan(limits)) else math.nan
         rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model))
         final, speed = float(np.max(np.abs(run.indices.final_error))), float(np.max(np.abs(run.w)))
-        found.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
-    return tuple(found)
+        result.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
+    return tuple(result)
 
 
-def effect_section(found: Sequence[Effect], task: Task) -> Section:
+def effect_section(result: Sequence[Effect], task: Task) -> Section:
     """The runs beside each other, and what they show in one sentence."""
     rows = tuple(
         (
@@ -74,10 +74,10 @@ def effect_section(found: Sequence[Effect], task: Task) -> Section:
             f"{one.speed:.2f}",
             "anywhere" if math.isinf(one.rest) else f"{one.rest:.1f}" if one.rest else "—",
         )
-        for one in found
+        for one in result
     )
     goal = ", ".join(f"{math.degrees(x):g}" for x in task.q_d)
-    first, last = found[0], found[-1]
+    first, last = result[0], result[-1]
     says = (
         f"In {task.T:g} s from rest to ({goal})°, without dry friction, from m = {first.m} to m = {last.m}: "
         f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°, the error at the end from {first.final:.1f}° to "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.answers.tune.room import Room
+from lyapcheck.answers.tune.gain_range import GainRange
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text, round_down
@@ -12,50 +12,51 @@ from lyapcheck.files.decimals import decimal_text, round_down
 
 def unknown(limits: Limits) -> list[str]:
     """What is not known of the arm and has to be given."""
-    found = [
+    result = [
         f"{name}: the arm has no torque limit for this joint; give --torque"
         for name, torque in zip(limits.joints, limits.torque, strict=True)
         if torque is None
     ]
     if limits.viscous_min is None:
-        found.append("the arm has no viscous friction; give --viscous-min")
-    return found
+        result.append("the arm has no viscous friction; give --viscous-min")
+    return result
 
 
 def impossible(limits: Limits) -> list[str]:
     """Limits that leave nothing to any gain, whatever the member of the family."""
-    found = []
+    result = []
     for name, torque, gravity in zip(limits.joints, limits.torque, limits.gravity, strict=True):
         if torque is not None and torque <= gravity:
-            found.append(
+            result.append(
                 f"{name}: the torque limit of {decimal_text(torque)} N·m is not above the gravity torque of "
                 f"{_shown(gravity)} N·m, so (10p) admits no gain; take a stronger motor, a lighter arm or a "
                 "larger --peak-share"
             )
     if limits.viscous_min is not None and limits.viscous_min <= 0:
-        found.append(
+        result.append(
             "λmin(B) is 0: without viscous friction in every joint (19) admits no k_v; measure the friction "
             "and give --viscous-min"
         )
-    return found
+    return result
 
 
-def obstacle(room: Room, joint: int, limits: Limits, targets: Targets) -> str:
+def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets) -> str:
     """Why a joint with positive limits still has no gains; empty where it has."""
-    name, unit = limits.joints[joint], room.unit
-    if min(room.most_kv, room.most_sum - 1) < 1:
+    name, unit = limits.joints[joint], gain_range.unit
+    if min(gain_range.most_kv, gain_range.most_sum - 1) < 1:
         return f"{name}: {targets.digits} decimal places are too few for gains this small; raise --digits"
-    if room.least_kv > room.most_kv:
+    if gain_range.least_kv > gain_range.most_kv:
         return (
-            f"{name}: k_v ≥ {decimal_text(room.least_kv * unit)} breaks (19), which admits at most "
-            f"{decimal_text(room.most_kv * unit)}; lower --kv-min"
+            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} breaks (19), which admits at most "
+            f"{decimal_text(gain_range.most_kv * unit)}; lower --kv-min"
         )
-    if room.least_kv >= room.most_sum:
+    if gain_range.least_kv >= gain_range.most_sum:
         return (
-            f"{name}: k_v ≥ {decimal_text(room.least_kv * unit)} leaves no room for k_p, as (10p) admits "
-            f"k_p + k_v ≤ {decimal_text(room.most_sum * unit)}; {_less_damping(joint, limits, targets)}"
+            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} leaves no room for k_p, "
+            f"as (10p) admits k_p + k_v ≤ {decimal_text(gain_range.most_sum * unit)}; "
+            f"{_less_damping(joint, limits, targets)}"
         )
-    if room.most_kp(room.kv_range[1]) < 1:
+    if gain_range.most_kp(gain_range.kv_range[1]) < 1:
         return (
             f"{name}: the damping ratio needs k_p below one unit of the last digit; lower --damping or "
             "raise --digits"

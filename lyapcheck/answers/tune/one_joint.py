@@ -66,8 +66,8 @@ def proposal(joint: Joint, family: Family, wishes: Wishes) -> tuple[float, float
     solver, (lower, upper), (low, high) = _program(joint, family, wishes, step)
     e, w, T = _motion(joint, family, start, step)
     guess = [*np.log(start), math.log(T), 2.0, 0.1, *e[1:], *w[1:]]
-    found = np.array(solver(x0=guess, lbx=lower, ubx=upper, lbg=low, ubg=high)["x"]).ravel()
-    kp, kv = np.exp(found[:2])  # of an iteration that was cut short as well: the whole arm decides
+    result = np.array(solver(x0=guess, lbx=lower, ubx=upper, lbg=low, ubg=high)["x"]).ravel()
+    kp, kv = np.exp(result[:2])  # of an iteration that was cut short as well: the whole arm decides
     return (float(kp), float(kv)) if np.isfinite(kp + kv) else start
 
 
@@ -132,8 +132,8 @@ def _motion(
     kp, kv = gains
 
     def rate(_: float, y: Any) -> list[float]:
-        push = kp * family.h(y[:1])[0] - kv * family.h(y[1:])[0] - joint.friction * y[1]
-        return [-y[1], float(push) / joint.inertia]
+        net_torque = kp * family.h(y[:1])[0] - kv * family.h(y[1:])[0] - joint.friction * y[1]
+        return [-y[1], float(net_torque) / joint.inertia]
 
     T = 2.0
     t = np.arange(STEPS + 1) * T / PER_SETTLING

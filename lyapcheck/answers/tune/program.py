@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
 
-from lyapcheck.answers.tune.room import Room
+from lyapcheck.answers.tune.gain_range import GainRange
 
 
 @dataclass(frozen=True)
@@ -27,23 +27,27 @@ class Proposal:
     kv: tuple[float, ...] = ()
 
 
-def propose(rooms: Sequence[Room]) -> Proposal:
+def propose(gain_ranges: Sequence[GainRange]) -> Proposal:
     """Clarabel's answer; only ``optimal`` is one."""
     import cvxpy as cp
 
-    torque = [float(room.sum_limit.mid) for room in rooms]
-    low = [float(room.least_kv * room.unit) for room in rooms]
-    high = [float(min(room.most_kv, room.most_sum - 1) * room.unit) for room in rooms]
-    root, kv = cp.Variable(len(rooms), nonneg=True), cp.Variable(len(rooms), nonneg=True)
+    torque = [float(gain_range.sum_limit.mid) for gain_range in gain_ranges]
+    low = [float(gain_range.least_kv * gain_range.unit) for gain_range in gain_ranges]
+    high = [
+        float(min(gain_range.most_kv, gain_range.most_sum - 1) * gain_range.unit)
+        for gain_range in gain_ranges
+    ]
+    root, kv = cp.Variable(len(gain_ranges), nonneg=True), cp.Variable(len(gain_ranges), nonneg=True)
     # each joint in units of its own limit: gains of 10⁻² and 10³ N·m stand side by side
     constraints = [cp.square(root) + kv <= 1]
     constraints += [kv >= _over(low, torque), kv <= _over(high, torque)]
-    for i, room in enumerate(rooms):
-        if room.damping is not None:
+    for i, gain_range in enumerate(gain_ranges):
+        if gain_range.damping is not None:
             ratio, friction, inertia = (
-                float(x) for x in (room.damping.ratio, room.damping.friction, room.damping.inertia)
+                float(x)
+                for x in (gain_range.damping.ratio, gain_range.damping.friction, gain_range.damping.inertia)
             )
-            slope = float(room.damping.slope[0])
+            slope = float(gain_range.damping.slope[0])
             stiff = 2 * ratio * sqrt(inertia * slope * torque[i])
             damped = friction + slope * torque[i] * kv[i]
             constraints.append(root[i] <= damped / stiff)

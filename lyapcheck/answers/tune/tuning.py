@@ -12,10 +12,10 @@ from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.compare import compare
 from lyapcheck.answers.tune.damping import damping_of
+from lyapcheck.answers.tune.gain_range import GainRange, gain_range_of
 from lyapcheck.answers.tune.obstacles import impossible, obstacle, unknown
 from lyapcheck.answers.tune.program import propose
 from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet
-from lyapcheck.answers.tune.room import Room, room_of
 from lyapcheck.answers.tune.rounding import best_units, binding
 from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
 from lyapcheck.control.conditions import gamma_of
@@ -130,29 +130,29 @@ def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> Tuned
         return TunedSet(name, m, INFEASIBLE, reasons=tuple(reasons))
     if reasons := unknown(limits):
         return TunedSet(name, m, UNDECIDED, reasons=tuple(reasons))
-    rooms = _rooms(m, model, limits, targets)
-    obstacles = [obstacle(room, i, limits, targets) for i, room in enumerate(rooms)]
+    gain_ranges = _rooms(m, model, limits, targets)
+    obstacles = [obstacle(gain_range, i, limits, targets) for i, gain_range in enumerate(gain_ranges)]
     if any(obstacles):
         return TunedSet(name, m, INFEASIBLE, reasons=tuple(filter(None, obstacles)))
-    proposal = propose(rooms)
-    starts = proposal.kv or (None,) * len(rooms)
-    units = [best_units(room, start) for room, start in zip(rooms, starts, strict=True)]
-    joints = zip(limits.joints, rooms, units, strict=True)
+    proposal = propose(gain_ranges)
+    starts = proposal.kv or (None,) * len(gain_ranges)
+    units = [best_units(gain_range, start) for gain_range, start in zip(gain_ranges, starts, strict=True)]
+    joints = zip(limits.joints, gain_ranges, units, strict=True)
     return TunedSet(name, m, TUNED, tuple(_joint(*each) for each in joints), program=proposal.status)
 
 
-def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[Room]:
+def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[GainRange]:
     ones = (Fraction(1),) * model.n
     gamma = gamma_of(GainSet("gamma", m, ones, ones))
     dampings = damping_of(model, m, targets.damping) if targets.damping else (None,) * model.n
-    return [room_of(i, limits, gamma, targets, damping) for i, damping in enumerate(dampings)]
+    return [gain_range_of(i, limits, gamma, targets, damping) for i, damping in enumerate(dampings)]
 
 
-def _joint(name: str, room: Room, units: tuple[int, int]) -> TunedJoint:
-    kp_bound, kv_bound = binding(room, *units)
-    kp, kv = (room.unit * k for k in units)
-    damping = None if room.damping is None else room.damping.reached(kp, kv)
-    return TunedJoint(name, kp, kv, room.sum_limit, room.kv_limit, kp_bound, kv_bound, damping)
+def _joint(name: str, gain_range: GainRange, units: tuple[int, int]) -> TunedJoint:
+    kp_bound, kv_bound = binding(gain_range, *units)
+    kp, kv = (gain_range.unit * k for k in units)
+    damping = None if gain_range.damping is None else gain_range.damping.reached(kp, kv)
+    return TunedJoint(name, kp, kv, gain_range.sum_limit, gain_range.kv_limit, kp_bound, kv_bound, damping)
 
 
 def _confirm(sets: Sequence[TunedSet], limits: Limits) -> None:

@@ -52,8 +52,8 @@ class Wishes:
     @property
     def given(self) -> dict[str, float]:
         """What is asked, by name."""
-        found = {name: getattr(self, name) for name in NAMES}
-        return {name: value for name, value in found.items() if value is not None}
+        result = {name: getattr(self, name) for name in NAMES}
+        return {name: value for name, value in result.items() if value is not None}
 
     def text(self) -> str:
         """What is asked, in one line."""

@@ -82,10 +82,10 @@ class Coefficient:
 
 
 def _collected(terms: Iterable[tuple[int, Fraction]]) -> dict[int, Fraction]:
-    found: dict[int, Fraction] = {}
+    result: dict[int, Fraction] = {}
     for p, c in terms:
-        found[p] = found.get(p, Fraction(0)) + c
-    return found
+        result[p] = result.get(p, Fraction(0)) + c
+    return result
 
 
 def exactly(powers: dict[int, Fraction]) -> Coefficient:
@@ -207,10 +207,10 @@ def _bounded(key: Key, start: Fraction) -> arb:
 
 def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
     """The sum of terms; the lowest ones are taken into the last that is kept."""
-    found: dict[Key, Coefficient] = {}
+    result: dict[Key, Coefficient] = {}
     for key, c in terms:
-        found[key] = found[key] + c if key in found else c
-    kept = [(key, found[key]) for key in sorted(found, reverse=True) if not found[key].is_zero]
+        result[key] = result[key] + c if key in result else c
+    kept = [(key, result[key]) for key in sorted(result, reverse=True) if not result[key].is_zero]
     if len(kept) > TERMS:
         last = kept[TERMS - 1][0]
         rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(

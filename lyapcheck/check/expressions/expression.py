@@ -247,12 +247,12 @@ def taylor(tree: Tree, name: str, centre: arb, order: int) -> list[arb]:
     cap, ctx.cap = ctx.cap, order + 1
     try:
         series = evaluate(tree, {name: arb_series([centre, 1])}, SeriesAlgebra())
-        found = list(series.coeffs())[: order + 1]
+        result = list(series.coeffs())[: order + 1]
         if series.prec < order + 1:
             raise Unsupported("a division that loses terms of the series")
     finally:
         ctx.cap = cap
-    return found + [arb(0)] * (order + 1 - len(found))
+    return result + [arb(0)] * (order + 1 - len(result))
 
 
 def derivative(tree: Tree, name: str) -> Tree:

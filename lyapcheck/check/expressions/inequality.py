@@ -106,10 +106,10 @@ def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None,
     With ``strict`` the end 0 is left out: f > 0 is asked on (0, high] when low = 0. The quotient is taken in
     lowest terms: that f has a value everywhere is judged by ``defined``.
     """
-    found = _in_x_and_y(tree, name)
-    if found is None or any(isinstance(c, arb) for terms in found for c in terms.values()):
+    result = _in_x_and_y(tree, name)
+    if result is None or any(isinstance(c, arb) for terms in result for c in terms.values()):
         return None
-    (top, top_kind), (bottom, bottom_kind) = map(_one_generator, found)
+    (top, top_kind), (bottom, bottom_kind) = map(_one_generator, result)
     kinds = {top_kind, bottom_kind} - {"constant"}
     if len(kinds) > 1 or "both" in kinds:
         return None
@@ -128,9 +128,9 @@ def sign_everywhere(tree: Tree, name: str, low: Fraction, high: Fraction | None,
 
 def positive_from(tree: Tree, name: str, start: Fraction) -> bool:
     """Whether f > 0 on [start, ∞), start >= 1, by a dominant term in x and exp(x), or in the wider scale."""
-    found = _in_x_and_y(tree, name)
-    if found is not None:
-        signs = [dominant_sign(terms, start) for terms in found]
+    result = _in_x_and_y(tree, name)
+    if result is not None:
+        signs = [dominant_sign(terms, start) for terms in result]
         if 0 not in signs:
             return signs[0] == signs[1]
     return sign_from(tree, name, start) > 0

@@ -173,15 +173,15 @@ class RationalAlgebra(Algebra):
 
     def constants(self) -> dict[int, arb]:
         """The generators that are numbers (γ_m, π, √3, …), with balls for them; √−3 is none."""
-        found = {}
+        result = {}
         for (name, argument), index in self.uses.items():
             if name in CONSTANTS:
-                found[index] = family_constant(name, int(argument))
+                result[index] = family_constant(name, int(argument))
             elif name == "pi":
-                found[index] = arb.pi()
+                result[index] = arb.pi()
             elif name == "sqrt" and index in self.squares and self.squares[index].is_constant():
-                found[index] = arb(self.squares[index].leading_coefficient()).sqrt()
-        return {index: number for index, number in found.items() if number.is_finite()}
+                result[index] = arb(self.squares[index].leading_coefficient()).sqrt()
+        return {index: number for index, number in result.items() if number.is_finite()}
 
     def reduced(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
         """The polynomial with every square of a root and of a cosine replaced by what it equals."""
@@ -255,5 +255,5 @@ def _is_zero(tree: Tree) -> bool:
 
 def room_for(*trees: Tree) -> int:
     """Generators that expressions need beside their variables: two for each function of each argument."""
-    found = {node for node in nodes(*trees) if node[0] in WITH_GENERATORS}
-    return 2 * len(found) + 4
+    result = {node for node in nodes(*trees) if node[0] in WITH_GENERATORS}
+    return 2 * len(result) + 4

@@ -62,10 +62,10 @@ def _taylor_at_0(name: str) -> tuple[Fraction, ...]:
     cap, ctx.cap = ctx.cap, ORDER
     try:
         series = evaluate(OUTER[name], {"u": fmpq_series([0, 1])}, ExactSeriesAlgebra())
-        found = [Fraction(int(c.p), int(c.q)) for c in list(series.coeffs())[:ORDER]]
+        result = [Fraction(int(c.p), int(c.q)) for c in list(series.coeffs())[:ORDER]]
     finally:
         ctx.cap = cap
-    return tuple(found + [Fraction(0)] * (ORDER - len(found)))
+    return tuple(result + [Fraction(0)] * (ORDER - len(result)))
 
 
 @dataclass(frozen=True)
@@ -119,12 +119,12 @@ class ScaleAlgebra(Algebra):
     def _near(self, name: str, limit: Coefficient, small: Asymptotic) -> Asymptotic:
         """A function near a number that is not 0: Taylor's formula about all values at once."""
         values = limit.ball + arb(0).union(small.enclosure())
-        found = taylor((name, ("var", "u")), "u", limit.ball, ORDER - 1)
-        found.append(taylor((name, ("var", "u")), "u", values, ORDER)[ORDER])
-        if not all(c.is_finite() for c in found):
+        outcome = taylor((name, ("var", "u")), "u", limit.ball, ORDER - 1)
+        outcome.append(taylor((name, ("var", "u")), "u", values, ORDER)[ORDER])
+        if not all(c.is_finite() for c in outcome):
             raise Open("a function at the end of its domain")
         result = constant(Coefficient(arb(0)), self.start)
-        for c in reversed(found):
+        for c in reversed(outcome):
             result = result * small + constant(Coefficient(c), self.start)
         return result
 
@@ -146,14 +146,14 @@ class ScaleAlgebra(Algebra):
     def _exp(self, value: Asymptotic) -> Asymptotic:
         """exp of a x + b ln x + c + u."""
         large, limit, small = value.parts()
-        found = {X: Fraction(0), LOG_X: Fraction(0)}
+        result = {X: Fraction(0), LOG_X: Fraction(0)}
         for key, c in large:
             exact = c.as_rational()
-            if key not in found or exact is None:
+            if key not in result or exact is None:
                 raise Unsupported("exp of what is not a multiple of x and ln x")
-            found[key] = exact
+            result[key] = exact
         number = exactly({0: Fraction(1)}) if limit.is_zero else Coefficient(limit.ball.exp())
-        return composed("exp", small).scaled(number, (found[X], found[LOG_X], 0))
+        return composed("exp", small).scaled(number, (result[X], result[LOG_X], 0))
 
 
 def sign_from(tree: Tree, name: str, start: Fraction) -> int:

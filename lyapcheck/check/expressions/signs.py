@@ -54,12 +54,12 @@ def never(tree: Tree, unwanted: Signs, domain: Domain) -> bool:
         unwanted: the signs that it must not take.
         domain: the ranges of its variables.
     """
-    found = _Reader(domain, deep=False).of(tree)
-    if found & unwanted:
-        found &= by_value(tree, domain)
-    if found & unwanted:
-        found &= _Reader(domain, deep=True).of(tree)
-    return not found & unwanted
+    result = _Reader(domain, deep=False).of(tree)
+    if result & unwanted:
+        result &= by_value(tree, domain)
+    if result & unwanted:
+        result &= _Reader(domain, deep=True).of(tree)
+    return not result & unwanted
 
 
 class _Reader:
@@ -74,10 +74,10 @@ class _Reader:
 
     def of(self, tree: Tree) -> Signs:
         if id(tree) not in self.known:
-            found = self._by_form(tree)
-            if self.deep and len(found) > 1 and len(self.known) < MOST_PARTS:
-                found &= by_value(tree, self.domain)
-            self.known[id(tree)] = tree, found
+            result = self._by_form(tree)
+            if self.deep and len(result) > 1 and len(self.known) < MOST_PARTS:
+                result &= by_value(tree, self.domain)
+            self.known[id(tree)] = tree, result
         return self.known[id(tree)][1]
 
     def _by_form(self, tree: Tree) -> Signs:
@@ -103,11 +103,11 @@ def by_value(tree: Tree, domain: Domain) -> Signs:
     names = variables(tree)
     if not names:
         return _of_number(tree)
-    found = _of_polynomial(tree, domain) & _of_all_values(tree, names, domain)
-    if len(found) > 1 and len(names) == 1:
+    result = _of_polynomial(tree, domain) & _of_all_values(tree, names, domain)
+    if len(result) > 1 and len(names) == 1:
         (name,) = names
-        found &= _over_pieces(tree, name, domain.get(name, REALS))
-    return found
+        result &= _over_pieces(tree, name, domain.get(name, REALS))
+    return result
 
 
 def _sum(reader: _Reader, rest: list[Any]) -> Signs:
@@ -119,10 +119,10 @@ def _sum(reader: _Reader, rest: list[Any]) -> Signs:
 
 
 def _product(reader: _Reader, rest: list[Any]) -> Signs:
-    found = PLUS
+    result = PLUS
     for part in rest:
-        found = frozenset(a * b for a, b in product(found, reader.of(part)))
-    return found
+        result = frozenset(a * b for a, b in product(result, reader.of(part)))
+    return result
 
 
 def _quotient(reader: _Reader, rest: list[Any]) -> Signs:
@@ -176,9 +176,9 @@ def _of_number(tree: Tree) -> Signs:
         pass
     for bits in BITS:
         with ctx.workprec(bits):
-            found = _sign_of(ball(tree))
-            if len(found) == 1:
-                return found
+            result = _sign_of(ball(tree))
+            if len(result) == 1:
+                return result
     return ANY
 
 
@@ -212,12 +212,12 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
     if ratio.top == 0:
         return frozenset([0])
     top, bottom = (_of_terms(part, algebra, domain) for part in (ratio.top, ratio.bottom))
-    found = frozenset(a * b for a, b in product(top, bottom - {0}))
+    result = frozenset(a * b for a, b in product(top, bottom - {0}))
     short = max(map(max, (*ratio.top.monoms(), *ratio.bottom.monoms())), default=0) <= MAX_EXPONENT
-    if len(found) > 1 and short and not algebra.uses and len(algebra.names) == 1:
+    if len(result) > 1 and short and not algebra.uses and len(algebra.names) == 1:
         interval = domain.get(algebra.names[0], REALS)
-        found &= _by_sturm(_in_one(ratio.top) * _in_one(ratio.bottom), interval)
-    return found
+        result &= _by_sturm(_in_one(ratio.top) * _in_one(ratio.bottom), interval)
+    return result
 
 
 def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) -> Signs:
@@ -237,12 +237,12 @@ def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) 
     shifted = polynomial.compose(*generators, ctx=algebra.ring).to_dict()
 
     def of_monomial(exponents: tuple[int, ...]) -> Signs:
-        found = PLUS
+        result = PLUS
         for i, e in enumerate(exponents):
             if e:
                 own = ANY if lows.get(i) is None else PLUS if strict[i] else NOT_NEGATIVE
-                found = frozenset(a * b ** int(e) for a, b in product(found, own))
-        return found
+                result = frozenset(a * b ** int(e) for a, b in product(result, own))
+        return result
 
     parts = [frozenset(_sign(c) * s for s in of_monomial(e)) for e, c in shifted.items()]
     for sign in (1, -1):
@@ -253,10 +253,10 @@ def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) 
 
 def _in_one(polynomial: fmpq_mpoly) -> fmpq_poly:
     """A polynomial in the first generator alone."""
-    found = [fmpq(0)] * (1 + max((int(e[0]) for e in polynomial.monoms()), default=0))
+    result = [fmpq(0)] * (1 + max((int(e[0]) for e in polynomial.monoms()), default=0))
     for exponents, c in polynomial.to_dict().items():
-        found[int(exponents[0])] = c
-    return fmpq_poly(found)
+        result[int(exponents[0])] = c
+    return fmpq_poly(result)
 
 
 def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:
@@ -273,7 +273,7 @@ def _over_pieces(tree: Tree, name: str, interval: Interval) -> Signs:
     """The sign over a bounded interval, cut until each piece shows it in balls."""
     if interval.low is None or interval.high is None:
         return ANY
-    found: set[int] = set()
+    result: set[int] = set()
     waiting = [(interval.low, interval.high, 0)]
     count = 0
     while waiting:
@@ -282,12 +282,12 @@ def _over_pieces(tree: Tree, name: str, interval: Interval) -> Signs:
         with ctx.workprec(BITS[0]):
             value = _sign_of(ball(tree, {name: ball_of(low).union(ball_of(high))}))
         if len(value) == 1:
-            found |= value
+            result |= value
         elif depth == HALVINGS or count > MOST_PIECES or low == high:
             return ANY
         else:
             middle = (low + high) / 2
             waiting += [(low, middle, depth + 1), (middle, high, depth + 1)]
-        if len(found) > 1:
+        if len(result) > 1:
             return ANY
-    return frozenset(found)
+    return frozenset(result)

@@ -34,7 +34,7 @@ class AllOf(Total):
 
     def lacks(self, stated: Mapping[str, Statement]) -> str | None:
         """What the first part lacks that lacks something."""
-        return next((found for _, part in self.parts if (found := part.lacks(stated)) is not None), None)
+        return next((result for _, part in self.parts if (result := part.lacks(stated)) is not None), None)
 
     def decided(self, proof: Proof) -> Iterator[tuple[int, Statement, Proof]]:
         """All parts of what is proved, the one that is refuted."""
@@ -91,6 +91,6 @@ def by_one_part(statement: AllOf, proof: OnePart) -> Accepted:
     """Soundness: one false part makes the whole false."""
     require(0 <= proof.part < len(statement.parts), "part", proof.part, "does not exist")
     name, part = statement.parts[proof.part]
-    found = verify(part, proof.proof)
-    require(found.verdict == "refuted", name, found.verdict, "must be refuted")
-    return found
+    result = verify(part, proof.proof)
+    require(result.verdict == "refuted", name, result.verdict, "must be refuted")
+    return result

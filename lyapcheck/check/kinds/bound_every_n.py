@@ -162,9 +162,11 @@ def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
     such as γ_m put in, constants >= 0.
     """
     require(rates_fit(statement.identity), "rates", "", "a symmetric matrix must have a symmetric derivative")
-    found, words = terms_in_words(statement)
-    require(len(proof.covers) == len(found), "covers", len(proof.covers), f"must be {len(found)}, one a term")
-    bounds = [bound_of(statement, words, *pair) for pair in zip(found, proof.covers, strict=True)]
+    result, words = terms_in_words(statement)
+    require(
+        len(proof.covers) == len(result), "covers", len(proof.covers), f"must be {len(result)}, one a term"
+    )
+    bounds = [bound_of(statement, words, *pair) for pair in zip(result, proof.covers, strict=True)]
     require(within(statement, bounds), "right", "", "is not shown to exceed the sum of the bounds")
     evaluated = [sign for _, _, sign in islice(drawn_entries(statement, TRIES), ENOUGH)]
     require(-1 not in evaluated, "entries", "", "that were drawn exceed the bound: the words are at fault")
@@ -215,14 +217,14 @@ def names_at(statement: BoundEveryN, n: int) -> set[str]:
     """The variables of both sides and of all bounds at one n."""
     (left, right), equations = at_size(statement, n)
     entries = Entries(n, statement.symmetric, dict(statement.rates))
-    found = statement.numbers | variables(left) | variables(right)
-    found |= {name for tree in entries.moving.values() for name in variables(tree)}
-    found |= {name for pair in equations for side in pair for name in variables(side)}
+    result = statement.numbers | variables(left) | variables(right)
+    result |= {name for tree in entries.moving.values() for name in variables(tree)}
+    result |= {name for pair in equations for side in pair for name in variables(side)}
     for letter in (letter for letters_of, _ in statement.norms for letter in letters_of):
-        found |= set(entries.names(letter))
+        result |= set(entries.names(letter))
     for number, _ in statement.least:
-        found |= variables(entries.number(number))
-    return found
+        result |= variables(entries.number(number))
+    return result
 
 
 def drawn_entries(statement: BoundEveryN, tries: int) -> Iterator[tuple[int, Drawn, int]]:

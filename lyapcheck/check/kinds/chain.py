@@ -218,7 +218,7 @@ def _forms(proof: StorageForms, statement: OfChain, vectors: int) -> list[fmpq_m
     count = vectors * (3 * vectors + 1) // 2
     sizes = len(proof.forms) == len(statement.links) and all(len(row) == count for row in proof.forms)
     require(sizes, "forms", len(proof.forms), f"must be {count} coefficients for each joint")
-    return [storage.turning_form(row, vectors) for row in proof.forms]
+    return [storage.invariant_form(row, vectors) for row in proof.forms]
 
 
 def _require_shown(stages: Sequence[storage.Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -> None:

@@ -70,8 +70,8 @@ def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
     n = statement.joints
     require_posture(proof, n, statement.parameters)
     require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
-    found = any(not value.contains(0) for _, value in differences(statement, proof))
-    require(found, "posture", "", "does not show a difference")
+    result = any(not value.contains(0) for _, value in differences(statement, proof))
+    require(result, "posture", "", "does not show a difference")
     return Accepted("refuted", "enclosure")
 
 

@@ -90,8 +90,8 @@ class _OfCoriolis(OfArm, Compared):
         if not self.printed:
             return _lost_by_symbols(self.inertia, i, j)
         n, at = self.joints, self.symbol
-        found = [((k,), _less(_rate(self, i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
-        return [*found, ((), _less({}, at(i, j, n), at(j, i, n)))]
+        result = [((k,), _less(_rate(self, i, j, k), at(i, j, k), at(j, i, k))) for k in range(n)]
+        return [*result, ((), _less({}, at(i, j, n), at(j, i, n)))]
 
     @property
     def over(self) -> str:
@@ -208,8 +208,8 @@ def _rate(of: OfArm, i: int, j: int, k: int) -> Uncertain:
 
 
 def _slope(entry: Uncertain, k: int) -> Uncertain:
-    found = {power: derivative(part, k) for power, part in entry.items()}
-    return {power: part for power, part in found.items() if part}
+    result = {power: derivative(part, k) for power, part in entry.items()}
+    return {power: part for power, part in result.items() if part}
 
 
 def _less(entry: Uncertain, first: Uncertain, second: Uncertain) -> Uncertain:

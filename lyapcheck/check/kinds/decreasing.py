@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
-from lyapcheck.check.loop import Closure, proves, sharing
-from lyapcheck.check.loop.closure import RateProof
+from lyapcheck.check.loop import ClosedLoop, proves, sharing
+from lyapcheck.check.loop.closed_loop import RateProof
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
@@ -81,10 +81,10 @@ class BoxTree(RateProof):
     rule = "tree of boxes"
     tree: str
 
-    def require_shown(self, closure: Closure) -> None:
+    def require_shown(self, loop: ClosedLoop) -> None:
         """By :func:`proves`."""
         boxes = f"of {self.tree.count('.')} boxes"
-        require(proves(closure, self.tree, sharing()), "tree", boxes, "has a box on which P ≻ 0 is not shown")
+        require(proves(loop, self.tree, sharing()), "tree", boxes, "has a box on which P ≻ 0 is not shown")
 
 
 @dataclass(frozen=True)
@@ -112,11 +112,11 @@ class StateWitness(Proof):
 def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
     """Soundness: M ≻ 0 by a proof of its own, dV/dt < 0 by ``lyapcheck.check.loop``."""
     positive = require_proved(mass_positive(statement), proof.inertia, "M ≻ 0")
-    closure = closure_of(statement)
-    require(closure.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
+    loop = closed_loop_of(statement)
+    require(loop.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
     if not isinstance(proof.rate, RateProof):
         raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
-    proof.rate.require_shown(closure)
+    proof.rate.require_shown(loop)
     return Accepted("proved", weakest([positive, "enclosure"]))
 
 
@@ -128,9 +128,9 @@ def mass_positive(statement: Decreasing) -> MassAbove:
 @rule(Decreasing, PostureWitness)
 def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
     """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
-    found = verify(mass_positive(statement), proof)
-    require(found.verdict == "refuted", "M ≻ 0", found.verdict, "must be refuted")
-    return found
+    result = verify(mass_positive(statement), proof)
+    require(result.verdict == "refuted", "M ≻ 0", result.verdict, "must be refuted")
+    return result
 
 
 @rule(Decreasing, StateWitness)
@@ -151,9 +151,9 @@ def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
     return Accepted("refuted", "enclosure")
 
 
-def closure_of(statement: Decreasing) -> Closure:
+def closed_loop_of(statement: Decreasing) -> ClosedLoop:
     """The statement as the checker of trees takes it."""
-    return Closure(
+    return ClosedLoop(
         arm=Arm(statement.mass, tuple(low for low, _ in statement.viscous)),
         family=statement.family,
         m=statement.m,
@@ -166,18 +166,18 @@ def closure_of(statement: Decreasing) -> Closure:
     )
 
 
-def statement_of(closure: Closure) -> Decreasing:
+def statement_of(loop: ClosedLoop) -> Decreasing:
     """What has to be proved of a closed loop."""
     return Decreasing(
-        mass=closure.arm.mass,
-        viscous=closure.friction,
-        parameters=closure.parameters,
-        family=closure.family,
-        m=closure.m,
-        kp=closure.kp,
-        kv=closure.kv,
-        eps0=closure.eps0,
-        coupling=closure.coupling,
+        mass=loop.arm.mass,
+        viscous=loop.friction,
+        parameters=loop.parameters,
+        family=loop.family,
+        m=loop.m,
+        kp=loop.kp,
+        kv=loop.kv,
+        eps0=loop.eps0,
+        coupling=loop.coupling,
     )
 
 
@@ -189,13 +189,13 @@ def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[E
 
 def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
     """The entry with numbers for the parameters."""
-    found = []
+    result = []
     for powers, coefficient in entry:
         value = coefficient
         for parameter, power in zip(parameters, powers[angles:], strict=True):
             value *= parameter**power
-        found.append((powers[:angles], value))
-    return tuple(found)
+        result.append((powers[:angles], value))
+    return tuple(result)
 
 
 def friction_text(viscous: Sequence[Ends]) -> str:

@@ -194,10 +194,10 @@ def words_of(statement: EveryN) -> Words:
 
 def sorts_text(trees: Iterable[Tree]) -> str:
     """The letters by what they are: ``numbers s; vectors x, y; n × n matrices M``."""
-    found: dict[str, set[str]] = {kind: set() for kind in ("var", "vec", "mat")}
+    result: dict[str, set[str]] = {kind: set() for kind in ("var", "vec", "mat")}
     for kind, name in {letter for tree in trees for letter in letters(tree)}:
-        found[kind].add(name)
-    named = zip(("numbers", "vectors", "n × n matrices"), found.values(), strict=True)
+        result[kind].add(name)
+    named = zip(("numbers", "vectors", "n × n matrices"), result.values(), strict=True)
     return "; ".join(f"{sort} {', '.join(sorted(names))}" for sort, names in named if names) or "letters"
 
 

@@ -91,8 +91,8 @@ def written_out(entries: list[str], what: str, data: object, parameters: tuple[E
 
 def variable_names(n: int, parameters: int) -> list[str]:
     """What the exponents of a term belong to."""
-    waves = [*(f"sin q{i + 1}" for i in range(n)), *(f"cos q{i + 1}" for i in range(n))]
-    return waves + [f"p{k + 1}" for k in range(parameters)]
+    harmonics = [*(f"sin q{i + 1}" for i in range(n)), *(f"cos q{i + 1}" for i in range(n))]
+    return harmonics + [f"p{k + 1}" for k in range(parameters)]
 
 
 def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
@@ -300,7 +300,7 @@ class CoriolisBelow(OfArm, BoundedAbove):
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
         """See :meth:`Inertia.turning_below`, for a positive bound."""
-        return self.high > 0 and self.symmetric.turning_below(self.high, most)
+        return self.high > 0 and self.symmetric.coriolis_below(self.high, most)
 
     def square_by_sizes(self) -> Fraction:
         """See :meth:`Inertia.squares_of_symbols`."""

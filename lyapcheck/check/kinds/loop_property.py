@@ -112,8 +112,8 @@ def facts_of(statement: LoopProperty, numbers: tuple[Fraction, ...]) -> list[tup
     require(len(numbers) == wanted, "numbers", len(numbers), f"must be {wanted}")
     require(all(number > 0 for number in numbers), "numbers", numbers, "must be positive")
     slope = ("h' is the derivative of h", Identity(derivative(statement.h, "x"), statement.slope))
-    found = listed(statement, *numbers)
-    return found if slope in found else [slope, *found]
+    result = listed(statement, *numbers)
+    return result if slope in result else [slope, *result]
 
 
 Named = list[tuple[str, Statement]]

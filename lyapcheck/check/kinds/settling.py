@@ -16,7 +16,7 @@ from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_te
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
@@ -171,7 +171,7 @@ def _require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fract
 
 def margin_of(statement: Settling, proof: FallingLevels) -> Margin:
     """What dV/dt is said to be below 0 by."""
-    closure = Closure(
+    loop = ClosedLoop(
         Arm(statement.mass, statement.viscous),
         statement.family,
         statement.m,
@@ -180,7 +180,7 @@ def margin_of(statement: Settling, proof: FallingLevels) -> Margin:
         statement.eps0,
     )
     shares = (proof.friction, proof.stiffness, proof.split, proof.slack)
-    return Margin(closure, *shares, proof.inertia)
+    return Margin(loop, *shares, proof.inertia)
 
 
 def require_margin(margin: Margin, decreasing: PositiveAndDecreasing) -> str:

@@ -127,12 +127,12 @@ class Signs:
         Raises:
             Refused: a generator that does not exist, or an exponent that is not positive.
         """
-        found = [0] * self.ring.nvars()
+        result = [0] * self.ring.nvars()
         for index, exponent in monomial:
-            require(0 <= index < len(found), "generator", index, "does not exist")
+            require(0 <= index < len(result), "generator", index, "does not exist")
             require(exponent > 0, "exponent", exponent, "must be positive")
-            found[index] += exponent
-        return tuple(found)
+            result[index] += exponent
+        return tuple(result)
 
 
 def require_identity(signs: Signs, goal: fmpq_mpoly, strict: bool, proof: SignIdentity) -> None:

@@ -146,7 +146,7 @@ def hessian(energy: Monomials, n: int) -> tuple[Monomials, ...]:
 
 def slope(polynomial: Monomials, i: int, n: int) -> Monomials:
     """∂/∂q_i: sᵃcᵇ becomes a sᵃ⁻¹cᵇ⁺¹ − b sᵃ⁺¹cᵇ⁻¹."""
-    found: dict[tuple[int, ...], Fraction] = {}
+    result: dict[tuple[int, ...], Fraction] = {}
     for powers, c in polynomial:
         for old, new, sign in ((i, n + i, 1), (n + i, i, -1)):
             if powers[old]:
@@ -154,8 +154,8 @@ def slope(polynomial: Monomials, i: int, n: int) -> Monomials:
                 moved[old] -= 1
                 moved[new] += 1
                 key = tuple(moved)
-                found[key] = found.get(key, Fraction(0)) + sign * powers[old] * c
-    return tuple((powers, c) for powers, c in sorted(found.items()) if c)
+                result[key] = result.get(key, Fraction(0)) + sign * powers[old] * c
+    return tuple((powers, c) for powers, c in sorted(result.items()) if c)
 
 
 @rule(StableArm, ByObligations)

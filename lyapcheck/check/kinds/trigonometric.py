@@ -16,7 +16,7 @@ from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text, number_text
-from lyapcheck.check.loop.closure import root_above
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_failure
@@ -187,9 +187,9 @@ def extent(tree: Tree) -> tuple[Fraction, Fraction]:
             raise Unsupported(f"more than {MAX_EXPONENTIALS} exponentials")
         share = c / ratio.bottom.leading_coefficient()
         terms.append((tuple(powers), Fraction(int(share.p), int(share.q))))
-    found = harmonics(terms, n)
-    mean = found.pop((0,) * n, (Fraction(0),))[0]
-    amplitudes = (root_above(a * a + b * b) if a and b else abs(a + b) for a, b in found.values())
+    result = harmonics(terms, n)
+    mean = result.pop((0,) * n, (Fraction(0),))[0]
+    amplitudes = (root_above(a * a + b * b) if a and b else abs(a + b) for a, b in result.values())
     return mean, sum(amplitudes, Fraction(0))
 
 

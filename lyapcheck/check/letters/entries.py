@@ -49,7 +49,9 @@ class Entries:
         """What stands under d/dt; where it has no value, its rate has none."""
         if tree[0] == "rate":
             return [self.number(tree[1])]
-        return [found for part in tree[1:] if isinstance(part, tuple) for found in self.differentiated(part)]
+        return [
+            result for part in tree[1:] if isinstance(part, tuple) for result in self.differentiated(part)
+        ]
 
     def vector(self, tree: Tree) -> Vector:
         """The entries of a vector."""
@@ -97,16 +99,16 @@ class Entries:
     @cached_property
     def moving(self) -> dict[str, Tree]:
         """The derivative of each variable that has one."""
-        found: dict[str, Tree] = {}
+        result: dict[str, Tree] = {}
         for (kind, name), value in self.rates.items():
             if kind == "var":
-                found[name] = self.number(value)
+                result[name] = self.number(value)
             elif kind == "vec":
-                found |= {f"{name}[{i + 1}]": entry for i, entry in enumerate(self.vector(value))}
+                result |= {f"{name}[{i + 1}]": entry for i, entry in enumerate(self.vector(value))}
             else:
                 rows = self.matrix(value)
-                found |= {self._name(name, i, j): rows[i][j] for i in self.joints for j in self.joints}
-        return found
+                result |= {self._name(name, i, j): rows[i][j] for i in self.joints for j in self.joints}
+        return result
 
     def _rate(self, tree: Tree) -> Tree:
         """The chain rule over the variables of an expression."""

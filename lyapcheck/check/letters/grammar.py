@@ -64,13 +64,13 @@ def _sorts(operation: str, parts: list[Any], sort: str) -> tuple[str, ...]:
     Raises:
         Refused: the operation does not make something of this sort, or not from so many parts.
     """
-    found = PARTS.get((sort, operation))
+    result = PARTS.get((sort, operation))
     if operation == "sum" and sort != "number":
-        found = (sort,) * len(parts)
-    if found is not None:
-        fits = len(found) == len(parts) and all(isinstance(part, tuple) for part in parts)
-        require(fits, operation, parts, f"needs {len(found)} expressions")
-        return found
+        result = (sort,) * len(parts)
+    if result is not None:
+        fits = len(result) == len(parts) and all(isinstance(part, tuple) for part in parts)
+        require(fits, operation, parts, f"needs {len(result)} expressions")
+        return result
     shape = SHAPES.get(operation) if sort == "number" else None
     require(shape is not None and shape(parts), "expression", operation, f"does not make a {sort} of these")
     return (sort,) * len(parts)

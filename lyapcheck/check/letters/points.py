@@ -50,8 +50,8 @@ def solved(entries: Entries, given: Iterable[tuple[str, str, Tree]], point: Poin
     for matrix, vector, equals in given:
         a = fmpq_mat([[_at(tree, point) for tree in row] for row in entries.matrix(("mat", matrix))])
         b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(equals)])
-        found = a.solve(b).entries()
-        for (_, name), value in zip(entries.vector(("vec", vector)), found, strict=True):
+        result = a.solve(b).entries()
+        for (_, name), value in zip(entries.vector(("vec", vector)), result, strict=True):
             point = point | {name: Fraction(int(value.p), int(value.q))}
     return point
 
@@ -76,12 +76,12 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction], certain: bo
         pass
     with ctx.workprec(BITS):
         balls = {name: ball_of(value) for name, value in point.items()}
-        found, size = ball(gap, balls), ball(("add", ("abs", left), ("abs", right)), balls)
-        if found > 0 or found < 0:
-            return 1 if found > 0 else -1
+        result, size = ball(gap, balls), ball(("add", ("abs", left), ("abs", right)), balls)
+        if result > 0 or result < 0:
+            return 1 if result > 0 else -1
         if certain:
             return None
-        small = abs(found) < (1 + size) * arb(2) ** (-BITS // 2)
+        small = abs(result) < (1 + size) * arb(2) ** (-BITS // 2)
         return 0 if small else None
 
 
@@ -143,10 +143,10 @@ class Norms:
     def shrunk(self, point: Point) -> Point:
         """The point with letters made smaller until bounds by plain numbers hold."""
         for letters, size in self.norms:
-            room = _value(size, {})
+            upper = _value(size, {})
             square = self.squared(letters, point)
-            if room is not None and square > room * room:
-                share = room / _root_above(square)
+            if upper is not None and square > upper * upper:
+                share = upper / _root_above(square)
                 point = self._scaled(letters[0], share, point)
         return point
 
@@ -160,16 +160,16 @@ class Norms:
         """
         raised = {name for _, size in self.norms for name in _names(size)}
         for letters, size in self.norms:
-            square, room = self.squared(letters, point), _value(size, point)
+            square, upper = self.squared(letters, point), _value(size, point)
             free = sorted(_names(size) & names)
-            if room is not None and free and square > room * room:
-                rest = room / point[free[-1]]
+            if upper is not None and free and square > upper * upper:
+                rest = upper / point[free[-1]]
                 point = point | {free[-1]: _root_above(square) / rest if rest else point[free[-1]]}
         for number, size in self.least:
-            free, room = sorted((_names(size) & names) - raised), _value(size, point)
+            free, upper = sorted((_names(size) & names) - raised), _value(size, point)
             value = exact(self.entries.number(number), point)
-            if room is not None and free and rational(room) > value:
-                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / room * NEARLY
+            if upper is not None and free and rational(upper) > value:
+                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / upper * NEARLY
                 point = point | {free[-1]: share * point[free[-1]]}
         return point
 

@@ -117,21 +117,21 @@ class Words:
 
 def _in_order(word: Word) -> Word:
     """Neighbours that multiply entry by entry, vectors at the ends included, in the order of their names."""
-    found: list[Letter] = []
+    result: list[Letter] = []
     for entrywise, run in groupby(word, lambda letter: letter[0] in ("vec", "diag")):
         kinds, names = zip(*run, strict=True)
-        found += zip(kinds, sorted(names) if entrywise else names, strict=True)
-    return tuple(found)
+        result += zip(kinds, sorted(names) if entrywise else names, strict=True)
+    return tuple(result)
 
 
 def _collected(pairs: Iterable[tuple[Word, Tree]]) -> Sum:
     """The sum of the coefficients of each word."""
-    found: dict[Word, list[Tree]] = {}
+    result: dict[Word, list[Tree]] = {}
     for count, (word, c) in enumerate(pairs):
-        found.setdefault(word, []).append(c)
-        if len(found) > MAX_WORDS or count > MAX_PAIRS:
+        result.setdefault(word, []).append(c)
+        if len(result) > MAX_WORDS or count > MAX_PAIRS:
             raise Unsupported(f"more than {MAX_WORDS} words, or {MAX_PAIRS} before they are added up")
-    return {word: _total(parts) for word, parts in found.items()}
+    return {word: _total(parts) for word, parts in result.items()}
 
 
 def _total(parts: Iterable[Tree]) -> Tree:

@@ -109,20 +109,20 @@ class Posture:
 
     def torques(self, fall: Vector) -> Values:
         """g(q), (n,), N·m, for an acceleration of free fall in the base frame, (3,), m/s²."""
-        of, found = self.of, []
+        of, result = self.of, []
         for k, link in enumerate(self.links):
             fall = of.apply(transposed(self.turns[k]), fall)
-            found.append(of.value(of.dot(of.cross(link.axis, fall), self.bodies[k].moment)))
-        return found
+            result.append(of.value(of.dot(of.cross(link.axis, fall), self.bodies[k].moment)))
+        return result
 
     @cached_property
     def bodies(self) -> list[Body]:
         """Of each joint all that it moves, in its frame."""
-        found: list[Body] = []
+        result: list[Body] = []
         for k in reversed(range(self.n)):
             own = own_body(self.of, self.links[k])
-            found.insert(0, own if not found else self._with(own, k + 1, found[0]))
-        return found
+            result.insert(0, own if not result else self._with(own, k + 1, result[0]))
+        return result
 
     def _with(self, own: Body, k: int, body: Body) -> Body:
         """A body and that of the next joint k."""

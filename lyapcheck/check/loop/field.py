@@ -185,20 +185,20 @@ def _combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
 
 def cosines_and_sines(used: Sequence[tuple[int, ...]], q: Sequence[arb], of: Arithmetic) -> Values:
     """cos and sin of every harmonic."""
-    found: Values = {}
+    result: Values = {}
     for k in used:
         angle = sum((factor * x for factor, x in zip(k, q, strict=True) if factor), arb(0))
-        found[k] = of.value(cosine_range(angle)), of.value(cosine_range(angle - arb.pi() / 2))
-    return found
+        result[k] = of.value(cosine_range(angle)), of.value(cosine_range(angle - arb.pi() / 2))
+    return result
 
 
 def cosine_range(x: arb) -> arb:
     """cos over a ball: the hull of both ends and of the extremes ±1 at the multiples of π in between."""
     low, high = x.lower(), x.upper()
-    found = low.cos().union(high.cos())
+    result = low.cos().union(high.cos())
     turns = range(math.floor(float(low) / math.pi) - 1, math.ceil(float(high) / math.pi) + 2)
     for k in turns:
         place = k * arb.pi()
         if not (place < low or place > high):
-            found = found.union(arb((-1) ** k))
-    return found
+            result = result.union(arb((-1) ** k))
+    return result

@@ -53,7 +53,7 @@ class Inertia:
             most,
         )
 
-    def turning_below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
+    def coriolis_below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether ‖C(q, x)y‖ < high ‖x‖ ‖y‖ throughout, by boxes.
 
         Soundness: with S_i = (c_ijk)_jk the entries of C(q, x)y are xᵀS_i y, so that its square is at most
@@ -82,11 +82,11 @@ class Inertia:
         self, q: Sequence[Fraction], parameters: Sequence[Fraction], x: Sequence[arb], y: Sequence[arb]
     ) -> list[arb]:
         """C(q, x)y in balls, (Σ_jk c_ijk x_k y_j)_i."""
-        found = [arb(0)] * self.n
+        result = [arb(0)] * self.n
         for (i, j, k), symbol in self.symbols.items():
             value = value_at(symbol, q, parameters)
-            found[i] += value * (x[k] * y[j] if j == k else x[k] * y[j] + x[j] * y[k])
-        return found
+            result[i] += value * (x[k] * y[j] if j == k else x[k] * y[j] + x[j] * y[k])
+        return result
 
     def largest_row(self) -> Fraction:
         """A bound of ‖M(q)‖: the largest sum of a row of sizes of entries."""
@@ -138,13 +138,13 @@ def _product(x: list[Value], y: list[Value], same: bool, of: Arithmetic) -> Valu
 
 def rows_of(entries: Sequence[Value]) -> list[list[Value]]:
     """The entries on and below the diagonal of a matrix, row by row."""
-    found: list[list[Value]] = []
+    result: list[list[Value]] = []
     left = list(entries)
     while left:
-        count = len(found) + 1
-        found.append(left[:count])
+        count = len(result) + 1
+        result.append(left[:count])
         left = left[count:]
-    return found
+    return result
 
 
 def exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:

@@ -55,7 +55,7 @@ def _posture(links: Sequence[RigidLink], ring: fmpq_mpoly_ctx, reduced: Reduce) 
 
 
 def _terms(entry: Monomials) -> dict[tuple[int, ...], fmpq]:
-    found: dict[tuple[int, ...], fmpq] = {}
+    result: dict[tuple[int, ...], fmpq] = {}
     for powers, c in entry:
-        found[powers] = found.get(powers, fmpq(0)) + rational(c)
-    return found
+        result[powers] = result.get(powers, fmpq(0)) + rational(c)
+    return result

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
-from lyapcheck.check.loop.closure import Closure
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
@@ -40,12 +40,12 @@ def sharing() -> int:
     return _JOBS.get()
 
 
-def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:
+def proves(loop: ClosedLoop, tree: str, jobs: int = 1) -> bool:
     """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
 
     Args:
-        closure: arm, controller and ε₀.
-        tree: in preorder, a digit for the side of ``closure.start`` that is cut, a dot for a leaf.
+        loop: arm, controller and ε₀.
+        tree: in preorder, a digit for the side of ``loop.start`` that is cut, a dot for a leaf.
         jobs: processes to share the leaves between.
 
     Returns:
@@ -57,28 +57,28 @@ def proves(closure: Closure, tree: str, jobs: int = 1) -> bool:
     Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
     """
     if jobs <= 1 or len(tree) < WORTH_SHARING:
-        return proves_part(closure, tree, 0, 1)
+        return proves_part(loop, tree, 0, 1)
     # spawned processes import afresh; the copy leaves behind what the closure has computed for itself
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        parts = [pool.submit(proves_part, replace(closure), tree, part, jobs) for part in range(jobs)]
+        parts = [pool.submit(proves_part, replace(loop), tree, part, jobs) for part in range(jobs)]
         return all(part.result() for part in parts)
 
 
-def proves_part(closure: Closure, tree: str, part: int, parts: int) -> bool:
+def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
     """The share of `proves` that falls to one of several processes: every leaf in turn, by its number.
 
     Soundness: the tree proves the statement if all its parts are ``True``.
     """
-    if not closure.admissible:
+    if not loop.admissible:
         return False
-    boxes = leaves(closure.start, tree)
-    if certifies(closure.tail, closure.eps0):
+    boxes = leaves(loop.start, tree)
+    if certifies(loop.tail, loop.eps0):
         return all(True for _ in boxes)  # the tree is read to its end, though no box need be judged
     with precision(BITS):
-        evaluators = Evaluator(closure, BALLS), Evaluator(closure, SPANS)
+        evaluators = Evaluator(loop, BALLS), Evaluator(loop, SPANS)
         # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
         mine = (box for k, box in enumerate(boxes) if k // BLOCK % parts == part)
         return all(_shown(evaluators, box) for box in mine)
@@ -89,7 +89,7 @@ def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
 
     The side that is cut is the widest beside what it was at the start.
     """
-    whole = [high - low for low, high in evaluators[0].closure.start]
+    whole = [high - low for low, high in evaluators[0].loop.start]
     stack = [(box, 0)]
     while stack:
         part, depth = stack.pop()

@@ -5,7 +5,7 @@ the variables it lives in:
 
     ‖M̃ H'‖ ≤ μ ρ(r),                         μ ≥ λmax(M̃(q)) for all q, ρ(r) = sup |h'| up to r
     ‖M̃ D h‖ ‖D⁻¹ ê‖/(1+r) ≤ μ g(r),          g(r) = min(κ_D S(r) r, c √n γ)/(1+r)
-    its pull upwards ≤ f(r) ≤ μ g(r),         see ``pull``
+    its pull upwards ≤ f(r) ≤ μ g(r),         see ``rank_one``
     |λ|(sym C̃(q,h)) = ½ ‖Σ h_j ∂_j M̃‖ ≤ κ a(r),  ‖C̃(q,h)‖ ≤ κ' a(r),   a(r) = min(S(r) r, √n γ) ≥ ‖h‖
 
 where S(r) = sup h(x)/x up to r, c = max d/min d, and κ_D = ½ (c + 1/c) by Kantorovich's inequality. So
@@ -30,10 +30,10 @@ from flint import arb, fmpq, fmpq_mat
 
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.boxes import Box, leaves
-from lyapcheck.check.loop.closure import Closure, RateProof, root_above
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, root_above
 from lyapcheck.check.loop.field import PI_ABOVE, Field
 from lyapcheck.check.loop.inertia import exceeds, rows_of
-from lyapcheck.check.loop.pull import pull_up
+from lyapcheck.check.loop.rank_one import rank_one_bound
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.harmonics import Harmonic, Harmonics, Uncertain
 from lyapcheck.check.numbers.members import Member
@@ -66,17 +66,17 @@ class RadialBounds(RateProof):
     tree: str
     cuts: tuple[Fraction, ...]
 
-    def require_shown(self, closure: Closure) -> None:
+    def require_shown(self, loop: ClosedLoop) -> None:
         """By :func:`proves_radially`."""
-        shown = proves_radially(closure, self)
+        shown = proves_radially(loop, self)
         require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
 
 
-def proves_radially(closure: Closure, radial: RadialBounds) -> bool:
+def proves_radially(loop: ClosedLoop, radial: RadialBounds) -> bool:
     """Whether dV/dt < 0 is shown at every state but the origin.
 
     Args:
-        closure: arm, controller and ε₀, without parameters and with Λ = I.
+        loop: arm, controller and ε₀, without parameters and with Λ = I.
         radial: untrusted data.
 
     Returns:
@@ -85,20 +85,20 @@ def proves_radially(closure: Closure, radial: RadialBounds) -> bool:
     Raises:
         BrokenTree: the text is not a tree of the angles.
     """
-    covered = not closure.parameters and not closure.coupling
-    if not closure.admissible or not covered or not fits(closure, radial):
+    covered = not loop.parameters and not loop.coupling
+    if not loop.admissible or not covered or not fits(loop, radial):
         return False
     with precision(BITS):
-        parts = Parts(closure, radial)
-        return parts.inertia_shown() and Inequality(closure, parts).shown()
+        parts = Parts(loop, radial)
+        return parts.inertia_shown() and Inequality(loop, parts).shown()
 
 
-def fits(closure: Closure, radial: RadialBounds) -> bool:
+def fits(loop: ClosedLoop, radial: RadialBounds) -> bool:
     """Whether the data have the sizes and signs that the argument needs."""
-    weights = len(radial.weights) == closure.n and all(
-        d > 0 and d * d <= low for d, (low, _) in zip(radial.weights, closure.friction, strict=True)
+    weights = len(radial.weights) == loop.n and all(
+        d > 0 and d * d <= low for d, (low, _) in zip(radial.weights, loop.friction, strict=True)
     )
-    joints = len(set(radial.angles)) == len(radial.angles) and set(radial.angles) <= set(range(closure.n))
+    joints = len(set(radial.angles)) == len(radial.angles) and set(radial.angles) <= set(range(loop.n))
     rising = len(radial.cuts) > 0 and radial.cuts[0] == 0 and all(a < b for a, b in pairwise(radial.cuts))
     return weights and joints and rising and 0 <= radial.lowest <= radial.inertia and radial.inertia > 0
 
@@ -106,34 +106,34 @@ def fits(closure: Closure, radial: RadialBounds) -> bool:
 class Parts:
     """The bounds of M̃ and C̃; they do not depend on ε₀."""
 
-    def __init__(self, closure: Closure, radial: RadialBounds) -> None:
-        self.closure = closure
+    def __init__(self, loop: ClosedLoop, radial: RadialBounds) -> None:
+        self.loop = loop
         self.radial = radial
         self.mu = to_arb(radial.inertia)
-        n, d = closure.n, radial.weights
+        n, d = loop.n, radial.weights
         joints = range(n)
-        self.mass = [[_scaled(closure.mass[i][j].get((), {}), d[i] * d[j]) for j in joints] for i in joints]
+        self.mass = [[_scaled(loop.mass[i][j].get((), {}), d[i] * d[j]) for j in joints] for i in joints]
 
     @cached_property
-    def turning(self) -> arb:
+    def kappa(self) -> arb:
         """κ = ‖(½ sup ‖∂_j M̃‖)_j‖."""
         sizes = sizes_of(self.mass)
-        joints = range(self.closure.n)
+        joints = range(self.loop.n)
         kappa = [sum((abs(k[j]) * size for k, size in sizes.items()), Fraction(0)) / 2 for j in joints]
         return to_arb(root_above(sum((x * x for x in kappa), Fraction(0))))
 
     @cached_property
     def coriolis(self) -> arb:
         """κ' = ‖(sup ‖C̃(q, e_j)‖)_j‖."""
-        tables = (self._coriolis_of(j) for j in range(self.closure.n))
+        tables = (self._coriolis_of(j) for j in range(self.loop.n))
         bounds = [sum(sizes_of(table).values(), Fraction(0)) for table in tables]
         return to_arb(root_above(sum((x * x for x in bounds), Fraction(0))))
 
     def _coriolis_of(self, j: int) -> Table:
         """C̃(q, e_j)."""
-        n, d = self.closure.n, self.radial.weights
+        n, d = self.loop.n, self.radial.weights
         table: Table = [[{} for _ in range(n)] for _ in range(n)]
-        for (i, a, b), symbol in self.closure.symbols.items():
+        for (i, a, b), symbol in self.loop.symbols.items():
             if a == j:
                 table[i][b] = _scaled(symbol.get((), {}), d[i] * d[b])
             if b == j:
@@ -159,7 +159,7 @@ class Parts:
     @cached_property
     def field(self) -> Field:
         """The entries of ``near`` on and below the diagonal."""
-        n = self.closure.n
+        n = self.loop.n
         entries: list[Uncertain] = [{(): self.near[i][j]} for i in range(n) for j in range(i + 1)]
         return Field(entries, n, (), self.radial.angles)
 
@@ -173,18 +173,18 @@ class Parts:
 class Inequality:
     """What is left to show, in r alone, at the ε₀ of a closure."""
 
-    def __init__(self, closure: Closure, parts: Parts) -> None:
-        self.closure = closure
+    def __init__(self, loop: ClosedLoop, parts: Parts) -> None:
+        self.loop = loop
         self.parts = parts
         d = parts.radial.weights
         spread = max(d) / min(d)
         self.spread = to_arb(spread)
         self.kantorovich = to_arb((spread + 1 / spread) / 2)
-        self.softness = to_arb(max(x * x / k for x, k in zip(d, closure.stiffness, strict=True)))
-        self.friction = to_arb(max(high / (x * x) for x, (_, high) in zip(d, closure.friction, strict=True)))
-        self.pull_up = to_arb(pull_up(parts.radial.inertia, parts.radial.lowest, d))
-        self.reach = arb(closure.n).sqrt() * to_arb(closure.member.gamma)
-        self.eps0 = to_arb(closure.eps0)
+        self.softness = to_arb(max(x * x / k for x, k in zip(d, loop.stiffness, strict=True)))
+        self.friction = to_arb(max(high / (x * x) for x, (_, high) in zip(d, loop.friction, strict=True)))
+        self.rank_one_bound = to_arb(rank_one_bound(parts.radial.inertia, parts.radial.lowest, d))
+        self.norm_h = arb(loop.n).sqrt() * to_arb(loop.member.gamma)
+        self.eps0 = to_arb(loop.eps0)
 
     def shown(self) -> bool:
         """Whether it holds for all r ≥ 0."""
@@ -198,19 +198,19 @@ class Inequality:
         """
         low = to_arb(near)
         eps = self.eps0 / (1 + low)
-        pull = self.spread * self.reach / (1 + low)
-        steep, a = to_arb(self.closure.member.rho), self.reach
+        rank_one = self.spread * self.norm_h / (1 + low)
+        steep, a = to_arb(self.loop.member.rho), self.norm_h
         if far is not None:
             high = to_arb(far)
-            steepest, rise = _up_to(self.closure.member, far)
+            steepest, rise = _up_to(self.loop.member, far)
             steep, a = min_of(steep, steepest), min_of(a, rise)
-            pull = min_of(pull, self.kantorovich * rise / (1 + high))
-            up = min_of(self.parts.mu * pull, self.pull_up * rise / (1 + high))
+            rank_one = min_of(rank_one, self.kantorovich * rise / (1 + high))
+            up = min_of(self.parts.mu * rank_one, self.rank_one_bound * rise / (1 + high))
         else:
-            up = self.parts.mu * pull
+            up = self.parts.mu * rank_one
         steep *= self.parts.mu
-        fast = steep + up + self.parts.turning * a
-        slow = self.friction + eps * (steep + self.parts.mu * pull + self.parts.coriolis * a)
+        fast = steep + up + self.parts.kappa * a
+        slow = self.friction + eps * (steep + self.parts.mu * rank_one + self.parts.coriolis * a)
         return bool(1 - eps * fast - eps * self.softness * slow * slow / 4 > 0)
 
 

@@ -10,7 +10,7 @@ from flint import arb
 
 from lyapcheck.check.loop.arithmetic import Arithmetic
 from lyapcheck.check.loop.boxes import Box, Side
-from lyapcheck.check.loop.closure import Closure
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import Field, ball
 from lyapcheck.check.numbers.balls import to_arb
 
@@ -25,32 +25,32 @@ class Evaluator:
     """P over boxes; ranges of functions of one side are kept, since boxes share sides.
 
     Args:
-        closure: what is to be shown.
+        loop: what is to be shown.
         of: the arithmetic.
     """
 
-    def __init__(self, closure: Closure, of: Arithmetic) -> None:
-        self.closure = closure
+    def __init__(self, loop: ClosedLoop, of: Arithmetic) -> None:
+        self.loop = loop
         self.of = of
         self.zero = of.value(arb(0))
-        self.eps0 = of.value(to_arb(closure.eps0))
-        ranges = (*closure.parameters, *closure.friction)
+        self.eps0 = of.value(to_arb(loop.eps0))
+        ranges = (*loop.parameters, *loop.friction)
         self.exact = [of.value(to_arb(low)) for low, _ in ranges]
         self.fixed = [None if low < high else of.value(to_arb(low)) for low, high in ranges]
-        self.compliance = [of.value(1 / (4 * to_arb(k))) for k in closure.stiffness]
+        self.compliance = [of.value(1 / (4 * to_arb(k))) for k in loop.stiffness]
         self.half = of.value(arb(1) / 2)
-        self.coupling = [of.value(to_arb(scale)) for scale in closure.coupling]
-        entries = [closure.mass[i][j] for i in range(closure.n) for j in range(i + 1)]
-        self.field = Field([*entries, *closure.symbols.values()], closure.n, (), closure.angles)
-        self.radius_squared = arb(closure.radius) ** 2
-        self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.h(ball(side))))
-        self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(closure.member.dh(ball(side))))
+        self.coupling = [of.value(to_arb(scale)) for scale in loop.coupling]
+        entries = [loop.mass[i][j] for i in range(loop.n) for j in range(i + 1)]
+        self.field = Field([*entries, *loop.symbols.values()], loop.n, (), loop.angles)
+        self.radius_squared = arb(loop.radius) ** 2
+        self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.h(ball(side))))
+        self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.dh(ball(side))))
         self.square = lru_cache(maxsize=_KEPT)(_square)
         self.arms: dict[Box, tuple[Rows, Symbols]] = {}
 
     def proves(self, box: Box) -> bool:
         """Whether P ≻ 0 at every point of the box, or all of it lies beyond R."""
-        first, last = len(self.closure.angles), len(self.closure.angles) + self.closure.n
+        first, last = len(self.loop.angles), len(self.loop.angles) + self.loop.n
         sides, errors = box[:first], box[first:last]
         r_squared = sum((self.square(side) for side in errors), arb(0))
         if r_squared >= self.radius_squared:
@@ -59,7 +59,7 @@ class Evaluator:
 
     def schur(self, sides: Box, errors: Box, uncertain: Box, r_squared: arb) -> Rows:
         """P, the entries on and below the diagonal."""
-        n, filled = self.closure.n, self._filled(uncertain)
+        n, filled = self.loop.n, self._filled(uncertain)
         B = filled[len(filled) - n :]
         shrink = self.of.value(_inverse_one_plus_root(r_squared))
         eps = self.eps0 * shrink
@@ -88,12 +88,12 @@ class Evaluator:
 
     def _coupling(self, arm: tuple[Rows, Symbols], errors: Box, shrink: Value) -> Rows:
         """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
-        n = self.closure.n
+        n = self.loop.n
         M, symbols = arm
         h, dh = self._coupled(self.h, errors), self._coupled(self.dh, errors)
         pushed = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
-        pull = [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)]
-        rows = [[pushed[i] * pull[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
+        direction = [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)]
+        rows = [[pushed[i] * direction[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
         for (i, j, k), symbol in symbols.items():
             rows[i][j] = rows[i][j] + symbol * h[k]
             if k != j:
@@ -114,14 +114,14 @@ class Evaluator:
         if known is None:
             if len(self.arms) > _KEPT // 4:
                 self.arms.clear()
-            known = self.arms[place] = self._new_arm(sides, filled[: len(self.closure.parameters)])
+            known = self.arms[place] = self._new_arm(sides, filled[: len(self.loop.parameters)])
         return known
 
     def _new_arm(self, sides: Box, parameters: list[Value]) -> tuple[Rows, Symbols]:
-        found, n = self.field.at(sides, parameters, self.of), self.closure.n
-        below = {(i, j): found.pop(0) for i in range(n) for j in range(i + 1)}
+        result, n = self.field.at(sides, parameters, self.of), self.loop.n
+        below = {(i, j): result.pop(0) for i in range(n) for j in range(i + 1)}
         M = [[below[max(i, j), min(i, j)] for j in range(n)] for i in range(n)]
-        return M, dict(zip(self.closure.symbols, found, strict=True))
+        return M, dict(zip(self.loop.symbols, result, strict=True))
 
 
 def _square(side: Side) -> arb:
@@ -140,11 +140,11 @@ def _inverse_one_plus_root(r_squared: arb) -> arb:
 def _unit_vector(errors: Sequence[Side], square: Callable[[Side], arb]) -> list[arb]:
     """e/‖e‖, and all of [−1, 1] where the box touches the origin."""
     squares = [square(side) for side in errors]
-    found = []
+    result = []
     for i, (low, high) in enumerate(errors):
         rest = sum((x for k, x in enumerate(squares) if k != i), arb(0))
-        found.append((-_share(-low, rest)).union(_share(high, rest)))
-    return found
+        result.append((-_share(-low, rest)).union(_share(high, rest)))
+    return result
 
 
 def _share(x: float, rest: arb) -> arb:

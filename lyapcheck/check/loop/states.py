@@ -93,9 +93,9 @@ def rate(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: i
         at = _Point(arm, controller, eps0, state)
         dh = [-at.functions.dh(e) * w for e, w in zip(at.e, at.w, strict=True)]
         shift = [at.eps_rate * h + at.eps * change for h, change in zip(at.h, dh, strict=True)]
-        pull = [a - b for a, b in zip(at.inertia_times_acceleration(), _times(at.mass, shift), strict=True)]
+        torque = [a - b for a, b in zip(at.inertia_times_acceleration(), _times(at.mass, shift), strict=True)]
         stored = _sum(k * h * w for k, h, w in zip(at.kp, at.h, at.w, strict=True))
-        return _dot(at.y, pull) + _dot(at.y, _times(at.mass_rate, at.y)) / 2 - stored
+        return _dot(at.y, torque) + _dot(at.y, _times(at.mass_rate, at.y)) / 2 - stored
 
 
 def confirms_positive(arm: Arm, controller: Controller, eps0: Fraction, state: State) -> bool:
@@ -108,10 +108,10 @@ def confirms_positive(arm: Arm, controller: Controller, eps0: Fraction, state: S
     if len(sizes) != 1 or state.at_origin or eps0 <= 0:
         return False
     for bits in _BITS:
-        found = rate(arm, controller, eps0, state, bits)
-        if found > 0:
+        result = rate(arm, controller, eps0, state, bits)
+        if result > 0:
             return True
-        if found < 0:
+        if result < 0:
             return False
     return False
 
@@ -147,11 +147,11 @@ class _Point:
 
     def inertia_times_acceleration(self) -> list[arb]:
         """Mẇ of (11)."""
-        turning = _times(self.mass_rate, self.w)
+        coriolis = _times(self.mass_rate, self.w)
         forces = []
         for i, w in enumerate(self.w):
-            pull = self.kp[i] * self.h[i] - self.kv[i] * self.functions.h(w) - self.viscous[i] * w
-            forces.append(pull - turning[i] + _dot(self.w, _times(self.slopes[i], self.w)) / 2)
+            torque = self.kp[i] * self.h[i] - self.kv[i] * self.functions.h(w) - self.viscous[i] * w
+            forces.append(torque - coriolis[i] + _dot(self.w, _times(self.slopes[i], self.w)) / 2)
         return forces
 
 
@@ -163,13 +163,13 @@ def polynomial(terms: Sequence[Term], sines: Sequence[arb], cosines: Sequence[ar
 
 def slope(terms: Sequence[Term], k: int, sines: Sequence[arb], cosines: Sequence[arb]) -> arb:
     """The derivative of a sum of terms with respect to q_k by the product rule: sin' = cos, cos' = −sin."""
-    n, generators, found = len(sines), [*sines, *cosines], arb(0)
+    n, generators, result = len(sines), [*sines, *cosines], arb(0)
     for powers, coefficient in terms:
         for index, inner in ((k, cosines[k]), (n + k, -sines[k])):
             if powers[index]:
                 lower = tuple(p - (i == index) for i, p in enumerate(powers))
-                found += to_arb(coefficient) * powers[index] * _monomial(lower, generators) * inner
-    return found
+                result += to_arb(coefficient) * powers[index] * _monomial(lower, generators) * inner
+    return result
 
 
 def _monomial(powers: Sequence[int], generators: Sequence[arb]) -> arb:

@@ -33,7 +33,7 @@ BITS = 256
 OF = Algebra(Fraction)
 Matrix = Sequence[Sequence[Fraction]]
 Forms = tuple[tuple[Fraction, ...], ...]
-"""For each joint the coefficients of its form; see `turning_form`."""
+"""For each joint the coefficients of its form; see `invariant_form`."""
 
 
 @dataclass(frozen=True)
@@ -70,13 +70,13 @@ class Hinge:
 
 def hinges(links: Sequence[RigidLink]) -> list[Hinge]:
     """The links in such frames, base first."""
-    found, before = [], [list(row) for row in UNIT]
+    result, before = [], [list(row) for row in UNIT]
     for link in links:
         own = _upright(link.axis)
         com = OF.apply(own, link.com)
         tilt = _cross(com)
         far = [[-link.mass * x for x in row] for row in OF.product(tilt, tilt)]
-        found.append(
+        result.append(
             Hinge(
                 OF.product(OF.product(own, transposed(link.turn)), transposed(before)),
                 OF.apply(before, link.origin),
@@ -86,7 +86,7 @@ def hinges(links: Sequence[RigidLink]) -> list[Hinge]:
             )
         )
         before = own
-    return found
+    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,18 +113,18 @@ def energy(links: Sequence[RigidLink], sign: int) -> list[Stage]:
 
 def weight(links: Sequence[RigidLink], joints: Collection[int]) -> list[Stage]:
     """Costs that sum up to 2 zᵀg(q) for rates z of some joints, counted from 0."""
-    found = []
+    result = []
     for k, hinge in enumerate(hinges(links)):
         # γᵀ(ω × c) = ωᵀ(c × γ)
         above = [[-x for x in row] for row in _cross(hinge.moment)]
         above += [[-hinge.mass * x for x in row] for row in UNIT]
         cost = _blocks(_zeros(TWIST), above, transposed(above), _zeros(FALL))
         carry = _blocks(hinge.carry, [[ZERO] * FALL] * TWIST, [[ZERO] * TWIST] * FALL, hinge.turn)
-        found.append(Stage(_matrix(carry), _matrix(cost), k in joints))
-    return found
+        result.append(Stage(_matrix(carry), _matrix(cost), k in joints))
+    return result
 
 
-def turning_form(coefficients: Sequence[Fraction], vectors: int) -> fmpq_mat:
+def invariant_form(coefficients: Sequence[Fraction], vectors: int) -> fmpq_mat:
     """A form of some vectors that turns of all of them about e_z leave as it is.
 
     For each pair a, b of them, a before or at b, come the coefficients of 2 a_z b_z, of 2 (a_x b_x + a_y b_y)
@@ -156,12 +156,12 @@ def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None
     if after is not None:
         carry = stages[k + 1].carry
         charged = charged + carry.transpose() * after * carry
-    push = fmpq_mat(d, d + stage.moves)
+    step = fmpq_mat(d, d + stage.moves)
     for i in range(d):
-        push[i, i] = fmpq(1)
+        step[i, i] = fmpq(1)
     if stage.moves:
-        push[2, d] = fmpq(1)
-    total = -(push.transpose() * charged * push)
+        step[2, d] = fmpq(1)
+    total = -(step.transpose() * charged * step)
     for i in range(d):
         for j in range(d):
             total[i, j] += own[i, j]
@@ -184,8 +184,8 @@ def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -
 def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Sequence[Fraction]) -> Fraction:
     """s_1(X_1 w_0) with w_0 = (0, γ)."""
     start = stages[0].carry * _matrix([[ZERO]] * TWIST + [[x] for x in fall])
-    found = (start.transpose() * forms[0] * start)[0, 0]
-    return Fraction(int(found.p), int(found.q))
+    result = (start.transpose() * forms[0] * start)[0, 0]
+    return Fraction(int(result.p), int(result.q))
 
 
 def _balls(form: fmpq_mat) -> list[list[arb]]:

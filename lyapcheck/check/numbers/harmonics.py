@@ -39,8 +39,8 @@ Uncertain = dict[tuple[int, ...], Harmonics]
 
 def by_parameters(terms: Sequence[Term], n: int) -> Uncertain:
     """The harmonics of a polynomial, by the powers of what it has beyond n sines and n cosines."""
-    found = sorted({powers[2 * n :] for powers, _ in terms})
-    parts = {p: harmonics([term for term in terms if term[0][2 * n :] == p], n) for p in found}
+    result = sorted({powers[2 * n :] for powers, _ in terms})
+    parts = {p: harmonics([term for term in terms if term[0][2 * n :] == p], n) for p in result}
     return {p: part for p, part in parts.items() if part}
 
 
@@ -77,7 +77,7 @@ def largest(terms: Mapping[Harmonic, Gaussian]) -> Fraction:
 def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int], Harmonics]:
     """The c_ijk = c_ikj = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) with k ≤ j that do not vanish."""
     n, half = len(mass), Fraction(1, 2)
-    found = {}
+    result = {}
     for i in range(n):
         for j in range(n):
             for k in range(j + 1):
@@ -88,17 +88,17 @@ def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int
                 )
                 symbol = combination(parts)
                 if symbol:
-                    found[i, j, k] = symbol
-    return found
+                    result[i, j, k] = symbol
+    return result
 
 
 def uncertain_christoffel(mass: Sequence[Sequence[Uncertain]]) -> dict[tuple[int, int, int], Uncertain]:
     """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
-    found: dict[tuple[int, int, int], Uncertain] = {}
+    result: dict[tuple[int, int, int], Uncertain] = {}
     for powers in sorted({p for row in mass for entry in row for p in entry}):
         for place, symbol in christoffel([[entry.get(powers, {}) for entry in row] for row in mass]).items():
-            found.setdefault(place, {})[powers] = symbol
-    return found
+            result.setdefault(place, {})[powers] = symbol
+    return result
 
 
 def angles_in(mass: Sequence[Sequence[Uncertain]]) -> tuple[int, ...]:

@@ -77,9 +77,9 @@ def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Leas
     """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx and kᵀU."""
     sized = {*system.moving, *changed, *(f.name for f in system.functions)}
     for word in sorted(chain.from_iterable(words.seen.values())):
-        found = _least_of(system, word, sized)
-        if found is not None:
-            yield _number(word), found
+        result = _least_of(system, word, sized)
+        if result is not None:
+            yield _number(word), result
 
 
 def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None:
@@ -169,5 +169,5 @@ def constants_of(system: System) -> dict[str, Variable]:
         *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")),
     ]
     (positive if system.friction == "positive" else upper).append("B_min")
-    found = {name: Variable(name, Fraction(0)) for name in positive}
-    return found | {name: Variable(name, Fraction(0), strict=False) for name in upper}
+    result = {name: Variable(name, Fraction(0)) for name in positive}
+    return result | {name: Variable(name, Fraction(0), strict=False) for name in upper}

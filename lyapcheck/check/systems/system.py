@@ -139,8 +139,8 @@ class System:
         vectors = {*self.moving, *self.diagonal, *(f.name for f in self.functions)}
         vectors |= {"g", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
         matrices = {"M", "C", "D"} if self.desired else {"M", "C"}
-        found = {("vec", name) for name in vectors} | {("mat", name) for name in matrices}
-        return frozenset(found | {("var", name) for name in self.constants})
+        result = {("vec", name) for name in vectors} | {("mat", name) for name in matrices}
+        return frozenset(result | {("var", name) for name in self.constants})
 
     @property
     def energies(self) -> frozenset[Tree]:
@@ -148,8 +148,8 @@ class System:
         vectors = {*self.moving, *self.diagonal} | {
             name for f in self.functions if f.of != "w" for name in (f.name, f"U{f.name}")
         }
-        found = {("vec", name) for name in vectors} | {M, S, ("var", "eps0")}
-        return frozenset(found | {("var", name) for name in self.constants})
+        result = {("vec", name) for name in vectors} | {M, S, ("var", "eps0")}
+        return frozenset(result | {("var", name) for name in self.constants})
 
     @property
     def force(self) -> Tree:
@@ -185,16 +185,16 @@ class System:
         s = 1/(1 + ‖e‖) has ṡ = s² uᵀw; where e = 0 it has none, see ``theorems`` on why that does no harm.
         """
         moved: dict[str, Tree] = {"e": minus(W), "w": DW} | {state.name: state.rate for state in self.states}
-        found = {("vec", name): rate for name, rate in moved.items()}
-        found |= {("vec", name): NOTHING for name in self.diagonal}
-        found |= {("var", name): ("num", "0") for name in (*self.constants, "eps0")}
-        found[M] = ("sum", self.coriolis, ("transpose", self.coriolis))
-        found[S] = ("mul", S, S, ("dot", U, W))
+        result = {("vec", name): rate for name, rate in moved.items()}
+        result |= {("vec", name): NOTHING for name in self.diagonal}
+        result |= {("var", name): ("num", "0") for name in (*self.constants, "eps0")}
+        result[M] = ("sum", self.coriolis, ("transpose", self.coriolis))
+        result[S] = ("mul", S, S, ("dot", U, W))
         for f in self.functions:
             if f.of != "w":
-                found[("vec", f.name)] = ("apply", ("diag", f"d{f.name}"), moved[f.of])
-                found[("vec", f"U{f.name}")] = ("apply", ("diag", f.name), moved[f.of])
-        return found
+                result[("vec", f.name)] = ("apply", ("diag", f"d{f.name}"), moved[f.of])
+                result[("vec", f"U{f.name}")] = ("apply", ("diag", f.name), moved[f.of])
+        return result
 
     def at_zero(self, tree: Tree, states: Collection[str]) -> Tree:
         """An expression where some states are 0: functions of them are, C(q, w) is with w, dg with e."""

@@ -179,16 +179,16 @@ class Argument:
     def _sees(self) -> dict[str, tuple[str, bool]]:
         """For each size the state that it sees, and whether it grows with it without end."""
         system = self.system
-        found = {f"norm_{name}": (name, True) for name in system.moving}
+        result = {f"norm_{name}": (name, True) for name in system.moving}
         for f in system.functions:
-            found |= {f"norm_{f.name}": (f.of, False), f"sum_U{f.name}": (f.of, True)}
-        return found | {f"norm_{change.letter}": (change.state, True) for change in self.changes}
+            result |= {f"norm_{f.name}": (f.of, False), f"sum_U{f.name}": (f.of, True)}
+        return result | {f"norm_{change.letter}": (change.state, True) for change in self.changes}
 
     def seen(self, form: Form, growing: bool = False) -> set[str]:
         """The states that a form sees, or those with which it also grows."""
         sees = self._sees()
-        found = (sees[size] for size in (*form.sizes, *form.names))
-        return {state for state, grows in found if grows or not growing}
+        result = (sees[size] for size in (*form.sizes, *form.names))
+        return {state for state, grows in result if grows or not growing}
 
     def _require_changes(self) -> None:
         system, names = self.system, [change.state for change in self.changes]

@@ -14,15 +14,15 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import statements as kinds
-from lyapcheck.claims.finding import Finding, still_open
 from lyapcheck.claims.registry import find
+from lyapcheck.claims.search_result import SearchResult, still_open
 from lyapcheck.extensions import folders
 from lyapcheck.verdicts import Grade
 
 __path__ += folders(__name__)
 
 
-def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
+def propose(statement: kinds.Statement | kinds.Missing) -> SearchResult:
     """What the search for the kind of a statement finds, if it stands up to the rules that will judge it.
 
     Not a verdict: that is for a fresh process of the checker to give, see ``fresh_check``.
@@ -41,7 +41,7 @@ def propose(statement: kinds.Statement | kinds.Missing) -> Finding:
     return finding if finding.proof is None else _verified(statement, finding, finding.proof)
 
 
-def _verified(statement: kinds.Statement, finding: Finding, proof: Proof) -> Finding:
+def _verified(statement: kinds.Statement, finding: SearchResult, proof: Proof) -> SearchResult:
     """The finding with the grade that the rules give it, or why they refuse it."""
     try:
         accepted = verify(statement, proof)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.claims.finding import Finding, conjunction
 from lyapcheck.claims.registry import find, procedure
+from lyapcheck.claims.search_result import SearchResult, conjunction
 
 
 @procedure(AllOf)
-def find_all(statement: AllOf) -> Finding:
+def find_all(statement: AllOf) -> SearchResult:
     """What is found of each part, together."""
     return conjunction((name, find(part)) for name, part in statement.parts)

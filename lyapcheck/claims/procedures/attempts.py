@@ -5,12 +5,12 @@ from __future__ import annotations
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 
 @procedure(Statement)
-def find_attempt(statement: Statement) -> Finding:
+def find_attempt(statement: Statement) -> SearchResult:
     """For every kind that has no search of its own."""
     reason = f"no search is known for a {type(statement).__name__}, and it names no proofs to try"
     for proof in statement.attempts():

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
-from lyapcheck.claims.finding import Finding, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, shown, still_open
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots.dynamics import Chain
 
@@ -14,7 +14,7 @@ METHOD = "links"
 
 
 @procedure(ChainBelow, ChainGravityBelow)
-def find_chain_bound(statement: ChainBelow | ChainGravityBelow) -> Finding:
+def find_chain_bound(statement: ChainBelow | ChainGravityBelow) -> SearchResult:
     """The forms of the least bound, which hold for every larger one."""
     fall, name = tuple([Fraction(0)] * 3), "lambda_max"
     if isinstance(statement, ChainGravityBelow):
@@ -23,8 +23,8 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow) -> Finding:
             if len(statement.joints) > 1:
                 return still_open("bounds are looked for of one torque or of all", METHOD)
             name = f"k_g{statement.joints[0]}"
-    found = storage_proof(Chain(statement.links, fall), name)
-    if found is None or found.bound > statement.high:
-        least = "none" if found is None else f"{float(found.bound):.6g}"
+    result = storage_proof(Chain(statement.links, fall), name)
+    if result is None or result.bound > statement.high:
+        least = "none" if result is None else f"{float(result.bound):.6g}"
         return still_open(f"the least bound that storage forms show is {least}; take a larger one", METHOD)
-    return shown(found.proof, f"{METHOD}: {found.proof.rule}")
+    return shown(result.proof, f"{METHOD}: {result.proof.rule}")

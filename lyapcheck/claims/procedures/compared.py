@@ -9,16 +9,16 @@ from fractions import Fraction
 from lyapcheck.check.kinds.compared import Compared, Gap, MovingPosture, SameHarmonics, differences
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import BITS
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "comparison of polynomials in normal form"
 TRIES = 40
 
 
 @procedure(Compared)
-def find_compared(statement: Compared) -> Finding:
+def find_compared(statement: Compared) -> SearchResult:
     """The harmonics of all differences, else a posture at which the first that is left is not 0."""
     gap = next((gap for gap in statement.gaps() if gap[2]), None)
     if gap is None:

@@ -12,21 +12,21 @@ from lyapcheck.check.expressions.witness import Sides, holds
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls, exact_truth
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Proof, Relation
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import witness_data
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "relation between numbers"
 PRECISIONS = (128, 512, 2048)
 
 
 @procedure(Constant)
-def find_constant(statement: Constant) -> Finding:
+def find_constant(statement: Constant) -> SearchResult:
     """Decide a relation between numbers."""
     return find_relation(statement.relation, METHOD)
 
 
-def find_relation(relation: Relation, method: str) -> Finding:
+def find_relation(relation: Relation, method: str) -> SearchResult:
     """Compare both sides exactly, or in balls of growing precision."""
     exact = exact_truth(relation)
     if exact is not None:
@@ -41,7 +41,7 @@ def find_relation(relation: Relation, method: str) -> Finding:
     )
 
 
-def _found(relation: Relation, truth: bool, proof: Proof, method: str, bits: int) -> Finding:
+def _found(relation: Relation, truth: bool, proof: Proof, method: str, bits: int) -> SearchResult:
     if truth:
         return shown(proof, method)
     with ctx.workprec(bits):

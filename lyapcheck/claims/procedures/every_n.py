@@ -23,9 +23,9 @@ from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.letters.points import drawn
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, point_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "identity for every n"
 SIZES = (1, 2, 3)
@@ -34,7 +34,7 @@ SEED = 1
 
 
 @procedure(EveryN)
-def find_every_n(statement: EveryN) -> Finding:
+def find_every_n(statement: EveryN) -> SearchResult:
     """Try the normal forms in words, then entries for n = 1, 2, 3."""
     try:
         statement.require_well_formed()
@@ -48,11 +48,11 @@ def find_every_n(statement: EveryN) -> Finding:
         return still_open(f"{problem}; write both sides in sums, products and quotients", METHOD)
     for n, point in _attempts(statement):
         try:
-            found = _difference(statement, n, point)
+            result = _difference(statement, n, point)
         except (Unsupported, ZeroDivisionError):
             continue
-        if found is not None:
-            return found
+        if result is not None:
+            return result
     return still_open(
         "the normal forms differ, but no entries for n = 1, 2, 3 tell the sides apart; compare by hand",
         METHOD,
@@ -71,7 +71,7 @@ def _attempts(statement: EveryN) -> Iterator[tuple[int, Point]]:
                 continue
 
 
-def _difference(statement: EveryN, n: int, point: Point) -> Finding | None:
+def _difference(statement: EveryN, n: int, point: Point) -> SearchResult | None:
     """The finding that both sides differ at a point, if they do."""
     sides, _ = at_size(statement, n)
     left, right = (exact(side, point) for side in sides)

@@ -12,15 +12,15 @@ from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitne
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "gravity"
 SAMPLES = 400
 
 
 @procedure(GravityBelow)
-def find_gravity_below(statement: GravityBelow) -> Finding:
+def find_gravity_below(statement: GravityBelow) -> SearchResult:
     """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
     if _verdict(statement, HarmonicSizes()):
         return shown(HarmonicSizes(), f"{METHOD}: {HarmonicSizes.rule}")

@@ -12,16 +12,16 @@ from itertools import islice
 from lyapcheck.check.expressions.expression import Unsupported
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.kinds.identity import Identity, NormalForm, gap_of
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "identity"
 TRIES, FIRST = 12, 2
 
 
 @procedure(Identity)
-def find_identity(statement: Identity) -> Finding:
+def find_identity(statement: Identity) -> SearchResult:
     """Try a few points where both sides may differ, then the normal forms, then more points."""
     places = points(statement)
     refuted = _refuted(statement, islice(places, FIRST))
@@ -38,11 +38,11 @@ def find_identity(statement: Identity) -> Finding:
     return _refuted(statement, places) or still_open(advice, METHOD)
 
 
-def _refuted(statement: Identity, places: Iterator[Point]) -> Finding | None:
-    found = first_refutation((statement.left, "=", statement.right), places)
-    if found is None:
+def _refuted(statement: Identity, places: Iterator[Point]) -> SearchResult | None:
+    result = first_refutation((statement.left, "=", statement.right), places)
+    if result is None:
         return None
-    return broken(witness_of(found), f"{METHOD}: a point where the sides differ", witness_data(found))
+    return broken(witness_of(result), f"{METHOD}: a point where the sides differ", witness_data(result))
 
 
 def points(statement: Identity) -> Iterator[Point]:

@@ -14,10 +14,10 @@ from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.implies import Implies, signs_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs
 from lyapcheck.check.statement import Variable
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "implication between inequalities"
 EFFORT = ((1, 40), (2, 80), (3, 160), (4, 320), (5, 640), (7, 2000))
@@ -29,7 +29,7 @@ ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt")
 
 
 @procedure(Implies)
-def find_implies(statement: Implies) -> Finding:
+def find_implies(statement: Implies) -> SearchResult:
     """Look for an identity of signs and for counterexamples by turns."""
     if not all(is_algebraic(r.gap) for r in (*statement.hypotheses, statement.conclusion)):
         return _refuted(statement) or still_open(
@@ -42,9 +42,9 @@ def find_implies(statement: Implies) -> Finding:
         identity = _identity(signs, statement, depth, nodes)
         if identity is not None:
             return shown(identity, f"{METHOD}: identity with terms of known sign")
-        found = _refuted(statement) if depth == SEARCH_AFTER else None
-        if found is not None:
-            return found
+        result = _refuted(statement) if depth == SEARCH_AFTER else None
+        if result is not None:
+            return result
     return still_open(
         "no certificate of signs and no counterexample among the points tried; "
         "split the claim, or add a hypothesis that bounds the variables",
@@ -66,8 +66,8 @@ def counterexample(statement: Implies) -> Failure | None:
     given = [hypothesis.comparison for hypothesis in statement.hypotheses]
     given += [bound_of(v) for v in statement.variables if v.low is not None]
     points = candidates(statement.variables, statement.hypotheses, statement.conclusion)
-    found = first_refutation(statement.conclusion.comparison, points, given)
-    return None if found is None else rounder(found, given)
+    result = first_refutation(statement.conclusion.comparison, points, given)
+    return None if result is None else rounder(result, given)
 
 
 def sampled() -> dict[str, int]:
@@ -77,11 +77,11 @@ def sampled() -> dict[str, int]:
     return {"samples": SAMPLES, "seed": SEED}
 
 
-def _refuted(statement: Implies) -> Finding | None:
-    found = counterexample(statement)
-    if found is None:
+def _refuted(statement: Implies) -> SearchResult | None:
+    result = counterexample(statement)
+    if result is None:
         return None
-    return broken(witness_of(found), f"{METHOD}: a point where it fails", witness_data(found), **sampled())
+    return broken(witness_of(result), f"{METHOD}: a point where it fails", witness_data(result), **sampled())
 
 
 def bound_of(variable: Variable) -> Comparison:

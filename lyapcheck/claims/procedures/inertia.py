@@ -27,8 +27,8 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "inertia"
@@ -38,7 +38,7 @@ OfArm = MassAbove | MassBelow | CoriolisBelow
 
 
 @procedure(MassAbove)
-def find_mass_above(statement: MassAbove) -> Finding:
+def find_mass_above(statement: MassAbove) -> SearchResult:
     """The links, else a posture that refutes it, else boxes."""
     known = mass_proof(statement.mass) if statement.low == 0 and not statement.parameters else Bisection()
     quick: list[Proof] = [known] if isinstance(known, Links) else []
@@ -47,12 +47,12 @@ def find_mass_above(statement: MassAbove) -> Finding:
 
 
 @procedure(MassBelow, CoriolisBelow)
-def find_upper(statement: MassBelow | CoriolisBelow) -> Finding:
+def find_upper(statement: MassBelow | CoriolisBelow) -> SearchResult:
     """The sizes of harmonics, else a posture that refutes it, else boxes."""
     return _found(statement, [HarmonicSizes()], "take a larger bound")
 
 
-def _found(statement: OfArm, quick: list[Proof], advice: str) -> Finding:
+def _found(statement: OfArm, quick: list[Proof], advice: str) -> SearchResult:
     """Boxes come last: where the statement is false they end only with their budget."""
     for proof in quick:
         if _verdict(statement, proof) == "proved":

@@ -11,8 +11,8 @@ import numpy as np
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.loop_property import SMOOTH, UNBOUNDED, Facts, LoopProperty, facts_of
-from lyapcheck.claims.finding import Finding, conjunction, shown, still_open
 from lyapcheck.claims.registry import find, procedure
+from lyapcheck.claims.search_result import SearchResult, conjunction, shown, still_open
 
 METHOD = "facts in one variable"
 FARTHEST = 40.0
@@ -20,17 +20,17 @@ STARTS = (1, 2, 4, 8, 16)
 
 
 @procedure(LoopProperty)
-def find_loop_property(statement: LoopProperty) -> Finding:
+def find_loop_property(statement: LoopProperty) -> SearchResult:
     """Decide every fact; one that fails leaves the property open, as it is only sufficient."""
     numbers = _numbers(statement)
     if numbers is None:
         return still_open("h, h' or h(x)/x has no bound that sampling would show; check the function", METHOD)
     facts = [(name, find(fact)) for name, fact in facts_of(statement, numbers)]
-    for name, found in facts:
-        if not found.is_proof:
-            reason = found.reason or "it fails"
+    for name, result in facts:
+        if not result.is_proof:
+            reason = result.reason or "it fails"
             return still_open(f"{name} is not shown: {reason}", METHOD)
-    proofs = tuple(found.proof for _, found in facts if found.proof is not None)
+    proofs = tuple(result.proof for _, result in facts if result.proof is not None)
     return shown(Facts(numbers, proofs), conjunction(facts).method)
 
 

@@ -28,9 +28,9 @@ from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "norms for every n"
 TRIES = 40
@@ -43,14 +43,14 @@ Choice = tuple[tuple[Cover, Tree], ...]
 
 
 @procedure(BoundEveryN)
-def find_bound_every_n(statement: BoundEveryN) -> Finding:
+def find_bound_every_n(statement: BoundEveryN) -> SearchResult:
     """Choose covers term by term, going back where the bound has no room left."""
     try:
         statement.require_well_formed()
-        found, words = terms_in_words(statement)
+        result, words = terms_in_words(statement)
         names = sorted(statement.numbers)
         spare = _sizes(statement.right, names)
-        options = [list(_options(statement, words, term, names)) for term in found]
+        options = [list(_options(statement, words, term, names)) for term in result]
     except (Refused, Unsupported) as problem:
         return still_open(f"{problem}; write both sides as polynomials in the letters", METHOD)
     for chosen in _chosen(options, spare):
@@ -60,12 +60,12 @@ def find_bound_every_n(statement: BoundEveryN) -> Finding:
     against = _against(statement)
     if against is not None:
         return against
-    return still_open(_left_over(statement, found, options, spare), METHOD)
+    return still_open(_left_over(statement, result, options, spare), METHOD)
 
 
-def _left_over(statement: BoundEveryN, found: list[Term], options: list[list[Option]], spare: Sizes) -> str:
+def _left_over(statement: BoundEveryN, result: list[Term], options: list[list[Option]], spare: Sizes) -> str:
     """Which term nothing bounds, or how much is missing with the first cover of each."""
-    for term, choices in zip(found, options, strict=True):
+    for term, choices in zip(result, options, strict=True):
         if not choices:
             return f"nothing that is known bounds the term {_term_text(term)}; give its letters a bound"
     names = sorted(statement.numbers)
@@ -88,7 +88,7 @@ def _term_text(term: tuple[object, dict[str, int]]) -> str:
     return "·".join([size, *factors]).replace("-", "−")
 
 
-def _against(statement: BoundEveryN) -> Finding | None:
+def _against(statement: BoundEveryN) -> SearchResult | None:
     """Entries that meet all bounds of the norms and break the statement."""
     for n, point, sign in drawn_entries(statement, TRIES):
         if sign < 0:
@@ -156,12 +156,12 @@ def _sizes(tree: Tree, names: list[str]) -> Sizes:
     if not ratio.bottom.is_constant() or len(constants) < len(algebra.uses):
         raise Unsupported("a bound is not a polynomial in its numbers")
     lead = arb(ratio.bottom.leading_coefficient())
-    found: Sizes = {}
+    result: Sizes = {}
     for exponents, c in ratio.top.to_dict().items():
         powers = {name: int(e) for name, e in zip(algebra.names, exponents, strict=False)}
         key = tuple(powers.get(name, 0) for name in names)
         size = arb(c) / lead
         for index, constant in constants.items():
             size *= constant ** int(exponents[index])
-        found[key] = found.get(key, arb(0)) + size
-    return found
+        result[key] = result.get(key, arb(0)) + size
+    return result

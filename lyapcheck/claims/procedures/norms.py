@@ -18,21 +18,21 @@ from lyapcheck.check.kinds import norm_bound as rules
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.norm_bound import EqualEntries, NormBound, OneEntry, Supremum
 from lyapcheck.check.statement import Proof, Relation
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "norm inequality"
 
 
 @procedure(NormBound)
-def find_norm_bound(statement: NormBound) -> Finding:
+def find_norm_bound(statement: NormBound) -> SearchResult:
     """Try the vectors that are worst; where none breaks the bound, prove it by one variable."""
-    found = first_refutation(rules.vector_relation(statement).comparison, vector_points(statement))
-    if found is not None:
-        return broken(witness_of(found), f"{METHOD}: a vector where it fails", witness_data(found))
+    result = first_refutation(rules.vector_relation(statement).comparison, vector_points(statement))
+    if result is not None:
+        return broken(witness_of(result), f"{METHOD}: a vector where it fails", witness_data(result))
     by_definition = _by_supremum(statement)
     if by_definition is not None:
         return by_definition
@@ -63,7 +63,7 @@ def _peaks(statement: NormBound) -> list[Fraction]:
     return [Fraction(best).limit_denominator(10**6)]
 
 
-def _by_supremum(statement: NormBound) -> Finding | None:
+def _by_supremum(statement: NormBound) -> SearchResult | None:
     relation = rules.supremum_relation(statement)
     numbers = find_relation(relation, METHOD) if relation is not None else None
     if numbers is None or not numbers.is_proof or numbers.proof is None:
@@ -71,22 +71,25 @@ def _by_supremum(statement: NormBound) -> Finding | None:
     return shown(Supremum(numbers.proof), numbers.method)
 
 
-def _prove_uniform(statement: NormBound) -> Finding:
+def _prove_uniform(statement: NormBound) -> SearchResult:
     parts = [find_for_all(part) for part in rules.uniform_parts(statement)]
     labels = ("f(t) <= c/√n", "-f(t) <= c/√n")
     why = "all entries equal is the worst case"
     return _reduced(parts, labels, why, lambda proofs: EqualEntries(proofs[0], proofs[1]))
 
 
-def _prove_linear(statement: NormBound) -> Finding:
+def _prove_linear(statement: NormBound) -> SearchResult:
     parts = [find_for_all(part) for part in rules.linear_parts(statement)]
     labels = ("f(t) <= c|t|", "-f(t) <= c|t|") * 2
     return _reduced(parts, labels, "one entry alone is the worst case", OneEntry)
 
 
 def _reduced(
-    parts: list[Finding], labels: tuple[str, ...], why: str, combine: Callable[[tuple[Proof, ...]], Proof]
-) -> Finding:
+    parts: list[SearchResult],
+    labels: tuple[str, ...],
+    why: str,
+    combine: Callable[[tuple[Proof, ...]], Proof],
+) -> SearchResult:
     """The norm bound from its inequalities in one variable; a part that fails leaves it open."""
     for label, part in zip(labels, parts, strict=True):
         if not part.is_proof:

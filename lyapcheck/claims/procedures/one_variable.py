@@ -31,9 +31,9 @@ from lyapcheck.check.kinds.for_all import (
     zero_must_be_positive,
 )
 from lyapcheck.check.statement import Piece
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "one-variable inequality"
 BITS = 160
@@ -46,14 +46,14 @@ class _Open(Exception):
 
 
 @procedure(ForAll)
-def find_for_all(statement: ForAll) -> Finding:
+def find_for_all(statement: ForAll) -> SearchResult:
     """Look for a point where the relation fails, then for a proof on each piece of the domain."""
     claim, name = statement.relation.comparison, statement.variable
-    found = first_refutation(claim, [{name: p} for p in sample(statement)])
-    if found is None:
-        found = first_refutation(claim, [{name: p} for p in valleys(statement)])
-    if found is not None:
-        return broken(witness_of(found), f"{METHOD}: a point where it fails", witness_data(found))
+    result = first_refutation(claim, [{name: p} for p in sample(statement)])
+    if result is None:
+        result = first_refutation(claim, [{name: p} for p in valleys(statement)])
+    if result is not None:
+        return broken(witness_of(result), f"{METHOD}: a point where it fails", witness_data(result))
     try:
         with ctx.workprec(BITS):
             proofs = [_prove(statement, domain) for domain in pieces(statement)]
@@ -142,7 +142,7 @@ def cuts(tree: Tree, name: str, low: Fraction, high: Fraction) -> list[Fraction]
     Raises:
         _Open: the budget of boxes ends first.
     """
-    stack, found, used = [(low, high)], [low], 0
+    stack, result, used = [(low, high)], [low], 0
     while stack:
         left, right = stack.pop()
         used += 1
@@ -154,8 +154,8 @@ def cuts(tree: Tree, name: str, low: Fraction, high: Fraction) -> list[Fraction]
             middle = (left + right) / 2
             stack += [(middle, right), (left, middle)]
         elif left < right:
-            found.append(right)
-    return found
+            result.append(right)
+    return result
 
 
 def _words(piece: Piece) -> str:

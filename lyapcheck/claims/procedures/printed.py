@@ -25,15 +25,15 @@ from lyapcheck.check.kinds.agrees import (
     printed_range,
 )
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "arithmetic on printed numbers"
 BITS = 128
 
 
 @procedure(Agrees)
-def find_agrees(statement: Agrees) -> Finding:
+def find_agrees(statement: Agrees) -> SearchResult:
     """Compare the formula at the printed inputs, over all their roundings and at the corners of these."""
     target, exact = printed_range(statement.printed), at_printed(statement, BITS)
     computed = {"computed": list(exact.decimals(8)), "printed": statement.printed}

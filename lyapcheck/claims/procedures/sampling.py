@@ -76,8 +76,8 @@ def lowest_points(relation: Relation, name: str, low: Fraction, high: Fraction) 
     valleys = np.flatnonzero((gap[1:-1] <= gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
     chosen = valleys[np.argsort(gap[valleys], kind="stable")[:KEPT]]
     step = float(grid[1] - grid[0])
-    found = [_zoom(relation, name, float(grid[index]), step) for index in chosen]
-    return [point for point in map(Fraction, found) if low < point < high]
+    result = [_zoom(relation, name, float(grid[index]), step) for index in chosen]
+    return [point for point in map(Fraction, result) if low < point < high]
 
 
 def _zoom(relation: Relation, name: str, centre: float, width: float) -> float:

@@ -43,12 +43,12 @@ def first_refutation(
 def rounder(failure: Failure, hypotheses: Sequence[Comparison] = ()) -> Failure:
     """The same failure at rounder numbers, one coordinate after the other, where it still is one."""
     claim, point, _ = failure
-    found = failure
+    result = failure
     for name in sorted(point):
         signed = (sign * value for value in ROUND for sign in ((1, -1) if value else (1,)))
-        tries = ({**found[1], name: value} for value in signed)
-        found = first_refutation(claim, tries, hypotheses) or found
-    return found
+        tries = ({**result[1], name: value} for value in signed)
+        result = first_refutation(claim, tries, hypotheses) or result
+    return result
 
 
 def _can_be_written(side: Enclosure) -> bool:

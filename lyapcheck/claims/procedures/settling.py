@@ -10,8 +10,8 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "states of rest"
 BEYOND = Fraction(1, 10**6)
@@ -19,14 +19,14 @@ BEYOND = Fraction(1, 10**6)
 
 
 @procedure(Settling)
-def find_settling(statement: Settling) -> Finding:
+def find_settling(statement: Settling) -> SearchResult:
     """Always open: the levels of V are chosen together with the bounds."""
     advice = "lyapcheck bounds FILE --certificates DIR finds bounds with the levels of V that prove them"
     return still_open(f"times and errors are not searched for here; {advice}", "levels of V")
 
 
 @procedure(Resting)
-def find_resting(statement: Resting) -> Finding:
+def find_resting(statement: Resting) -> SearchResult:
     """By h at the bounds, else by a state of rest just beyond one of them."""
     if _verdict(statement, AtBounds()) == "proved":
         return shown(AtBounds(), METHOD)

@@ -25,11 +25,11 @@ from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
 from lyapcheck.claims.procedures.search import BITS, Point, point_of
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 
 METHOD = "small parameter"
 TRIES = 300
@@ -39,7 +39,7 @@ BELOW = (Fraction(1), Fraction(1, 2**10))
 
 
 @procedure(ForSmall)
-def find_for_small(statement: ForSmall) -> Finding:
+def find_for_small(statement: ForSmall) -> SearchResult:
     """Search an identity of signs for the leading term, then a point at which the relation fails."""
     proved = _leading(statement)
     if proved.is_proof:
@@ -47,7 +47,7 @@ def find_for_small(statement: ForSmall) -> Finding:
     return _against(statement) or proved
 
 
-def _leading(statement: ForSmall) -> Finding:
+def _leading(statement: ForSmall) -> SearchResult:
     """An identity of signs for the leading term."""
     try:
         signs = signs_of(statement)
@@ -70,7 +70,7 @@ def _leading(statement: ForSmall) -> Finding:
     )
 
 
-def _against(statement: ForSmall) -> Finding | None:
+def _against(statement: ForSmall) -> SearchResult | None:
     """A point of small rationals at which the relation fails for all small ε."""
     method = f"{METHOD}: a point at which it fails for all small {statement.small}"
     for point in _points(statement):

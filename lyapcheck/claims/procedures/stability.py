@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
-from lyapcheck.claims.finding import Finding, shown, still_open
 from lyapcheck.claims.registry import find, procedure
+from lyapcheck.claims.search_result import SearchResult, shown, still_open
 
 METHOD = "obligations of a theorem"
 
 
 @procedure(Stable, StableArm)
-def find_stable(statement: Stable | StableArm) -> Finding:
+def find_stable(statement: Stable | StableArm) -> SearchResult:
     """Decide every obligation; one that fails leaves the conclusion open, as it is only sufficient."""
     about = statement.argument if isinstance(statement, Stable) else statement
-    found = [(name, find(one)) for name, one in about.obligations()]
-    rows = [{"part": name, "verdict": one.verdict.value, "method": one.method} for name, one in found]
-    for name, one in found:
+    result = [(name, find(one)) for name, one in about.obligations()]
+    rows = [{"part": name, "verdict": one.verdict.value, "method": one.method} for name, one in result]
+    for name, one in result:
         if not one.is_proof:
             why = one.reason or f"it is {one.verdict.value}, {one.method}"
             return still_open(f"{name}: {why}", METHOD, parts=rows)
-    proofs = tuple(one.proof for _, one in found if one.proof is not None)
+    proofs = tuple(one.proof for _, one in result if one.proof is not None)
     return shown(ByObligations(proofs), METHOD, parts=rows)

@@ -19,16 +19,16 @@ from lyapcheck.check.kinds.decreasing import (
     Decreasing,
     PositiveAndDecreasing,
     StateWitness,
-    closure_of,
+    closed_loop_of,
     mass_positive,
 )
 from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import Polynomials
 from lyapcheck.robots.plant import Plant
@@ -38,7 +38,7 @@ from lyapcheck.verdicts import Verdict
 if TYPE_CHECKING:
     from lyapcheck.check.loop.states import State
     from lyapcheck.check.statement import Ends
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 METHOD = "every state"
 STARTS = 6
@@ -51,15 +51,15 @@ ONE_BOX = BoxTree(".")
 
 
 @procedure(Decreasing)
-def find_decreasing(statement: Decreasing) -> Finding:
+def find_decreasing(statement: Decreasing) -> SearchResult:
     """Norms alone, else a state with dV/dt > 0, else boxes."""
-    closure = closure_of(statement)
+    loop = closed_loop_of(statement)
     positive = find_mass_above(mass_positive(statement))
     if positive.verdict is not Verdict.PROVED:
         return replace(positive, reason=f"M ≻ 0: {positive.reason}" if positive.reason else "")
-    if not closure.admissible:
+    if not loop.admissible:
         return still_open("K_p, K_v, B, K_p − ¼ε₀LK_v and ε₀ must be positive, and M symmetric", METHOD)
-    if certifies(closure.tail, closure.eps0):
+    if certifies(loop.tail, loop.eps0):
         return shown(_with_mass(statement, ONE_BOX), f"{METHOD}: norms alone")
     if statement.coupling:
         return still_open(
@@ -75,7 +75,7 @@ def _with_mass(statement: Decreasing | DampingBelow, by: BoxTree) -> PositiveAnd
 
 
 @procedure(DampingBelow)
-def find_damping_below(statement: DampingBelow) -> Finding:
+def find_damping_below(statement: DampingBelow) -> SearchResult:
     """Look for a κ that breaks the bound and an ε₀ at which norms alone give dV/dt < 0; never proves."""
     positive = find_mass_above(mass_positive(statement.with_damping(Fraction(1), Fraction(1))))
     if positive.verdict is not Verdict.PROVED:
@@ -108,61 +108,61 @@ def _small_enough(statement: Decreasing) -> Fraction | None:
     """A power of ½ for ε₀ at which norms alone give dV/dt < 0."""
     for power in range(HALVINGS):
         eps0 = Fraction(1, 2**power)
-        closure = closure_of(replace(statement, eps0=eps0))
-        if closure.admissible and certifies(closure.tail, eps0):
+        loop = closed_loop_of(replace(statement, eps0=eps0))
+        if loop.admissible and certifies(loop.tail, eps0):
             return eps0
     return None
 
 
-def _against(statement: Decreasing) -> Finding | None:
+def _against(statement: Decreasing) -> SearchResult | None:
     """The states that refute the smallest ε₀ are tried at this one."""
     from lyapcheck.check.loop.states import confirms_positive
     from lyapcheck.search.falsify import falsify
 
-    setting = setting_of(statement)
-    worst = falsify(setting, STARTS)
+    controlled = controlled_arm_of(statement)
+    worst = falsify(controlled, STARTS)
     if worst is None or worst.eps0 > statement.eps0:
         return None
-    if not confirms_positive(setting.arm, setting.controller, statement.eps0, worst.state):
+    if not confirms_positive(controlled.arm, controlled.controller, statement.eps0, worst.state):
         return None
     state, middle = worst.state, _middles(statement)
     proof = StateWitness(middle[0], middle[1], state.q, state.e, state.w)
-    witness = _witness(setting, statement.eps0, state)
+    witness = _witness(controlled, statement.eps0, state)
     return broken(proof, f"{METHOD}: a state with dV/dt > 0", witness)
 
 
-def _witness(setting: Setting, eps0: Fraction, state: State) -> dict[str, Any]:
+def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[str, Any]:
     from lyapcheck.check.loop.states import rate
 
     names = {f"{name}{i + 1}": x for name in "qew" for i, x in enumerate(getattr(state, name))}
-    found = Enclosure.from_arb(rate(setting.arm, setting.controller, eps0, state, 256))
+    result = Enclosure.from_arb(rate(controlled.arm, controlled.controller, eps0, state, 256))
     return {
         "point": {name: str(value) for name, value in names.items()},
-        "left": list(found.decimals(12)),
+        "left": list(result.decimals(12)),
         "operator": "<",
         "right": ["0", "0"],
     }
 
 
-def _by_boxes(statement: Decreasing) -> Finding:
+def _by_boxes(statement: Decreasing) -> SearchResult:
     from lyapcheck.search.branch_and_bound import certify
     from lyapcheck.search.schur import Problem
 
     n = len(statement.kp)
     if n > MOST_JOINTS:
         return still_open(f"norms do not suffice, and boxes are tried up to {MOST_JOINTS} joints", METHOD)
-    closure = closure_of(statement)
-    outcome = certify(Problem(closure), MAX_BOXES)
+    loop = closed_loop_of(statement)
+    outcome = certify(Problem(loop), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
     tree = _with_mass(statement, BoxTree(outcome.tree))
     return shown(tree, f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
 
 
-def setting_of(statement: Decreasing) -> Setting:
+def controlled_arm_of(statement: Decreasing) -> ControlledArm:
     """The arm at the middle of its ranges under the controller, for a search."""
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.search.setting import Setting
+    from lyapcheck.search.controlled_arm import ControlledArm
 
     gains = GainSet(
         name="gains",
@@ -172,7 +172,7 @@ def setting_of(statement: Decreasing) -> Setting:
         kv=statement.kv,
         angle_unit="rad",
     )
-    return Setting(gains, _plant(statement).fixed())
+    return ControlledArm(gains, _plant(statement).fixed())
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

@@ -9,12 +9,12 @@ from __future__ import annotations
 from lyapcheck.check.kinds.theorem import THEOREMS, Application, Theorem
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.finding import Finding, shown, still_open
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, shown, still_open
 
 
 @procedure(Theorem)
-def apply_theorem(statement: Theorem) -> Finding:
+def apply_theorem(statement: Theorem) -> SearchResult:
     """The step itself holds; whether its hypotheses do is for the chain of claims to say."""
     if statement.name not in THEOREMS:
         known = "; ".join(sorted(THEOREMS))

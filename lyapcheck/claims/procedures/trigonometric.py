@@ -24,10 +24,10 @@ from lyapcheck.check.kinds.trigonometric import (
     within,
 )
 from lyapcheck.check.statement import Relation
-from lyapcheck.claims.finding import Finding, broken, shown, still_open
 from lyapcheck.claims.procedures.implication import counterexample, sampled
 from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
 from lyapcheck.claims.registry import procedure
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.claims.statements import reals
 
 METHOD = "mean and amplitudes of the Fourier sum"
@@ -37,7 +37,7 @@ Doubt = tuple[str, list[tuple[bool, Relation]]]
 
 
 @procedure(TrigonometricBound)
-def find_bounds(statement: TrigonometricBound) -> Finding:
+def find_bounds(statement: TrigonometricBound) -> SearchResult:
     """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
 
     def doubt(entry: tuple[Tree, Fraction | None]) -> Doubt | None:
@@ -56,7 +56,7 @@ def find_bounds(statement: TrigonometricBound) -> Finding:
 
 
 @procedure(TrigonometricPositive)
-def find_positive(statement: TrigonometricPositive) -> Finding:
+def find_positive(statement: TrigonometricPositive) -> SearchResult:
     """Compute mean minus amplitudes of each entry; where that is not positive, look for angles."""
 
     def doubt(tree: Tree) -> Doubt | None:
@@ -72,7 +72,7 @@ def _find(
     entries: Sequence[tuple[object, ...]],
     doubt: Callable[..., Doubt | None],
     tree_of: Callable[..., Tree],
-) -> Finding:
+) -> SearchResult:
     open_ones: list[str] = []
     for k, entry in enumerate(entries):
         try:
@@ -81,21 +81,21 @@ def _find(
             return still_open(f"{problem}; give the entries as polynomials in sin and cos", METHOD)
         if doubted is not None:
             why, relations = doubted
-            found = _counterexample(k, tree_of(entry), relations)
-            if found is not None:
-                return found
+            result = _counterexample(k, tree_of(entry), relations)
+            if result is not None:
+                return result
             open_ones.append(f"entry {k + 1}: {why}, and no angle that decides was found")
     if open_ones:
         return still_open(f"{open_ones[0]}; bisect over the angles", METHOD)
     return shown(FourierBounds(), METHOD)
 
 
-def _counterexample(entry: int, tree: Tree, relations: list[tuple[bool, Relation]]) -> Finding | None:
+def _counterexample(entry: int, tree: Tree, relations: list[tuple[bool, Relation]]) -> SearchResult | None:
     names = reals(*sorted(variables(tree)))
     for lower, relation in relations:
-        found = counterexample(Implies(names, (), relation))
-        if found is not None:
-            proof = EntryWitness(entry, lower, point_of(found[1]), BITS)
+        result = counterexample(Implies(names, (), relation))
+        if result is not None:
+            proof = EntryWitness(entry, lower, point_of(result[1]), BITS)
             method = f"{METHOD}: angles at which entry {entry + 1} leaves its bound"
-            return broken(proof, method, witness_data(found), **sampled())
+            return broken(proof, method, witness_data(result), **sampled())
     return None

@@ -85,20 +85,20 @@ def run(
         raise InputError(problems)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
-        found = _compare(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
+        result = _compare(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
     if folder is not None:
-        _write_certificates(folder, found)
+        _write_certificates(folder, result)
     from lyapcheck.answers.bounds.answer import Comparisons
 
-    show(Comparisons(tuple(found), gain_file), format)
-    whole = all(one.certified for one in found)
+    show(Comparisons(tuple(result), gain_file), format)
+    whole = all(one.certified for one in result)
     return Exit.PROVED if whole else Exit.UNDECIDED
 
 
-def _write_certificates(folder: Path, found: list[Comparison]) -> None:
+def _write_certificates(folder: Path, result: list[Comparison]) -> None:
     from lyapcheck.answers.bounds.certificates import certificates
 
-    for one in found:
+    for one in result:
         for name, certificate in certificates(one).items():
             write_whole(folder / name, certificate.text())
 
@@ -153,11 +153,13 @@ def _compare(
     """The bounds of every gain set."""
     from lyapcheck.answers.bounds.compare import compare
 
-    found = []
+    result = []
     for done, gain_set in enumerate(gains):
 
         def tell(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
-        found.append(compare(gain_set, model, task, *asked, max_boxes=max_boxes, jobs=jobs, on_progress=tell))
-    return found
+        result.append(
+            compare(gain_set, model, task, *asked, max_boxes=max_boxes, jobs=jobs, on_progress=tell)
+        )
+    return result

@@ -87,7 +87,7 @@ def run(
             results.append(gate(gain_file, robot, deciding, gamma, strict, arms))
         except InputError as error:
             problems += error.problems
-    answer = GateAnswer(result for found in results for result in found)
+    answer = GateAnswer(result for outcome in results for result in outcome)
     if answer:
         if folder is not None:
             _write_certificates(folder, answer)

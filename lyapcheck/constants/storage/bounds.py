@@ -10,10 +10,10 @@ from functools import partial
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
+from lyapcheck.constants.storage.coriolis import coriolis_bound
 from lyapcheck.constants.storage.hinges import hinges
 from lyapcheck.constants.storage.problem import Problem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
-from lyapcheck.constants.storage.whirl import whirl_bound
 from lyapcheck.robots.dynamics import Chain
 
 Bound = ChainAbove | ChainBelow | ChainGravityBelow
@@ -46,11 +46,11 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
         By the name of the constant a function that gives the bound, or ``None`` where none was certified.
 
     Soundness: what the solver of semidefinite programs says is not relied on; see `storage_proof`, and for
-        k_c `lyapcheck.constants.storage.whirl`.
+        k_c `lyapcheck.constants.storage.coriolis`.
     """
     names = ["lambda_min", "lambda_max", "k_g", *(f"k_g{i + 1}" for i in range(chain.n))]
-    found: dict[str, Callable[[], Fraction | None]] = {name: partial(_bound, chain, name) for name in names}
-    return found | {"k_c": lambda: whirl_bound(hinges(chain)[0])}
+    result: dict[str, Callable[[], Fraction | None]] = {name: partial(_bound, chain, name) for name in names}
+    return result | {"k_c": lambda: coriolis_bound(hinges(chain)[0])}
 
 
 def _bound(chain: Chain, name: str) -> Fraction | None:
@@ -67,12 +67,14 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
     if still:
         return _accepted(Shown(statement, NoTorque()))
     for margin in _MARGINS:
-        found = propose(problem, margin)
-        if found is None:
+        result = propose(problem, margin)
+        if result is None:
             continue
         # a little to the safe side, so that rounding takes nothing from what was proposed
-        kappa = _above(Fraction(found.kappa) * (1 + Fraction(problem.sign if found.kappa > 0 else -1, 10**8)))
-        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in found.coefficients)
+        kappa = _above(
+            Fraction(result.kappa) * (1 + Fraction(problem.sign if result.kappa > 0 else -1, 10**8))
+        )
+        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients)
         shown = _accepted(Shown(with_end(statement, problem.sign * kappa), StorageForms(forms)))
         if shown is not None:
             return shown

@@ -33,7 +33,7 @@ class Hinge:
 
 def hinges(chain: Chain) -> tuple[list[Hinge], Exact]:
     """The hinges, base first, and the acceleration of free fall in the base frame, m/s²."""
-    found = [
+    result = [
         Hinge(
             exact(hinge.turn),
             rational(hinge.mass),
@@ -43,4 +43,4 @@ def hinges(chain: Chain) -> tuple[list[Hinge], Exact]:
         )
         for hinge in storage.hinges(chain.links)
     ]
-    return found, exact([chain.fall])[0]
+    return result, exact([chain.fall])[0]

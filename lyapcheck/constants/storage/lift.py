@@ -36,8 +36,8 @@ _VECTOR = ((1, (0, 1)), (0, (2,)))
 
 def _products() -> tuple[list[Array], list[tuple[int, tuple[int, ...]]]]:
     """Symmetric matrices F with the product ⟨F, V Vᵀ⟩, and at which rate which of them turn."""
-    found: list[Array] = []
-    turning: list[tuple[int, tuple[int, ...]]] = []
+    result: list[Array] = []
+    rotation: list[tuple[int, tuple[int, ...]]] = []
 
     def entry(i: int, j: int) -> Array:
         matrix = np.zeros((6, 6))
@@ -46,8 +46,8 @@ def _products() -> tuple[list[Array], list[tuple[int, tuple[int, ...]]]]:
         return matrix
 
     def add(rate: int, *forms: Array) -> None:
-        turning.append((rate, tuple(range(len(found), len(found) + len(forms)))))
-        found.extend(forms)
+        rotation.append((rate, tuple(range(len(result), len(result) + len(forms)))))
+        result.extend(forms)
 
     for x, y, z in ((0, 1, 2), (3, 4, 5)):
         add(0, entry(x, x) + entry(y, y))
@@ -60,10 +60,10 @@ def _products() -> tuple[list[Array], list[tuple[int, tuple[int, ...]]]]:
     add(1, entry(0, 5), entry(1, 5))
     add(1, entry(2, 3), entry(2, 4))
     add(2, entry(0, 3) - entry(1, 4), entry(0, 4) + entry(1, 3))
-    return found, turning
+    return result, rotation
 
 
-_FORMS, _TURNING = _products()
+_FORMS, _ROTATION = _products()
 _TO: Exact = exact([form.reshape(36) for form in _FORMS])
 
 
@@ -84,18 +84,18 @@ def _matrices() -> list[Exact]:
     return [_from()[:, i].reshape(6, 6) for i in range(21)]
 
 
-def turning_forms() -> list[Array]:
+def invariant_forms() -> list[Array]:
     """A basis of the forms of w that turns about the third axis leave as they are."""
     places = [
         (rate, tuple(6 * v + 3 * h + i for i in ix)) for v in (0, 1) for h in (0, 1) for rate, ix in _VECTOR
     ]
-    places += [(rate, tuple(12 + i for i in ix)) for rate, ix in _TURNING] + [(0, (N,))]
-    found = []
+    places += [(rate, tuple(12 + i for i in ix)) for rate, ix in _ROTATION] + [(0, (N,))]
+    result = []
     for index, (rate, rows) in enumerate(places):
         for other, columns in places[index:]:
             if rate == other:
-                found += _patterns(rows, columns)
-    return found
+                result += _patterns(rows, columns)
+    return result
 
 
 def _patterns(rows: tuple[int, ...], columns: tuple[int, ...]) -> list[Array]:
@@ -120,7 +120,7 @@ def carried(carry: Exact) -> Exact:
     return result
 
 
-def push() -> Exact:
+def step() -> Exact:
     """(w, u) ↦ w', 34 × 42."""
     result = np.hstack([unit(STATE), zeros(STATE, INPUT)])
     result[Z, RATE] = AXIS
@@ -156,27 +156,27 @@ def _axial(matrix: Exact) -> Exact:
 def monomials() -> dict[tuple[int, int], Array]:
     """The products of the seven numbers (V, x) as functions of (w, u)."""
     back = _from().astype(np.float64).reshape(6, 6, 21)
-    found = {}
+    result = {}
     for i, j in combinations_with_replacement(range(7), 2):
         row = np.zeros(ROWS)
         if j < 6:
             row[W] = back[i, j]
         else:
             row[35 + i if i < 6 else SQUARE] = 1
-        found[i, j] = row
-    return found
+        result[i, j] = row
+    return result
 
 
 def relations() -> list[Array]:
     """Forms of (w, u) that vanish because all products are of the same seven numbers: ab·cd = ac·bd."""
-    rows, found = monomials(), []
+    rows, result = monomials(), []
     for a, b, c, d in combinations_with_replacement(range(7), 4):
         pairs = (((a, b), (c, d)), ((a, c), (b, d)), ((a, d), (b, c)))
         ways = list(dict.fromkeys((min(p, q), max(p, q)) for p, q in pairs))
         for way in ways[1:]:
             difference = np.outer(rows[ways[0][0]], rows[ways[0][1]]) - np.outer(rows[way[0]], rows[way[1]])
-            found.append(difference + difference.T)
-    return found
+            result.append(difference + difference.T)
+    return result
 
 
 def positive_products() -> dict[tuple[int, int], Array]:

@@ -8,7 +8,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop.storage import slack, stored_at_base, turning_form
+from lyapcheck.check.loop.storage import invariant_form, slack, stored_at_base
 from lyapcheck.constants.storage.problem import Problem, doubles, unit_rows
 
 
@@ -50,7 +50,7 @@ def propose(problem: Problem, margin: float) -> Proposal | None:
 def _blocks(problem: Problem, least: float) -> Blocks:
     """The conditions of `lyapcheck.check.loop.storage`, which are affine in the unknowns."""
     blocks, count, stages = Blocks(), problem.count, problem.stages
-    units = [turning_form(row, problem.vectors) for row in unit_rows(count)]
+    units = [invariant_form(row, problem.vectors) for row in unit_rows(count)]
     nothing = units[0] * fmpq(0)
     if any(problem.fall):
         at_base = [float(stored_at_base(stages, [form], problem.fall)) for form in units]
@@ -100,8 +100,8 @@ def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8) -> Array | Non
     cones = [clarabel.PSDTriangleConeT(size) for size in blocks.sizes]
     nothing = sparse.csc_matrix((unknowns, unknowns))
     rows = sparse.vstack(parts, format="csc")
-    found = clarabel.DefaultSolver(
+    result = clarabel.DefaultSolver(
         nothing, aim, rows, np.concatenate(blocks.constants), cones, settings
     ).solve()
-    x = np.array(found.x)
+    x = np.array(result.x)
     return x if np.isfinite(x).all() else None

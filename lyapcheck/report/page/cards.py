@@ -22,15 +22,17 @@ def findings_section(report: Report) -> Markup:
 
 
 def _group(report: Report, weight: str) -> Markup:
-    found = report.weighing(weight)
+    result = report.weighing(weight)
     words = WEIGHTS[weight] if not report.own else {"A": "must be mended", "B": "conditions not met"}[weight]
-    title = f"{weight} · {words} ({len(found)})"
+    title = f"{weight} · {words} ({len(result)})"
     if weight in FOLDED:
-        rows = [element("tr", element("th", f.subject, scope="row"), element("td", _short(f))) for f in found]
+        rows = [
+            element("tr", element("th", f.subject, scope="row"), element("td", _short(f))) for f in result
+        ]
         table = element("table", element("tbody", rows), class_="cards-on-phone")
         return element("details", element("summary", element("h3", title)), table, class_="fold")
     return element(
-        "div", element("h3", title), [_card(report, one) for one in found], class_=f"weight {weight}"
+        "div", element("h3", title), [_card(report, one) for one in result], class_=f"weight {weight}"
     )
 
 

@@ -54,12 +54,12 @@ def _switch(report: Report) -> Markup:
 
 
 def _filters(rows: Iterable[Data]) -> Markup:
-    found = list(rows)
+    result = list(rows)
     return element(
         "form",
         element("label", "Find", element("input", type="search", id="find", placeholder="id or words")),
-        _select("verdict", [row["verdict"] for row in found]),
-        _select("grade", [row["grade"] for row in found]),
+        _select("verdict", [row["verdict"] for row in result]),
+        _select("grade", [row["grade"] for row in result]),
         element("output", id="shown"),
         class_="filters script-only",
         onsubmit="return false",

@@ -29,10 +29,10 @@ def _fold(report: Report, title: str, inner: Iterable[Block]) -> Markup:
     return element("details", element("summary", element("h3", title)), shown(report, inner), class_="fold")
 
 
-def shown(report: Report, found: Iterable[Block]) -> Markup:
+def shown(report: Report, result: Iterable[Block]) -> Markup:
     """Blocks of the document with their figures inside the page."""
 
     def drawn(block: Figure) -> Markup | None:
         return figure(report, PurePosixPath(block.path).stem, f"{block.caption}.")
 
-    return element("div", list(blocks(found, 4, drawn)), class_="blocks scroll")
+    return element("div", list(blocks(result, 4, drawn)), class_="blocks scroll")

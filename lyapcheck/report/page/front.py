@@ -61,7 +61,7 @@ def _picture(report: Report) -> Markup:
 
 
 def _boxes(steps: Sequence[Step], first: int) -> list[Markup]:
-    found = []
+    result = []
     for k, step in enumerate(steps):
         inner = (
             element("b", step.box.label),
@@ -72,5 +72,5 @@ def _boxes(steps: Sequence[Step], first: int) -> list[Markup]:
         column = str(first + k)
         if first > 1 and k >= len(steps) - 2:  # the way round ends where the printed proof does
             column = "-2" if k == len(steps) - 1 else f"{column} / -2"
-        found.append(element("li", link, class_=step.tone, style=f"grid-column:{column}"))
-    return found
+        result.append(element("li", link, class_=step.tone, style=f"grid-column:{column}"))
+    return result

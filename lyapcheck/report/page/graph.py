@@ -70,8 +70,8 @@ def tied(rows: Sequence[Data]) -> list[Data]:
     """The claims that use another one of the list, or are used by one."""
     known = {row["id"] for row in rows}
     used = {name for row in rows for name in row["uses"] if name in known}
-    found = [row for row in rows if row["id"] in used or set(row["uses"]) & known]
-    return [{**row, "uses": [name for name in row["uses"] if name in known]} for row in found]
+    result = [row for row in rows if row["id"] in used or set(row["uses"]) & known]
+    return [{**row, "uses": [name for name in row["uses"] if name in known]} for row in result]
 
 
 def layout(rows: Sequence[Data]) -> dict[str, Place]:

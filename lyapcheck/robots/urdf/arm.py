@@ -106,18 +106,18 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
 
 def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...]) -> tuple[str, ...]:
     """What was decided that the file does not say."""
-    found = []
+    result = []
     still = held(tree, chain)
     if still:
         names = ", ".join(f"{joint.name} ({joint.kind})" for joint in still)
-        found.append(f"Joints that are not of the chain are held at their zero position: {names}")
+        result.append(f"Joints that are not of the chain are held at their zero position: {names}")
     unlimited = [joint.name for joint in chain if joint.effort is None]
     if unlimited:
-        found.append(f"No torque limit is known where the file has none or 0: {', '.join(unlimited)}")
+        result.append(f"No torque limit is known where the file has none or 0: {', '.join(unlimited)}")
     strange = impossible(moved_links(tree, chain))
     if strange:
-        found.append(
+        result.append(
             "No body has the inertia that the file gives, a principal moment above the sum of the others: "
             f"{', '.join(strange)}"
         )
-    return tuple(found)
+    return tuple(result)

@@ -30,12 +30,12 @@ class UrdfNotes:
 
     def only(self, parent: Element, tag: str, place: str, required: bool = False) -> Element | None:
         """The one child of that tag; more than one is a problem, none only where one is required."""
-        found = parent.all(tag)
-        if len(found) > 1:
-            self.fail(found[1], f"{place}: {tag}", "", "is given more than once", "keep one of them")
-        if not found and required:
+        result = parent.all(tag)
+        if len(result) > 1:
+            self.fail(result[1], f"{place}: {tag}", "", "is given more than once", "keep one of them")
+        if not result and required:
             self.fail(parent, f"{place}: {tag}", "", "is missing", f"add <{tag} …/>")
-        return found[0] if found else None
+        return result[0] if result else None
 
     def text(self, element: Element, attribute: str, place: str) -> str:
         """A required attribute that is not blank; empty when it is missing."""
@@ -85,5 +85,5 @@ class UrdfNotes:
 
 def decimal(text: str) -> Fraction | None:
     """The exact value of a decimal as URDF writes it (``1``, ``.5``, ``5.``, ``1e-3``), or ``None``."""
-    found = _DECIMAL.fullmatch(text) if len(text) <= _LONGEST else None
-    return None if found is None else Fraction(text)
+    result = _DECIMAL.fullmatch(text) if len(text) <= _LONGEST else None
+    return None if result is None else Fraction(text)

@@ -43,7 +43,7 @@ def gravity_numbers(gravity: Triple) -> tuple[Number, ...]:
 
 def link_numbers(tree: Tree, file: str) -> dict[str, Number]:
     """Mass, centre of mass and inertia of every link that has any, as the file writes them."""
-    found: dict[str, Number] = {}
+    result: dict[str, Number] = {}
     for link in tree.links.values():
         source = _source(link.element, file)
         entries = [("mass", link.mass, "kg")]
@@ -51,26 +51,26 @@ def link_numbers(tree: Tree, file: str) -> dict[str, Number]:
         entries += [(key, x, "kg·m²") for key, x in zip(INERTIA, link.inertia, strict=True)]
         for key, value, unit in entries:
             if value:
-                found[f"{link.name}_{key}"] = Number(value, unit, source)
-    return found
+                result[f"{link.name}_{key}"] = Number(value, unit, source)
+    return result
 
 
 def joint_numbers(
     tree: Tree, chain: Sequence[UrdfJoint], motors: Sequence[Motor], file: str
 ) -> dict[str, Number]:
     """The places of all joints, and the motors of those of the chain."""
-    found: dict[str, Number] = {}
+    result: dict[str, Number] = {}
     for joint in tree.joints.values():
         source = _source(joint.element, file)
         for letter, x in zip("xyz", joint.xyz, strict=True):
             if x:
-                found[f"{joint.name}_origin_{letter}"] = Number(x, "m", source)
+                result[f"{joint.name}_origin_{letter}"] = Number(x, "m", source)
     for joint, motor in zip(chain, motors, strict=True):
         for key in ("viscous", "coulomb", "torque_limit"):
             number = getattr(motor, key)
             if number is not None:
-                found[f"{joint.name}_{key}"] = number
-    return found
+                result[f"{joint.name}_{key}"] = number
+    return result
 
 
 def _source(element: Element, file: str) -> str:

@@ -134,10 +134,10 @@ def _read_joint(name: str, element: Element, notes: UrdfNotes) -> UrdfJoint:
 def _dynamics(element: Element, place: str, notes: UrdfNotes) -> tuple[Fraction | None, Fraction | None]:
     """Viscous and Coulomb friction, ``None`` where nothing is written."""
     dynamics = notes.only(element, "dynamics", place)
-    found: list[Fraction | None] = []
+    result: list[Fraction | None] = []
     for key in ("damping", "friction"):
         if dynamics is None or key not in dynamics.attributes:
-            found.append(None)
+            result.append(None)
             continue
         value = notes.number(dynamics, key, f"{place}: dynamics")
         if value < 0:
@@ -148,8 +148,8 @@ def _dynamics(element: Element, place: str, notes: UrdfNotes) -> tuple[Fraction 
                 "must not be negative",
                 "correct the sign",
             )
-        found.append(value)
-    return found[0], found[1]
+        result.append(value)
+    return result[0], result[1]
 
 
 def _effort(element: Element, kind: str, place: str, notes: UrdfNotes) -> Fraction | None:

@@ -42,19 +42,19 @@ class Roundings:
 
     def sentences(self) -> tuple[str, ...]:
         """What a reader has to know about them."""
-        found = []
+        result = []
         if self.snapped:
             worst = max(self.snapped, key=lambda place: self.snapped[place])
-            found.append(
+            result.append(
                 f"Angles within {float(SNAP):.0e} rad of a multiple of π/2 are taken as that multiple; "
                 f"the largest difference is {float(self.snapped[worst]):.1e} rad ({worst})"
             )
         if self.rounded:
-            found.append(
+            result.append(
                 f"Rotations and axes that no exact rational can give are rounded by less than "
                 f"{float(CLOSE):.0e} rad: {', '.join(self.rounded)}"
             )
-        return tuple(found)
+        return tuple(result)
 
 
 def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:

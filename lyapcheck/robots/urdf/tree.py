@@ -25,11 +25,11 @@ class Tree:
 
     def path(self, link: str) -> list[UrdfJoint]:
         """All joints from the root to a link."""
-        found: list[UrdfJoint] = []
+        result: list[UrdfJoint] = []
         while link != self.root:
-            found.append(self.above[link])
+            result.append(self.above[link])
             link = self.above[link].parent
-        return found[::-1]
+        return result[::-1]
 
     def moving(self, link: str) -> tuple[UrdfJoint, ...]:
         """The joints that move between the root and a link."""
@@ -40,12 +40,12 @@ class Tree:
         below: dict[str, list[UrdfJoint]] = {}
         for joint in self.joints.values():
             below.setdefault(joint.parent, []).append(joint)
-        found, waiting = [], [self.root]
+        result, waiting = [], [self.root]
         while waiting:
             here = below.get(waiting.pop(), [])
-            found += here
+            result += here
             waiting += [joint.child for joint in here]
-        return found
+        return result
 
     def tips(self) -> list[str]:
         """The links that nothing hangs on, in the order of the file."""

@@ -57,7 +57,7 @@ def parse_xml(data: bytes, shown: str) -> Element:
     except UnicodeDecodeError:
         raise refused(shown, None, "is not UTF-8 text", "save it as UTF-8") from None
     try:
-        return _Builder(shown).run(_DECLARATION.sub(lambda found: _NO_BREAK.sub(b" ", found[0]), data, 1))
+        return _Builder(shown).run(_DECLARATION.sub(lambda result: _NO_BREAK.sub(b" ", result[0]), data, 1))
     except expat.ExpatError as error:
         what = expat.ErrorString(error.code)
         raise refused(

@@ -28,13 +28,13 @@ class Suprema:
         rate: sup |q̇_di| of each joint, rad/s.
         acceleration: sup |q̈_di| of each joint, rad/s².
         speed: v_d, sup ‖q̇_d‖, rad/s.
-        push: sup ‖q̈_d‖, rad/s².
+        acceleration_norm: sup ‖q̈_d‖, rad/s².
     """
 
     rate: tuple[Fraction, ...]
     acceleration: tuple[Fraction, ...]
     speed: Fraction
-    push: Fraction
+    acceleration_norm: Fraction
 
 
 class Reference(ABC):

@@ -64,14 +64,14 @@ def read_reference(path: str | Path, joints: int | None = None) -> Reference:
         if kind:
             fields.fail("kind", f"must be one of {', '.join(_KINDS)}", 'write kind = "sine"')
         raise InputError(notes.problems)
-    found = maker(fields, Path(path).parent)
+    result = maker(fields, Path(path).parent)
     fields.close()
-    if found is not None and joints is not None and found.n != joints:
-        rule = f"moves {found.n} joints, but the arm has {joints}"
+    if result is not None and joints is not None and result.n != joints:
+        rule = f"moves {result.n} joints, but the arm has {joints}"
         fields.fail("kind", rule, f"give {joints} values, one a joint")
-    if notes.problems or found is None:
+    if notes.problems or result is None:
         raise InputError(notes.problems)
-    return found
+    return result
 
 
 class RowFields(Fields):

@@ -43,8 +43,8 @@ class MinimumJerk(Reference):
         s = np.clip(t / T, 0.0, 1.0)
         share = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
         rate = 30.0 * (s * (1.0 - s)) ** 2 / T
-        push = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / T**2
-        moved = np.multiply.outer(np.stack((share, rate, push), axis=-1), self._step)
+        acceleration_norm = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / T**2
+        moved = np.multiply.outer(np.stack((share, rate, acceleration_norm), axis=-1), self._step)
         moved[..., 0, :] += self._from
         return np.asarray(moved)
 
@@ -52,11 +52,13 @@ class MinimumJerk(Reference):
         """See `Reference.suprema`; both norms are exact, as all joints move alike."""
         with precision(BITS):
             T = to_arb(self.seconds)
-            fast, push = arb(15) / 8 / T, 10 / arb(3).sqrt() / T**2
+            fast, acceleration_norm = arb(15) / 8 / T, 10 / arb(3).sqrt() / T**2
             steps = [abs(to_arb(b - a)) * arb.pi() / 180 for a, b in zip(self.start, self.end, strict=True)]
             size = sum((step * step for step in steps), arb(0)).sqrt()
-            rates, pushes = (tuple(above(most * step) for step in steps) for most in (fast, push))
-            return Suprema(rates, pushes, above(fast * size), above(push * size))
+            rates, pushes = (
+                tuple(above(most * step) for step in steps) for most in (fast, acceleration_norm)
+            )
+            return Suprema(rates, pushes, above(fast * size), above(acceleration_norm * size))
 
     @property
     def sentence(self) -> str:

@@ -51,8 +51,8 @@ class Recorded(Reference):
         In Bernstein form a polynomial is a convex combination of its control points, so the largest of these
         bounds it, joint by joint and in norm.
         """
-        (rate, speed), (acceleration, push) = (_bounds(part) for part in self._parts[1:])
-        return Suprema(rate, acceleration, speed, push)
+        (rate, speed), (acceleration, acceleration_norm) = (_bounds(part) for part in self._parts[1:])
+        return Suprema(rate, acceleration, speed, acceleration_norm)
 
     @property
     def sentence(self) -> str:

@@ -88,12 +88,12 @@ def _read(table: _Table, lines: csv._reader) -> None:  # type: ignore[name-defin
 
 def _header(table: _Table, names: list[str]) -> None:
     for column, name in enumerate(names):
-        found = _COLUMN.fullmatch(name)
+        result = _COLUMN.fullmatch(name)
         if name in _TIME:
             table.time = column
-        elif found is not None:
-            unit = 1.0 if found["unit"] == "rad" else math.radians(1.0)
-            table.columns[int(found["joint"])] = (column, unit)
+        elif result is not None:
+            unit = 1.0 if result["unit"] == "rad" else math.radians(1.0)
+            table.columns[int(result["joint"])] = (column, unit)
     known = sorted(table.columns)
     if table.time < 0:
         table.fail(1, "header", ",".join(names), "names no column t", "begin with t [s],q1 [rad]")

@@ -80,8 +80,8 @@ def _equal(random: Random) -> Made:
     left, right = random.choice(
         ((add(a, zero), a), (a, add(zero, a)), (zero, num(0)), (num(0), mul(num(-3), zero)))
     )
-    found = relation(random, left, right)
-    return Made(Constant(found), "equal numbers", FALSE if found.operator == "<" else TRUE)
+    result = relation(random, left, right)
+    return Made(Constant(result), "equal numbers", FALSE if result.operator == "<" else TRUE)
 
 
 def _near(random: Random) -> Made:

@@ -62,11 +62,11 @@ def _sum(terms: Sum) -> Tree:
 
 def _terms(random: Random) -> Sum:
     coefficients = (1, 1, 1, 2, -1, 3, Fraction(1, 2))
-    found = [(Fraction(random.choice(coefficients)), _word(random)) for _ in range(random.randint(1, 3))]
+    result = [(Fraction(random.choice(coefficients)), _word(random)) for _ in range(random.randint(1, 3))]
     if random.random() < 0.5:
-        c, word = found[0]
-        found.append((c, (_matrix(random), *word)))
-    return found
+        c, word = result[0]
+        result.append((c, (_matrix(random), *word)))
+    return result
 
 
 def _transposed(matrix: Tree) -> Tree:
@@ -147,9 +147,9 @@ def _every_n(
     given: tuple[Given, ...] = (),
 ) -> EveryN:
     """The statement with those of the symmetric matrices that occur."""
-    found = _letters(left, right, *(t for pair in rates for t in pair), *(g.equals for g in given))
-    found |= {("mat", g.matrix) for g in given}
-    return EveryN(left, right, tuple(name for name in symmetric if ("mat", name) in found), rates, given)
+    result = _letters(left, right, *(t for pair in rates for t in pair), *(g.equals for g in given))
+    result |= {("mat", g.matrix) for g in given}
+    return EveryN(left, right, tuple(name for name in symmetric if ("mat", name) in result), rates, given)
 
 
 def _letters(*trees: Tree) -> set[tuple[str, str]]:

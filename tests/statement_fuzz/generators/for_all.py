@@ -48,8 +48,8 @@ def make(random: Random) -> Made:
 
 def _random_sides(random: Random) -> Made:
     """Any two expressions."""
-    found = relation(random, rough(random, ["x"], 3), rough(random, ["x"], 1))
-    return Made(ForAll(found, *ends(random)), "random sides")
+    result = relation(random, rough(random, ["x"], 3), rough(random, ["x"], 1))
+    return Made(ForAll(result, *ends(random)), "random sides")
 
 
 def ends(random: Random) -> Ends:
@@ -100,9 +100,9 @@ def _known(random: Random) -> Made:
         domain = (low, high, *domain[2:])
     slack = random.choice((0, 0, Fraction(1, 10**6), Fraction(-1, 10**6), Fraction(-1, 2)))
     right = add(right, num(slack)) if slack else right
-    found = relation(random, left, right)
-    truth = TRUE if slack > 0 or (slack == 0 and found.operator == "<=") else None
-    return Made(ForAll(found, *domain), "a known inequality", truth)
+    result = relation(random, left, right)
+    truth = TRUE if slack > 0 or (slack == 0 and result.operator == "<=") else None
+    return Made(ForAll(result, *domain), "a known inequality", truth)
 
 
 def _factors(random: Random) -> Made:
@@ -123,10 +123,10 @@ def _factors(random: Random) -> Made:
         domain[0], domain[1] = high, low
     if random.random() < 0.3:
         product = neg(product)
-    found = relation(random, ZERO, product)
+    result = relation(random, ZERO, product)
     if random.random() < 0.3:
-        found = replace(found, left=num(random.choice(("-1/1000000", "1/1000000"))))
-    return Made(ForAll(found, *domain), "factors")  # type: ignore[arg-type]
+        result = replace(result, left=num(random.choice(("-1/1000000", "1/1000000"))))
+    return Made(ForAll(result, *domain), "factors")  # type: ignore[arg-type]
 
 
 def _poles(random: Random) -> Made:

@@ -50,13 +50,13 @@ def _identity(random: Random, left: Tree, right: Tree) -> Identity:
     if random.random() < 0.5:
         left, right = right, left
     if "variables" in {field.name for field in fields(Identity)} and random.random() < 0.5:
-        found = [
+        result = [
             Variable(name, Fraction(random.choice((0, 0, 1, -1))), random.random() < 0.6) for name in NAMES
         ]
         from tests.statement_fuzz.oracle.evaluate import names
 
         used = names(left, right)
-        return replace(Identity(left, right), variables=tuple(v for v in found if v.name in used))  # type: ignore[call-arg]
+        return replace(Identity(left, right), variables=tuple(v for v in result if v.name in used))  # type: ignore[call-arg]
     return Identity(left, right)
 
 

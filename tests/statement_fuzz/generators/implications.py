@@ -76,8 +76,8 @@ def used(statement: Implies) -> Implies:
     """The statement with the variables that occur, and no others."""
     from tests.statement_fuzz.oracle.evaluate import names
 
-    found = names(*(s for r in (*statement.hypotheses, statement.conclusion) for s in (r.left, r.right)))
-    kept = tuple(v for v in statement.variables if v.name in found)
+    result = names(*(s for r in (*statement.hypotheses, statement.conclusion) for s in (r.left, r.right)))
+    kept = tuple(v for v in statement.variables if v.name in result)
     return replace(statement, variables=kept or statement.variables[:1])
 
 

@@ -8,7 +8,15 @@ from random import Random
 from typing import Any
 
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
-from tests.statement_fuzz.generators.robots import Robot, coefficient, powers, ranges, robot, scaled, waves
+from tests.statement_fuzz.generators.robots import (
+    Robot,
+    coefficient,
+    harmonics,
+    powers,
+    ranges,
+    robot,
+    scaled,
+)
 from tests.statement_fuzz.oracle.arm import Terms, derivative
 from tests.statement_fuzz.subject import (
     CoriolisAtRest,
@@ -36,12 +44,12 @@ def symmetric(random: Random) -> Made:
 
 def _one(random: Random, arm: Robot) -> Terms:
     """One product of sines and cosines."""
-    found: Terms = ()
-    while not found:
-        found = waves(random, arm.n, len(arm.parameters), 1)[:1]
+    result: Terms = ()
+    while not result:
+        result = harmonics(random, arm.n, len(arm.parameters), 1)[:1]
     if any(low <= 0 <= high for low, high in arm.parameters):
-        return ((powers(arm.n, len(arm.parameters), s1=1), found[0][1]),)
-    return found
+        return ((powers(arm.n, len(arm.parameters), s1=1), result[0][1]),)
+    return result
 
 
 def _changed(random: Random, arm: Robot, terms: Terms) -> Terms:
@@ -138,7 +146,7 @@ def potential(random: Random) -> Made:
     """g is the gradient of U, or with a term more, a sign turned or two joints exchanged."""
     n, parameters = random.choice((1, 2, 2)), ranges(random)
     count = len(parameters)
-    energy = waves(random, n, count, 3)
+    energy = harmonics(random, n, count, 3)
     torques = [derivative(energy, k, n) for k in range(n)]
     truth: str | None = TRUE
     kind = random.random()

@@ -49,9 +49,9 @@ def _result(random: Random, formula: Tree, inputs: dict[str, str]) -> str:
     try:
         with mp.workdps(60):
             value = lifted(Evaluation({name: Fraction(text) for name, text in inputs.items()}).of(formula))
-        found = Decimal(f"{float(value.low):.{places}f}")
+        outcome = Decimal(f"{float(value.low):.{places}f}")
     except (Undefined, Unsure, OverflowError):
-        found = Decimal(f"{random.uniform(0, 5):.{places}f}")
+        outcome = Decimal(f"{random.uniform(0, 5):.{places}f}")
     step = random.choice((0, 0, 0, 1, -1, 3, 40))
-    result = found + step * Decimal(1).scaleb(-places)
+    result = outcome + step * Decimal(1).scaleb(-places)
     return f"{result:.{places}e}" if random.random() < 0.1 else str(result)

@@ -37,9 +37,9 @@ def powers(n: int, parameters: int, **exponents: int) -> tuple[int, ...]:
     return tuple(exponents.get(name, 0) for name in [*names, *(f"p{k + 1}" for k in range(parameters))])
 
 
-def waves(random: Random, n: int, parameters: int, most: int, first: int = 1) -> Terms:
+def harmonics(random: Random, n: int, parameters: int, most: int, first: int = 1) -> Terms:
     """Some products of sines and cosines of the joints from ``first`` on, sometimes with a parameter."""
-    found = []
+    result = []
     for _ in range(random.randint(0, most)):
         joint = random.randint(first, n)
         names = random.choice(
@@ -50,8 +50,8 @@ def waves(random: Random, n: int, parameters: int, most: int, first: int = 1) ->
             exponents[f"{random.choice('sc')}{random.randint(first, n)}"] = 1
         if parameters and random.random() < 0.4:
             exponents["p1"] = random.choice((1, 1, 2))
-        found.append((powers(n, parameters, **exponents), coefficient(random)))
-    return tuple(found)
+        result.append((powers(n, parameters, **exponents), coefficient(random)))
+    return tuple(result)
 
 
 def scaled(terms: Terms, factor: Fraction) -> Terms:
@@ -96,7 +96,7 @@ def robot(random: Random, n: int | None = None, definite: bool | None = None, pl
         return _planar(random, plain)
     first = 2 if n == 2 and (plain or random.random() < 0.7) else 1
     most = 1 if plain else 2
-    entries = {(i, j): waves(random, n, count, most, first) for i in range(n) for j in range(i + 1)}
+    entries = {(i, j): harmonics(random, n, count, most, first) for i in range(n) for j in range(i + 1)}
     if n == 2 and random.random() < 0.5:
         entries[1, 0] += number(n, count, coefficient(random))
     against = [
@@ -135,4 +135,4 @@ def gravity(random: Random, n: int, parameters: int) -> tuple[Terms, ...]:
     """A torque for each joint, sometimes none at all; now and then of one joint alone."""
     if random.random() < 0.1:
         return ((),) * n
-    return tuple(waves(random, n, parameters, 2) for _ in range(random.choice((1, n))))
+    return tuple(harmonics(random, n, parameters, 2) for _ in range(random.choice((1, n))))

@@ -60,15 +60,15 @@ class Place:
 
 def derivative(terms: Terms, k: int, n: int) -> Terms:
     """∂/∂q_k of a sum of terms: (sᵃcᵇ)' = a sᵃ⁻¹cᵇ⁺¹ − b sᵃ⁺¹cᵇ⁻¹."""
-    found = []
+    result = []
     for powers, coefficient in terms:
         for index, other, sign in ((k, n + k, 1), (n + k, k, -1)):
             if powers[index]:
                 moved = list(powers)
                 moved[index] -= 1
                 moved[other] += 1
-                found.append((tuple(moved), coefficient * sign * powers[index]))
-    return tuple(found)
+                result.append((tuple(moved), coefficient * sign * powers[index]))
+    return tuple(result)
 
 
 def turned(symbols: Sequence[Any], x: Sequence[Any], y: Sequence[Any]) -> list[Any]:

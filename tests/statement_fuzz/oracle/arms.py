@@ -184,14 +184,14 @@ def gravity_below(statement: Any, random: Random) -> Objection | None:
     return Objection("false", shown(q, parameters)) if _breaks_gravity(statement, q, parameters) else None
 
 
-def _longer(found: Sequence[Any], high: Fraction, *vectors: Sequence[Any]) -> bool:
+def _longer(result: Sequence[Any], high: Fraction, *vectors: Sequence[Any]) -> bool:
     """‖found‖ > high · the product of the lengths, beyond doubt; no length is below 0."""
     if high < 0:
         return True
     bound = many(high) ** 2
     for vector in vectors:
         bound = bound * dot(vector, vector)
-    square = dot(found, found)
+    square = dot(result, result)
     return bool(square - bound > CERTAIN * (square + bound))
 
 
@@ -200,8 +200,8 @@ def _breaks_turning(
 ) -> bool:
     with mp.workdps(DIGITS):
         a, b = [many(v) for v in x], [many(v) for v in y]
-        found = turned(accurately(q, parameters).symbols(statement.mass), a, b)
-        return _longer(found, statement.high, a, b)
+        result = turned(accurately(q, parameters).symbols(statement.mass), a, b)
+        return _longer(result, statement.high, a, b)
 
 
 def _breaks_gravity(statement: Any, q: list[Fraction], parameters: list[Fraction]) -> bool:
@@ -241,16 +241,16 @@ def _product(statement: Any, witness: Mapping[str, Any]) -> tuple[list[list[Any]
 def small_form(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     """Whether xᵀMx < low xᵀx at the posture."""
     with mp.workdps(DIGITS):
-        found = _product(statement, witness)
-        return found is not None and _below(*found, statement.low)
+        result = _product(statement, witness)
+        return result is not None and _below(*result, statement.low)
 
 
 @kinds.judges("MassBelow")
 def large_product(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     """Whether ‖Mx‖ > high ‖x‖ at the posture."""
     with mp.workdps(DIGITS):
-        found = _product(statement, witness)
-        return found is not None and _longer(times(*found), statement.high, found[1])
+        result = _product(statement, witness)
+        return result is not None and _longer(times(*result), statement.high, result[1])
 
 
 @kinds.judges("CoriolisBelow")

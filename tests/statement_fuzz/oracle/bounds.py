@@ -31,9 +31,9 @@ def bound_every_n(statement: Any, random: Random) -> Objection | None:
     with mp.workdps(DIGITS), exact.kept(False):
         for k in range(40):
             n = (1, 1, 2)[k % 3]
-            found = _try_bound(statement, n, random)
-            if found is not None:
-                return found
+            result = _try_bound(statement, n, random)
+            if result is not None:
+                return result
     return None
 
 
@@ -67,8 +67,8 @@ def letters_of_bound(statement: Any) -> list[Letter]:
     """All letters of a statement, those of its norms and sizes among them."""
     sizes = [size for _, size in (*statement.norms, *statement.least)]
     extra = [letter for letters, _ in statement.norms for letter in letters]
-    found = letters_of(*extra, *(number for number, _ in statement.least), statement.right, *sizes)
-    return sorted(set(all_letters(statement)) | found)
+    result = letters_of(*extra, *(number for number, _ in statement.least), statement.right, *sizes)
+    return sorted(set(all_letters(statement)) | result)
 
 
 def _at_the_border(statement: Any, values: Values, n: int) -> Entries | None:

@@ -38,8 +38,8 @@ def climbed(
         size = np.maximum(np.abs(best), 0.1)
         steps = width * generator.standard_normal((*best.shape, STEPS)) * size[..., None]
         near = best[..., None] + steps * (generator.random(steps.shape) < 0.7)
-        found = _plain(function(near.reshape(len(best), -1))).reshape(best.shape[1], STEPS)
-        for k, row in enumerate(found):
+        result = _plain(function(near.reshape(len(best), -1))).reshape(best.shape[1], STEPS)
+        for k, row in enumerate(result):
             step = int(np.argmax(row))
             if row[step] > tops[k]:
                 best[:, k], tops[k] = near[:, k, step], row[step]

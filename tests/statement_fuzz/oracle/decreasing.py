@@ -105,9 +105,9 @@ def rising(statement: Any, random: Random) -> Any:
 def decreasing(statement: Any, random: Random) -> Objection | None:
     """A posture at which M is not positive definite, or a state at which V does not fall."""
     low = SimpleNamespace(mass=statement.mass, parameters=statement.parameters, low=Fraction(0))
-    found = mass_above(low, random)
-    if found is not None:
-        return found
+    result = mass_above(low, random)
+    if result is not None:
+        return result
     if (joint := _held(statement)) is not None:
         return Objection("false", f"w = 0, e along joint {joint + 1}")
     best, at = rising(statement, random)

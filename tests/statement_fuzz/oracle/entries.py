@@ -17,25 +17,25 @@ TRIES = 6
 
 def letters_of(*trees: Tree) -> set[Letter]:
     """The letters of expressions."""
-    found = set()
+    result = set()
     for node in nodes(*trees):
         if node[0] in ("var", "vec", "mat"):
-            found.add((node[0], node[1]))
+            result.add((node[0], node[1]))
         elif node[0] == "diag":
-            found.add(("vec", node[1]))
-    return found
+            result.add(("vec", node[1]))
+    return result
 
 
 def all_letters(statement: Any) -> list[Letter]:
     """All letters of a statement."""
     trees = [statement.left, *(tree for pair in statement.rates for tree in pair)]
     trees += [known.equals for known in statement.given]
-    found = letters_of(*trees)
+    result = letters_of(*trees)
     if type(statement).__name__ == "EveryN":
-        found |= letters_of(statement.right)
+        result |= letters_of(statement.right)
     for known in statement.given:
-        found |= {("mat", known.matrix), ("vec", known.vector)}
-    return sorted(found)
+        result |= {("mat", known.matrix), ("vec", known.vector)}
+    return sorted(result)
 
 
 def drawn(statement: Any, n: int, random: Random, style: int) -> Values:
@@ -113,9 +113,9 @@ def solution(rows: list[list[Fraction]], right: list[Fraction]) -> list[Fraction
 def places(statement: Any, random: Random) -> Iterator[Entries]:
     for k, n in product(range(TRIES), SIZES):
         values = drawn(statement, n, random, k % 3)
-        found = solved(statement, values, n)
-        if found is not None:
-            yield Entries(found, n, dict(statement.rates))
+        result = solved(statement, values, n)
+        if result is not None:
+            yield Entries(result, n, dict(statement.rates))
 
 
 def shown_entries(at: Entries) -> str:

@@ -64,15 +64,15 @@ class Evaluation:
     def parts(self, trees: Iterable[Tree]) -> list[Any]:
         """All values: one that does not exist makes it undefined, even beside one that is not known."""
         unsure: Unsure | None = None
-        found = []
+        result = []
         for tree in trees:
             try:
-                found.append(self.of(tree))
+                result.append(self.of(tree))
             except Unsure as problem:
                 unsure = problem
         if unsure is not None:
             raise unsure
-        return found
+        return result
 
     def power(self, base: Any, k: int) -> Any:
         """``base`` to a natural power."""

@@ -50,14 +50,14 @@ def atom(*name: Any) -> Polynomial:
 
 def add(a: Polynomial, b: Polynomial) -> Polynomial:
     """The sum."""
-    found = dict(a)
+    result = dict(a)
     for key, c in b.items():
-        total = found.get(key, Fraction(0)) + c
+        total = result.get(key, Fraction(0)) + c
         if total:
-            found[key] = total
+            result[key] = total
         else:
-            found.pop(key, None)
-    return _short(found)
+            result.pop(key, None)
+    return _short(result)
 
 
 def scale(a: Polynomial, c: Fraction) -> Polynomial:
@@ -67,11 +67,11 @@ def scale(a: Polynomial, c: Fraction) -> Polynomial:
 
 def mul(a: Polynomial, b: Polynomial) -> Polynomial:
     """The product, with the relations put in."""
-    found: Polynomial = {}
+    result: Polynomial = {}
     for key, c in a.items():
         for other, d in b.items():
-            found = add(found, scale(_product(key, other), c * d))
-    return found
+            result = add(result, scale(_product(key, other), c * d))
+    return result
 
 
 def _product(key: Monomial, other: Monomial) -> Polynomial:

@@ -56,8 +56,8 @@ def _largest(kind: str, m: int) -> Any:
             if kind == "rho":
                 slope = s ** (2 * m) + (2 * m - 1) * s ** (2 * m - 2) * c**2
                 return abs((slope * bottom - 2 * m * s ** (4 * m - 2) * c**2) / bottom**2)
-            found = s ** (2 * m - 1) * c / bottom
-            return found / x if kind == "L" else found
+            result = s ** (2 * m - 1) * c / bottom
+            return result / x if kind == "L" else result
 
         # the peaks of |h'| are at distances ~1/m from asinh(1)
         with mp.workdps(20):

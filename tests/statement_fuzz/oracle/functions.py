@@ -152,8 +152,8 @@ def _at_turns(name: str, turns: Fraction | None) -> Polynomial | None:
     known = {Fraction(0): {}, HALF: exact.constant(Fraction(1)), Fraction(1, 6): exact.constant(HALF)}
     known[QUARTER] = exact.root(HALF)
     known[Fraction(1, 3)] = exact.root(Fraction(3, 4))
-    found = known.get(inside)
-    return None if found is None else exact.scale(found, Fraction(1 if positive else -1))
+    result = known.get(inside)
+    return None if result is None else exact.scale(result, Fraction(1 if positive else -1))
 
 
 def _tangent(value: Value) -> Value:
@@ -177,8 +177,8 @@ def _arc(name: str) -> Callable[[Value], Value]:
             ends = [max(min(end, mpf(1)), mpf(-1)) for end in (wide.low, wide.high)]
         else:
             ends = [wide.low, wide.high]
-        found = sorted(getattr(mp, name)(end) for end in ends)
-        return made(*found, _arc_form(name, value))
+        result = sorted(getattr(mp, name)(end) for end in ends)
+        return made(*result, _arc_form(name, value))
 
     return of
 

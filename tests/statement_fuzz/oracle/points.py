@@ -43,22 +43,22 @@ def _on_a_line(region: Region, random: Random) -> Iterator[Point]:
 def special_values(region: Region, axis: Axis, random: Random) -> list[Value]:
     """Ends, places beside them, the numbers of the statement, small numbers, roots and turns."""
     numbers = [Fraction(node[1]) for node in region.nodes() if node[0] == "num"]
-    found: list[Any] = [end for end in (axis.low, axis.high) if end is not None]
+    result: list[Any] = [end for end in (axis.low, axis.high) if end is not None]
     tiny = Fraction(1, 10 ** random.choice((1, 3, 9, 20)))
-    found += [end + s * tiny for end in found for s in (1, -1)]
-    found += [Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2)]
-    found += [s * a for a in dict.fromkeys(numbers) for s in (1, -1) if a]
-    found += [a / b for a in numbers[:6] for b in numbers[:6] if b]
-    found += [Fraction(random.randint(-40, 40), random.randint(1, 8)) for _ in range(4)]
-    found += [Fraction(s * 10**k) for k in (2, 5, 7, 13, random.randint(14, 40)) for s in (1, -1)]
+    result += [end + s * tiny for end in result for s in (1, -1)]
+    result += [Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2)]
+    result += [s * a for a in dict.fromkeys(numbers) for s in (1, -1) if a]
+    result += [a / b for a in numbers[:6] for b in numbers[:6] if b]
+    result += [Fraction(random.randint(-40, 40), random.randint(1, 8)) for _ in range(4)]
+    result += [Fraction(s * 10**k) for k in (2, 5, 7, 13, random.randint(14, 40)) for s in (1, -1)]
     kinds = {node[0] for node in region.nodes()}
     if kinds & {"sin", "cos", "tan"}:
-        found += [functions.pi() * Fraction(k, 2) for k in (-3, -2, -1, 1, 2, 3)]
-        found += [functions.pi() * Fraction(k, 4) for k in (-1, 1, 3)]
+        result += [functions.pi() * Fraction(k, 2) for k in (-3, -2, -1, 1, 2, 3)]
+        result += [functions.pi() * Fraction(k, 4) for k in (-1, 1, 3)]
     if kinds & {"div", "sqrt"}:
         roots = [functions.apply("sqrt", abs(a)) for a in numbers[:4] if a]
-        found += [s * r for r in roots for s in (Fraction(1), Fraction(-1)) if not isinstance(r, Fraction)]
-    inside = [value for value in found if axis.holds(value)]
+        result += [s * r for r in roots for s in (Fraction(1), Fraction(-1)) if not isinstance(r, Fraction)]
+    inside = [value for value in result if axis.holds(value)]
     return list({str(v) if isinstance(v, Fraction) else id(v): v for v in inside}.values())
 
 
@@ -106,14 +106,14 @@ def _guided(region: Region, random: Random) -> Iterator[Point]:
 
 def _targets(region: Region) -> list[tuple[str, Tree]]:
     """What to make small: the size of a divisor, the argument of a root, the gap of a claim."""
-    found: dict[tuple[str, Tree], None] = {}
+    result: dict[tuple[str, Tree], None] = {}
     for node in region.nodes():
         if node[0] in GUARDED and (part := _guarded(node)) is not None and names(part[1]):
-            found[part] = None
+            result[part] = None
     for relation in region.claims:
         gap: Tree = ("add", relation.right, ("neg", relation.left))
-        found["size" if relation.operator == "=" else "gap", gap] = None
-    return list(found)
+        result["size" if relation.operator == "=" else "gap", gap] = None
+    return list(result)
 
 
 def _guarded(node: Tree) -> tuple[str, Tree]:
@@ -136,12 +136,12 @@ def _drawn(axis: Axis, generator: Any, dimensions: int) -> Any:
         return np.sort(even) if dimensions == 1 else even
     size = np.exp(generator.uniform(-7, 5, count))
     if low is not None:
-        found = low + size
+        result = low + size
     elif high is not None:
-        found = high - size
+        result = high - size
     else:
-        found = size * generator.choice([-1.0, 1.0], count)
-    return np.sort(found) if dimensions == 1 else found
+        result = size * generator.choice([-1.0, 1.0], count)
+    return np.sort(result) if dimensions == 1 else result
 
 
 def _score(target: tuple[str, Tree], region: Region, points: dict[str, Any], known: dict[int, Any]) -> Any:
@@ -213,8 +213,8 @@ def _on_borders(region: Region, random: Random) -> Iterator[Point]:
                 yield moved
         point: Point | None = dict(start)
         for gap in random.sample(gaps, len(gaps)):
-            found = _moved(gap, point, random) if point is not None else None
-            point = found if found is not None else point
+            result = _moved(gap, point, random) if point is not None else None
+            point = result if result is not None else point
         if gaps and point is not None:
             yield point
             yield {name: value * (1 + Fraction(1, 10**7)) for name, value in point.items()}

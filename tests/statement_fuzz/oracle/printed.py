@@ -74,9 +74,9 @@ def _halves(part: Box, name: str) -> Iterator[Box]:
 @kinds.judges("Agrees")
 def disagrees(statement: Any, witness: Mapping[str, Any]) -> bool | None:
     """Whether no inputs give the printed result; too coarse an enclosure leaves it open."""
-    found = agrees(statement, Random(0))
-    if found is not None:
-        return found.what == "false"
+    result = agrees(statement, Random(0))
+    if result is not None:
+        return result.what == "false"
     return False if _some_inputs_agree(statement) else None
 
 

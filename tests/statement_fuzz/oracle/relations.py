@@ -120,8 +120,8 @@ for _kind, _region in REGIONS.items():
 @kinds.objections_to("AllOf")
 def look_at_parts(statement: Any, random: Random) -> Objection | None:
     """An objection to some part."""
-    found = (kinds.objection(part, random.getrandbits(32)) for _, part in statement.parts)
-    return next((one for one in found if one is not None), None)
+    result = (kinds.objection(part, random.getrandbits(32)) for _, part in statement.parts)
+    return next((one for one in result if one is not None), None)
 
 
 @kinds.judges("AllOf")

@@ -109,8 +109,8 @@ def differs(statement: Any, witness: Mapping[str, Any]) -> bool | None:
         return False
     rates = read(witness["point"], "w", n) or [Fraction(1)] * n
     with mp.workdps(2 * DIGITS):
-        found = GAPS[type(statement).__name__](statement, accurately(*place), [many(x) for x in rates])
-        return any(abs(x) > CERTAIN**2 * _scale(statement, rates) for x in found)
+        result = GAPS[type(statement).__name__](statement, accurately(*place), [many(x) for x in rates])
+        return any(abs(x) > CERTAIN**2 * _scale(statement, rates) for x in result)
 
 
 def _scale(statement: Any, rates: list[Fraction]) -> Any:

@@ -15,7 +15,7 @@ def objection_to(region: Region, random: Random) -> Objection | None:
     """The first objection that a point gives; ``None`` says nothing."""
     with mp.workdps(DIGITS):
         for point in candidates(region, random):
-            found = region.objection(point)
-            if found is not None:
-                return found
+            result = region.objection(point)
+            if result is not None:
+                return result
     return None

@@ -53,9 +53,9 @@ def for_small(statement: Any, random: Random) -> Objection | None:
                 continue
             whole = Region((*axes, *(Axis(name) for name in moving)), (claim,), given)
             for shape in SHAPES if statement.bounded else SHAPES[:1]:
-                found = [_at(whole, point, statement, e, shape) for e in EXPONENTS]
-                if found[0] is not None and len({one.what if one else "" for one in found}) == 1:
-                    return found[0]
+                result = [_at(whole, point, statement, e, shape) for e in EXPONENTS]
+                if result[0] is not None and len({one.what if one else "" for one in result}) == 1:
+                    return result[0]
     return None
 
 

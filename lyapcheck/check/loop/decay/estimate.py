@@ -58,7 +58,7 @@ class Estimate:
     """
 
     def __init__(self, margin: Margin, disturbance: Disturbance) -> None:
-        if not margin.admissible or not disturbance.fits(margin.closure.n):
+        if not margin.admissible or not disturbance.fits(margin.loop.n):
             raise ValueError(
                 "the margin is not admissible, or the disturbance is of another number of joints"
             )
@@ -66,21 +66,21 @@ class Estimate:
             raise ValueError("a disturbance needs a share of the damping")
         self.margin = margin
         self.disturbance = disturbance
-        closure = margin.closure
-        self.member: Member = closure.member
+        loop = margin.loop
+        self.member: Member = loop.member
         rest = 1 - margin.split - margin.slack
         self.damping = 2 * rest * margin.friction / margin.inertia.inertia
-        self.steepest = self.damping / closure.eps0
+        self.steepest = self.damping / loop.eps0
         self.stiffness = tuple(
-            margin.stiffness * k - margin.friction * b * closure.eps0 / (4 * margin.split)
-            for k, b in zip(closure.kp, closure.arm.viscous, strict=True)
+            margin.stiffness * k - margin.friction * b * loop.eps0 / (4 * margin.split)
+            for k, b in zip(loop.kp, loop.arm.viscous, strict=True)
         )
         if min(self.stiffness) < 0:
             raise ValueError("the share t of the damping is too small for the mixed terms")
         self.loss = sum(
             (
                 d * d / (4 * margin.slack * margin.friction * b)
-                for d, b in zip(disturbance.torque, closure.arm.viscous, strict=True)
+                for d, b in zip(disturbance.torque, loop.arm.viscous, strict=True)
                 if d
             ),
             Fraction(0),
@@ -91,11 +91,11 @@ class Estimate:
 
         ½ μ Σ d_i² (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x.
         """
-        closure, inertia = self.margin.closure, self.margin.inertia
+        loop, inertia = self.margin.loop, self.margin.inertia
         with precision(BITS):
-            steepest = to_arb(closure.eps0 * self.member.L)
+            steepest = to_arb(loop.eps0 * self.member.L)
             moving = stored = arb(0)
-            for x, rate, d, k in zip(errors, rates, inertia.weights, closure.kp, strict=True):
+            for x, rate, d, k in zip(errors, rates, inertia.weights, loop.kp, strict=True):
                 moving += (to_arb(d) * (to_arb(rate) + steepest * to_arb(x / (1 + x)))) ** 2
                 stored += to_arb(k) * self.member.potential(to_arb(x))
             return Enclosure.from_arb(to_arb(inertia.inertia) * moving / 2 + stored).upper
@@ -103,7 +103,7 @@ class Estimate:
     def keeps(self, level: Fraction, errors: Sequence[Fraction]) -> bool:
         """Whether V ≤ level is shown to keep every |e_i| ≤ errors, rad: k_pi U at them is not below it."""
         with precision(BITS):
-            rows = zip(self.margin.closure.kp, errors, strict=True)
+            rows = zip(self.margin.loop.kp, errors, strict=True)
             return all(to_arb(k) * self.member.potential(to_arb(x)) >= to_arb(level) for k, x in rows)
 
     def reach(self, level: Fraction) -> tuple[float, ...]:
@@ -113,7 +113,7 @@ class Estimate:
             ValueError: they would be larger than `FARTHEST`.
         """
         with precision(BITS):
-            return tuple(reach_of(self.member, level / k) for k in self.margin.closure.kp)
+            return tuple(reach_of(self.member, level / k) for k in self.margin.loop.kp)
 
     def fall(self, low: Fraction, high: Fraction, slope: Fraction) -> Fraction:
         """A bound from below of −dV/dt wherever low ≤ V ≤ high, in W; it may be negative.
@@ -128,12 +128,12 @@ class Estimate:
         ends = self.reach(high)
         with precision(BITS):
             inside = to_arb(slope * low)
-            rows = zip(self.stiffness, self.disturbance.dry, self.margin.closure.kp, ends, strict=True)
+            rows = zip(self.stiffness, self.disturbance.dry, self.margin.loop.kp, ends, strict=True)
             for c, f, k, end in rows:
                 inside += Well(self.member, to_arb(c), to_arb(f), to_arb(slope * k)).least(end)
-            eps = to_arb(self.margin.closure.eps0) / (1 + sum((arb(x) ** 2 for x in ends), arb(0)).sqrt())
+            eps = to_arb(self.margin.loop.eps0) / (1 + sum((arb(x) ** 2 for x in ends), arb(0)).sqrt())
             if not inside > 0:
-                eps = to_arb(self.margin.closure.eps0)
+                eps = to_arb(self.margin.loop.eps0)
             return Enclosure.from_arb(eps * inside - to_arb(self.loss)).lower
 
 

@@ -40,8 +40,8 @@ class Well:
         Pieces on which g' has one sign have their least value at an end; the others are halved, until they
         cannot be below a value already met, or not by more than `TOLERANCE` of a U(end).
         """
-        found = [arb(0), self.at(end)]
-        best = found[1].upper().min(arb(0))
+        result = [arb(0), self.at(end)]
+        best = result[1].upper().min(arb(0))
         enough = (self.stored * self.member.potential(arb(end))).upper() * TOLERANCE
         stack = [(0.0, end, 0)]
         while stack:
@@ -50,14 +50,14 @@ class Well:
             sign = self._sign(h, dh)
             below = self._below(h, high)
             if sign:
-                found.append(self.at(low if sign > 0 else high))
-                best = best.min(found[-1].upper())
+                result.append(self.at(low if sign > 0 else high))
+                best = best.min(result[-1].upper())
             elif depth == DEPTH or below >= best - enough:
-                found.append(below)
+                result.append(below)
             else:
                 middle = 0.5 * (low + high)
                 stack += [(low, middle, depth + 1), (middle, high, depth + 1)]
-        return _lowest(found)
+        return _lowest(result)
 
     def _ranges(self, low: float, high: float) -> tuple[arb, arb]:
         """h and h' over a piece."""
@@ -83,9 +83,9 @@ class Well:
         ).lower()
 
 
-def _lowest(found: list[arb]) -> arb:
+def _lowest(result: list[arb]) -> arb:
     """The lowest of the lower ends."""
-    lowest = found[0].lower()
-    for value in found:
+    lowest = result[0].lower()
+    for value in result:
         lowest = lowest.min(value.lower())
     return lowest

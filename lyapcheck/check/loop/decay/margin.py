@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.radial import BITS, Parts, RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision
@@ -17,7 +17,7 @@ class Margin:
     """Shares of friction and stiffness that the proof of dV/dt < 0 does without.
 
     Args:
-        closure: arm, controller and ε₀, without parameters, ranges and weights Λ.
+        loop: arm, controller and ε₀, without parameters, ranges and weights Λ.
         friction: η, the share of B, in (0, 1).
         stiffness: κ, the share of K_p, in (0, 1).
         split: t, the share of ηB that pays for the mixed terms ε h_i y_i.
@@ -25,7 +25,7 @@ class Margin:
         inertia: weights d_i with d_i² ≤ b_i, and the tree of λmax(D⁻¹MD⁻¹) ≤ μ; no cuts are needed.
     """
 
-    closure: Closure
+    loop: ClosedLoop
     friction: Fraction
     stiffness: Fraction
     split: Fraction
@@ -33,35 +33,35 @@ class Margin:
     inertia: RadialBounds
 
     @property
-    def reduced(self) -> Closure:
+    def reduced(self) -> ClosedLoop:
         """What has to be proved: the same at (1 − η)B and (1 − κ)K_p."""
-        closure = self.closure
+        loop = self.loop
         return replace(
-            closure,
-            arm=Arm(closure.arm.mass, _scaled(closure.arm.viscous, 1 - self.friction)),
-            kp=_scaled(closure.kp, 1 - self.stiffness),
+            loop,
+            arm=Arm(loop.arm.mass, _scaled(loop.arm.viscous, 1 - self.friction)),
+            kp=_scaled(loop.kp, 1 - self.stiffness),
         )
 
     @property
     def admissible(self) -> bool:
         """Whether sizes and signs are such that the argument applies."""
-        closure = self.closure
-        if closure.parameters or closure.viscous or closure.coupling:
+        loop = self.loop
+        if loop.parameters or loop.viscous or loop.coupling:
             return False
         shares = 0 < self.friction < 1 and 0 < self.stiffness < 1
         parts = self.split > 0 and self.slack >= 0 and self.split + self.slack < 1
-        return shares and parts and closure.admissible and self._weights_fit()
+        return shares and parts and loop.admissible and self._weights_fit()
 
     def inertia_shown(self) -> bool:
         """Whether λmax(D⁻¹MD⁻¹) ≤ μ is shown."""
         with precision(BITS):
-            return Parts(self.closure, self.inertia).inertia_shown()
+            return Parts(self.loop, self.inertia).inertia_shown()
 
     def _weights_fit(self) -> bool:
         weights, angles = self.inertia.weights, self.inertia.angles
-        joints = len(set(angles)) == len(angles) and set(angles) <= set(range(self.closure.n))
-        below = len(weights) == self.closure.n and all(
-            d > 0 and d * d <= b for d, b in zip(weights, self.closure.arm.viscous, strict=True)
+        joints = len(set(angles)) == len(angles) and set(angles) <= set(range(self.loop.n))
+        below = len(weights) == self.loop.n and all(
+            d > 0 and d * d <= b for d, b in zip(weights, self.loop.arm.viscous, strict=True)
         )
         return below and joints and self.inertia.inertia > 0
 

@@ -20,7 +20,7 @@ def create(m: int | None) -> Member:
     """
     if not isinstance(m, int) or m < 1:
         raise unknown("hyperbolic", m)
-    found = hyperbolic_constants(m)
-    bounds = found.gamma.upper, found.rho.upper, found.L.upper
+    result = hyperbolic_constants(m)
+    bounds = result.gamma.upper, result.rho.upper, result.L.upper
     h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
     return Member(h, dh, potential, secant, *bounds)

@@ -12,7 +12,7 @@ from lyapcheck.verdicts import Grade, Verdict
 
 
 @dataclass(frozen=True)
-class Finding:
+class SearchResult:
     """A verdict that a search expects the checker to reach with ``proof``; none for an open statement.
 
     ``grade`` is the one that ``proof`` is expected to get.
@@ -32,32 +32,32 @@ class Finding:
         return self.verdict is Verdict.PROVED
 
 
-def shown(proof: Proof, method: str, **evidence: Any) -> Finding:
+def shown(proof: Proof, method: str, **evidence: Any) -> SearchResult:
     """A proof was found."""
-    return Finding(Verdict.PROVED, method, proof, evidence=evidence)
+    return SearchResult(Verdict.PROVED, method, proof, evidence=evidence)
 
 
-def broken(proof: Proof, method: str, witness: dict[str, Any], **evidence: Any) -> Finding:
+def broken(proof: Proof, method: str, witness: dict[str, Any], **evidence: Any) -> SearchResult:
     """A counterexample was found."""
-    return Finding(Verdict.REFUTED, method, proof, witness=witness, evidence=evidence)
+    return SearchResult(Verdict.REFUTED, method, proof, witness=witness, evidence=evidence)
 
 
-def still_open(reason: str, method: str, **evidence: Any) -> Finding:
+def still_open(reason: str, method: str, **evidence: Any) -> SearchResult:
     """Nothing was found; the reason says what to try next."""
-    return Finding(Verdict.UNDECIDED, method, reason=reason, evidence=evidence)
+    return SearchResult(Verdict.UNDECIDED, method, reason=reason, evidence=evidence)
 
 
-def conjunction(parts: Iterable[tuple[str, Finding]]) -> Finding:
+def conjunction(parts: Iterable[tuple[str, SearchResult]]) -> SearchResult:
     """The finding on "all of these": one part refuted, or one open, or a proof of each."""
     named = list(parts)
     rows = [{"part": name, "verdict": f.verdict.value, "method": f.method} for name, f in named]
     evidence = {"parts": rows}
     for wanted in (Verdict.REFUTED, Verdict.UNDECIDED):
-        for index, (name, found) in enumerate(named):
-            if found.verdict is wanted:
-                reason = f"{name}: {found.reason}" if found.reason else name
-                proof = OnePart(index, found.proof) if found.proof is not None else None
-                return replace(found, reason=reason, proof=proof, evidence={**found.evidence, **evidence})
-    methods = "; ".join(dict.fromkeys(found.method for _, found in named))
-    proofs = tuple(found.proof for _, found in named if found.proof is not None)
+        for index, (name, result) in enumerate(named):
+            if result.verdict is wanted:
+                reason = f"{name}: {result.reason}" if result.reason else name
+                proof = OnePart(index, result.proof) if result.proof is not None else None
+                return replace(result, reason=reason, proof=proof, evidence={**result.evidence, **evidence})
+    methods = "; ".join(dict.fromkeys(result.method for _, result in named))
+    proofs = tuple(result.proof for _, result in named if result.proof is not None)
     return shown(EveryPart(proofs), methods, **evidence)

@@ -9,25 +9,25 @@ from itertools import product
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.constants.harmonics import Harmonics, derivative, harmonics
 from lyapcheck.constants.torus import Torus
-from lyapcheck.constants.waves import Waves, derivative, waves
 from lyapcheck.robots import trig
 from lyapcheck.robots.plant import Plant
 
 
-class ArmWaves:
+class ArmHarmonics:
     """The polynomials of an arm, its parameters at nominal values, ready for boxes."""
 
     def __init__(self, model: Plant) -> None:
         self.n = n = model.n
         fixed = model.fixed()
         self.places = [(i, j) for i in range(n) for j in range(i + 1)]
-        self.waves: dict[tuple[int, int], Waves] = {
-            (i, j): waves(trig.to_terms(fixed.mass[i][j]), n) for i, j in self.places
+        self.harmonics: dict[tuple[int, int], Harmonics] = {
+            (i, j): harmonics(trig.to_terms(fixed.mass[i][j]), n) for i, j in self.places
         }
-        potential = waves(trig.to_terms(fixed.potential), n)
+        potential = harmonics(trig.to_terms(fixed.potential), n)
         self.gravity = [derivative(potential, i) for i in range(n)]
-        self.mass = Torus([self.waves[place] for place in self.places], n)
+        self.mass = Torus([self.harmonics[place] for place in self.places], n)
 
     @cached_property
     def triples(self) -> list[tuple[int, int, int]]:
@@ -39,11 +39,11 @@ class ArmWaves:
         """The Christoffel symbols c_ijk = c_ikj with k ≤ j."""
         return Torus([self._symbol(*place) for place in self.triples], self.n)
 
-    def _symbol(self, i: int, j: int, k: int) -> Waves:
-        total: Waves = {}
+    def _symbol(self, i: int, j: int, k: int) -> Harmonics:
+        total: Harmonics = {}
         parts = ((i, j, k, 1), (i, k, j, 1), (j, k, i, -1))
         for row, column, angle, sign in parts:
-            for wave, value in derivative(self.waves[max(row, column), min(row, column)], angle).items():
+            for wave, value in derivative(self.harmonics[max(row, column), min(row, column)], angle).items():
                 total[wave] = total.get(wave, Fraction(0)) + value * sign / 2
         return {wave: value for wave, value in total.items() if value}
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
-Wave = tuple[int, ...]
+Harmonic = tuple[int, ...]
 """One factor a joint: 0 is 1, 2k − 1 is sin kq, 2k is cos kq."""
-Waves = dict[Wave, Fraction]
+Harmonics = dict[Harmonic, Fraction]
 Term = tuple[tuple[int, ...], Fraction]
 
 
@@ -45,11 +45,11 @@ def _times_sine(factor: int) -> list[tuple[int, Fraction]]:
     return [(2 * k + 1, half), *([(2 * k - 3, -half)] if k > 1 else [])]
 
 
-def waves(terms: Sequence[Term], n: int) -> Waves:
+def harmonics(terms: Sequence[Term], n: int) -> Harmonics:
     """The waves of a polynomial in n sines and n cosines, exactly."""
-    total: Waves = {}
+    total: Harmonics = {}
     for powers, coefficient in terms:
-        partial: list[tuple[Wave, Fraction]] = [((), coefficient)]
+        partial: list[tuple[Harmonic, Fraction]] = [((), coefficient)]
         for i in range(n):
             factors = _expanded(powers[i], powers[n + i])
             partial = [((*wave, factor), x * y) for wave, x in partial for factor, y in factors.items()]
@@ -58,9 +58,9 @@ def waves(terms: Sequence[Term], n: int) -> Waves:
     return {wave: value for wave, value in total.items() if value}
 
 
-def derivative(polynomial: Mapping[Wave, Fraction], i: int) -> Waves:
+def derivative(polynomial: Mapping[Harmonic, Fraction], i: int) -> Harmonics:
     """The derivative with respect to q_i, counted from 0."""
-    total: Waves = {}
+    total: Harmonics = {}
     for wave, value in polynomial.items():
         k = (wave[i] + 1) // 2
         if k:

@@ -15,7 +15,7 @@ from lyapcheck.control.threshold import Threshold, scaled
 
 
 @dataclass(frozen=True)
-class Room:
+class GainRange:
     """What one joint's gains must keep to; integers count units in the last decimal place.
 
     Args:
@@ -53,9 +53,9 @@ class Room:
         return self.most_sum - kv if damped is None else min(self.most_sum - kv, damped)
 
 
-def room_of(
+def gain_range_of(
     joint: int, limits: Limits, gamma: Tree | None, targets: Targets, damping: Damping | None = None
-) -> Room:
+) -> GainRange:
     """The room of a joint, counted from 0, on an arm whose torque limits and friction are known.
 
     Soundness: every largest decimal is proved to pass (10p) or (19) as the gate's checks are.
@@ -67,7 +67,7 @@ def room_of(
     dampings = scaled(friction, limits.n, gamma)
     kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)
     least = ceil(targets.kv_min[joint] / targets.unit) if targets.kv_min else 0
-    return Room(
+    return GainRange(
         unit=targets.unit,
         sum_limit=_enclosed(torques),
         kv_limit=_enclosed(dampings),

@@ -73,20 +73,20 @@ def certain(hinges: Sequence[Hinge], kappa: fmpq, after: Exact, centre: float, h
 
     Soundness: bounds of eigenvalues over intervals of q_2, see `lyapcheck.constants.torus`.
     """
-    torus = Torus(_waves([_slack(hinges, kappa, after, *node[1:3]) for node in _nodes()]), 1)
+    torus = Torus(_harmonics([_slack(hinges, kappa, after, *node[1:3]) for node in _nodes()]), 1)
 
     def bounds(middle: Array, half: Array) -> tuple[Array, Array]:
-        reach = torus.on(middle + centre, half)
-        low = _best(_matrix(reach.value), np.zeros((len(middle), SIZE, SIZE)))
+        affine = torus.on(middle + centre, half)
+        low = _best(_matrix(affine.value), np.zeros((len(middle), SIZE, SIZE)))
         # ν may go along with the linear part: between its ends the sum is a mean of the two at the ends
-        ends = [_matrix(reach.corners()[:, k]) for k in range(1 + half.any())]
-        return -low, -np.min([_best(end, _matrix(reach.radius)) for end in ends], axis=0)
+        ends = [_matrix(affine.corners()[:, k]) for k in range(1 + half.any())]
+        return -low, -np.min([_best(end, _matrix(affine.radius)) for end in ends], axis=0)
 
     begin = np.zeros(1)
     inside = float(bounds(begin[None], np.zeros((1, 1)))[0][0])
     width = np.array([half * (1 + 1e-9)])
-    found = maximise(width, bounds, lambda middle, half: half, (begin, inside), _BOXES, 0.5)
-    return found.outside < 0
+    result = maximise(width, bounds, lambda middle, half: half, (begin, inside), _BOXES, 0.5)
+    return result.outside < 0
 
 
 def _slack(hinges: Sequence[Hinge], kappa: fmpq, after: Exact, sine: fmpq, cosine: fmpq) -> Exact:
@@ -111,15 +111,15 @@ def _nodes() -> list[list[fmpq]]:
     return rows
 
 
-def _waves(slacks: Sequence[Exact]) -> list[dict[tuple[int, ...], Fraction]]:
+def _harmonics(slacks: Sequence[Exact]) -> list[dict[tuple[int, ...], Fraction]]:
     """The entries as trigonometric polynomials of degree 4, from their values at the nodes."""
     values = fmpq_mat([[slack[i, j] for i, j in _PLACES] for slack in slacks])
-    found = fmpq_mat(_nodes()).solve(values)
+    result = fmpq_mat(_nodes()).solve(values)
     return [
         {
-            (k,): Fraction(int(found[k, c].p), int(found[k, c].q))
+            (k,): Fraction(int(result[k, c].p), int(result[k, c].q))
             for k in range(2 * _DEGREE + 1)
-            if found[k, c]
+            if result[k, c]
         }
         for c in range(len(_PLACES))
     ]

@@ -34,7 +34,7 @@ CHOICES = (
 or much between the joints."""
 
 
-def pull_up(mu: Fraction, nu: Fraction, d: Sequence[Fraction]) -> Fraction:
+def rank_one_bound(mu: Fraction, nu: Fraction, d: Sequence[Fraction]) -> Fraction:
     """A bound of ½(‖p‖‖v‖ − vᵀp)/s over all e.
 
     Args:

@@ -9,7 +9,7 @@ from lyapcheck.check.refusal import plain
 
 
 @dataclass(frozen=True)
-class Finding:
+class Judgement:
     """Why a certificate is refused (``reason``), or what it shows; all text but ``claim`` is safe to print.
 
     ``claim`` is the id as it is written, ``label`` the same to be printed; ``label`` and ``says`` are its
@@ -36,7 +36,7 @@ class Finding:
     granted: tuple[str, ...] = ()
     rules: tuple[tuple[str, str], ...] = ()
 
-    def refused(self, reason: str) -> Finding:
+    def refused(self, reason: str) -> Judgement:
         """The same, refused."""
         return replace(self, reason=plain(reason))
 

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.storage import head, lift, whirl
+from lyapcheck.constants.storage import coriolis, first_joints, lift
 from lyapcheck.constants.storage.exact import rounded
-from lyapcheck.constants.storage.head import RELATION, states
+from lyapcheck.constants.storage.first_joints import RELATION, states
 from lyapcheck.constants.storage.hinges import Hinge, hinges
 from lyapcheck.robots.numeric import NumericModel
 from tests.search.test_constants_storage import arm_of
 
-BASIS = whirl.Basis(lift.turning_forms(), lift.relations(), lift.positive_products())
+BASIS = coriolis.Basis(lift.invariant_forms(), lift.relations(), lift.positive_products())
 
 
 def products(twist: np.ndarray) -> np.ndarray:
@@ -24,7 +24,7 @@ def products(twist: np.ndarray) -> np.ndarray:
 
 
 def exactly(matrix: np.ndarray) -> np.ndarray:
-    return np.vectorize(whirl.fmpq_of, otypes=[object])(matrix)
+    return np.vectorize(coriolis.fmpq_of, otypes=[object])(matrix)
 
 
 def turned(angle: float) -> np.ndarray:
@@ -40,7 +40,7 @@ def lifted_turn(angle: float) -> np.ndarray:
 def test_the_power_of_the_links_is_that_of_coriolis_torques(name: str, tmp_path: Path) -> None:
     """zᵀC(q, x)x from the polynomials of M, beside the states handed from link to link."""
     arm = arm_of(name, tmp_path)
-    push, rng = rounded(lift.push()), np.random.default_rng(1)
+    step, rng = rounded(lift.step()), np.random.default_rng(1)
     q, x, z = rng.uniform(-3, 3, arm.n), rng.normal(size=arm.n), rng.normal(size=arm.n)
     state, twist, power = np.zeros(lift.STATE), np.zeros(6), 0.0
     for k, hinge in enumerate(hinges(arm.chain)[0]):
@@ -51,7 +51,7 @@ def test_the_power_of_the_links_is_that_of_coriolis_torques(name: str, tmp_path:
         assert max(abs(full @ form @ full) for form in BASIS.relations) < 1e-12 * max(1, full @ full)
         weighted = sum(form for (i, j), form in BASIS.positive.items() if i == j)
         assert full @ weighted @ full == pytest.approx(2 * state[lift.N] * (twist @ twist + x[k] ** 2))
-        state = push @ full
+        state = step @ full
         twist[2] += x[k]
         power += state @ rounded(lift.power(hinge.body)) @ state
     assert power / 2 == pytest.approx(z @ NumericModel(arm).coriolis(q, x) @ x, rel=1e-10)
@@ -70,36 +70,36 @@ def test_turning_forms_are_all_that_turns_leave_alone() -> None:
 
 def test_the_first_two_joints_reach_what_the_states_say(tmp_path: Path) -> None:
     bodies = hinges(arm_of("leaning", tmp_path).chain)[0]
-    push, angle = rounded(lift.push()), 0.7
+    step, angle = rounded(lift.step()), 0.7
     z0, z1, a, b = 0.3, -1.2, 0.8, 1.7
-    first = push @ np.concatenate([np.zeros(lift.STATE), [z0], np.zeros(6), [a * a]])
+    first = step @ np.concatenate([np.zeros(lift.STATE), [z0], np.zeros(6), [a * a]])
     moved = lifted_turn(angle) @ rounded(lift.carried(bodies[1].carry)) @ first
     twist = turned(angle) @ rounded(bodies[1].carry) @ np.array([0, 0, a, 0, 0, 0])
-    second = push @ np.concatenate([moved, [z1], twist * b, [b * b]])
+    second = step @ np.concatenate([moved, [z1], twist * b, [b * b]])
     five = np.array([z0, z1, a * a, a * b, b * b])
-    sine, cosine = whirl.fmpq_of(np.sin(angle)), whirl.fmpq_of(np.cos(angle))
+    sine, cosine = coriolis.fmpq_of(np.sin(angle)), coriolis.fmpq_of(np.cos(angle))
     assert rounded(states(bodies, sine, cosine)) @ five == pytest.approx(second, abs=1e-12)
     assert five @ RELATION @ five == pytest.approx(0)
 
 
-def holds(bodies: list[Hinge], basis: whirl.Basis, x: np.ndarray, sector: tuple[float, float]) -> bool:
+def holds(bodies: list[Hinge], basis: coriolis.Basis, x: np.ndarray, sector: tuple[float, float]) -> bool:
     """Whether forms prove their κ on a sector of q_2."""
-    after = whirl._stored(bodies, basis, x)
-    return after is not None and head.certain(bodies, whirl.fmpq_of(float(x[0])), after, *sector)
+    after = coriolis._stored(bodies, basis, x)
+    return after is not None and first_joints.certain(bodies, coriolis.fmpq_of(float(x[0])), after, *sector)
 
 
 @pytest.mark.slow
 def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whirl, "_SECTORS", 4)
+    monkeypatch.setattr(coriolis, "_SECTORS", 4)
     arm = arm_of("leaning", tmp_path)
-    bound = whirl.whirl_bound(hinges(arm.chain)[0])
+    bound = coriolis.coriolis_bound(hinges(arm.chain)[0])
     (boxes,) = arm_constants(arm, 3000, names=("k_c",))
     assert boxes.enclosure.lower <= bound <= 1.3 * boxes.enclosure.upper
 
 
 def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
     bodies, sector = hinges(arm_of("leaning", tmp_path).chain)[0], (0.8, 0.4)
-    x = whirl.solve(whirl._blocks(bodies, BASIS, sector), 1 + BASIS.each + 17, 1e-5)
+    x = coriolis.solve(coriolis._blocks(bodies, BASIS, sector), 1 + BASIS.each + 17, 1e-5)
     assert holds(bodies, BASIS, x, sector)
     for place, factor in ((0, 0.9), (3, 2.0), (slice(1, 1 + BASIS.each), 0.0)):
         changed = x.copy()
@@ -111,19 +111,19 @@ def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
 def test_a_sector_says_nothing_of_the_others(tmp_path: Path) -> None:
     """The forms of a narrow sector fail elsewhere on the circle."""
     bodies = hinges(arm_of("leaning", tmp_path).chain)[0]
-    x = whirl.solve(whirl._blocks(bodies, BASIS, (0.8, 0.1)), 1 + BASIS.each + 17, 1e-5)
+    x = coriolis.solve(coriolis._blocks(bodies, BASIS, (0.8, 0.1)), 1 + BASIS.each + 17, 1e-5)
     assert holds(bodies, BASIS, x, (0.8, 0.1))
     assert not holds(bodies, BASIS, x, (0.8, 3.2))
 
 
 def test_too_few_joints(tmp_path: Path) -> None:
-    assert whirl.whirl_bound(hinges(arm_of("pelican2", tmp_path).chain)[0]) is None
+    assert coriolis.coriolis_bound(hinges(arm_of("pelican2", tmp_path).chain)[0]) is None
 
 
 @pytest.mark.slow
 def test_the_ur5_within_two_percent(tmp_path: Path) -> None:
     arm = replace(arm_of("ur5", tmp_path), name="ur5")
-    (found,) = arm_constants(arm, 200_000 // 36, 0.02, names=("k_c",))
-    assert found.gap <= 0.02
+    (result,) = arm_constants(arm, 200_000 // 36, 0.02, names=("k_c",))
+    assert result.gap <= 0.02
     # the best of half a minute of local searches
-    assert found.enclosure.lower <= 2.5562663655 <= found.enclosure.upper
+    assert result.enclosure.lower <= 2.5562663655 <= result.enclosure.upper

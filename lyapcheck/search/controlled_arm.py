@@ -12,7 +12,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.inertia import Bisection, Links
-from lyapcheck.check.loop import Closure
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Setting:
+class ControlledArm:
     """A gain set on an arm whose uncertain parameters stand at their nominal values.
 
     Args:
@@ -119,7 +119,7 @@ class Setting:
         remember(self.fixed)
         return mass_proof(mass_of(self.fixed))
 
-    def closure(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> Closure:
+    def loop(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> ClosedLoop:
         """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given.
 
         Raises:

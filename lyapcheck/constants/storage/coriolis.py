@@ -5,8 +5,8 @@
 and both sides are quadratic in the states of `lyapcheck.constants.storage.lift`: the cost of a joint is the
 power of its link, its price κ z², and at the end −κ N² with N = ‖x‖². Forms that vanish because products of
 the same numbers are products help (`relations`), and so does N ≥ 0 (`positive_products`). The angle of the
-second joint is kept and its circle parted into sectors, see `lyapcheck.constants.storage.head`; from the
-third joint on the forms are those that turns leave alone.
+second joint is kept and its circle parted into sectors, see `lyapcheck.constants.storage.first_joints`; from
+the third joint on the forms are those that turns leave alone.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from flint import arb, ctx, fmpq
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.constants.storage import head, lift
+from lyapcheck.constants.storage import first_joints, lift
 from lyapcheck.constants.storage.exact import Exact, rounded, zeros
 from lyapcheck.constants.storage.hinges import Hinge
 from lyapcheck.constants.storage.program import Blocks, solve
@@ -49,7 +49,7 @@ class Basis:
         return len(self.own) + len(self.relations) + len(self.positive)
 
 
-def whirl_bound(hinges: Sequence[Hinge]) -> Fraction | None:
+def coriolis_bound(hinges: Sequence[Hinge]) -> Fraction | None:
     """An upper bound of k_c; ``None`` where none was certified, and for fewer than three joints.
 
     Soundness: as for the other storage forms; the condition of the first two joints by bounds over intervals
@@ -57,11 +57,11 @@ def whirl_bound(hinges: Sequence[Hinge]) -> Fraction | None:
     """
     if len(hinges) < 3:
         return None
-    basis = Basis(lift.turning_forms(), lift.relations(), lift.positive_products())
+    basis = Basis(lift.invariant_forms(), lift.relations(), lift.positive_products())
     known: list[tuple[float, Exact]] = []
     half = PI_ABOVE / _SECTORS
-    found = [_sector(hinges, basis, ((2 * k + 1) * half, half), known) for k in range(_SECTORS)]
-    return Fraction(max(found)) if isfinite(max(found)) else None
+    result = [_sector(hinges, basis, ((2 * k + 1) * half, half), known) for k in range(_SECTORS)]
+    return Fraction(max(result)) if isfinite(max(result)) else None
 
 
 def _sector(
@@ -77,12 +77,12 @@ def _sector(
             an arm whose second axis is across the first one, opposite sectors are alike.
     """
     for kappa, stored in known:
-        if head.certain(hinges, fmpq_of(kappa), stored, *sector):
+        if first_joints.certain(hinges, fmpq_of(kappa), stored, *sector):
             return kappa
     unknowns = 1 + (len(hinges) - 2) * basis.each + _ANGLES
     x = solve(_blocks(hinges, basis, sector), unknowns, _TOLERANCE)
     after = None if x is None else _stored(hinges, basis, x)
-    if x is None or after is None or not head.certain(hinges, fmpq_of(float(x[0])), after, *sector):
+    if x is None or after is None or not first_joints.certain(hinges, fmpq_of(float(x[0])), after, *sector):
         return inf
     known.append((float(x[0]), after))
     return float(x[0])
@@ -92,17 +92,17 @@ def _blocks(hinges: Sequence[Hinge], basis: Basis, sector: tuple[float, float]) 
     """κ first, then for each joint from the third on its forms; then ν for some angles of the sector."""
     blocks, n = Blocks(), len(hinges)
     least = _MARGIN * max(float(np.abs(rounded(h.body)).max()) for h in hinges)
-    push = rounded(lift.push())
+    step = rounded(lift.step())
     carries = [rounded(lift.carried(hinge.carry)) for hinge in hinges]
     costs = [rounded(lift.power(hinge.body)) for hinge in hinges]
-    base = rounded(head.first_cost(hinges))
+    base = rounded(first_joints.first_cost(hinges))
     # angles a little beyond the sector, and none at which sines vanish: that is hard on the solver
     for t, angle in enumerate(sector[0] + sector[1] * np.linspace(-1.01, 1.02, _ANGLES)):
-        reached = rounded(head.states(hinges, fmpq_of(np.sin(angle)), fmpq_of(np.cos(angle))))
-        slopes = {0: head.PRICE, 1 + (n - 2) * basis.each + t: head.RELATION}
+        reached = rounded(first_joints.states(hinges, fmpq_of(np.sin(angle)), fmpq_of(np.cos(angle))))
+        slopes = {0: first_joints.PRICE, 1 + (n - 2) * basis.each + t: first_joints.RELATION}
         moved = carries[2] @ reached
         slopes |= {1 + i: -(moved.T @ form @ moved) for i, form in enumerate(basis.own)}
-        blocks.add(-base - reached.T @ costs[1] @ reached - _HEAD * least * np.eye(head.SIZE), slopes)
+        blocks.add(-base - reached.T @ costs[1] @ reached - _HEAD * least * np.eye(first_joints.SIZE), slopes)
     for k in range(2, n):
         slopes = {0: np.zeros((lift.ROWS, lift.ROWS))}
         slopes[0][lift.RATE, lift.RATE] = 1.0
@@ -112,11 +112,11 @@ def _blocks(hinges: Sequence[Hinge], basis: Basis, sector: tuple[float, float]) 
         rest = [*basis.relations, *(-form for form in basis.positive.values())]
         slopes |= {first + len(basis.own) + i: form for i, form in enumerate(rest)}
         if k == n - 1:
-            slopes[0] += np.outer(push[lift.N], push[lift.N])
+            slopes[0] += np.outer(step[lift.N], step[lift.N])
         else:
-            moved = carries[k + 1] @ push
+            moved = carries[k + 1] @ step
             slopes |= {first + basis.each + i: -(moved.T @ form @ moved) for i, form in enumerate(basis.own)}
-        blocks.add(-push.T @ costs[k] @ push - least * np.eye(lift.ROWS), slopes)
+        blocks.add(-step.T @ costs[k] @ step - least * np.eye(lift.ROWS), slopes)
         offset = first + len(basis.own) + len(basis.relations)
         blocks.add(-least * np.eye(7), {offset + i: _unit(place) for i, place in enumerate(basis.positive)})
     return blocks
@@ -136,7 +136,7 @@ def _stored(hinges: Sequence[Hinge], basis: Basis, x: Array) -> Exact | None:
     parts = x[1 : 1 + (n - 2) * basis.each].reshape(n - 2, basis.each)
     one, two = len(basis.own), len(basis.own) + len(basis.relations)
     forms = [_sum(row[:one], basis.own) for row in parts]
-    push = lift.push()
+    step = lift.step()
     for k in range(2, n):
         row = parts[k - 2]
         if not _definite(_sum(row[two:], [_unit(place) for place in basis.positive])):
@@ -150,7 +150,7 @@ def _stored(hinges: Sequence[Hinge], basis: Basis, x: Array) -> Exact | None:
         else:
             carry = lift.carried(hinges[k + 1].carry)
             after = after + carry.T @ forms[k - 1] @ carry
-        if not _definite(slack - push.T @ after @ push):
+        if not _definite(slack - step.T @ after @ step):
             return None
     carry = lift.carried(hinges[2].carry)
     return np.asarray(lift.power(hinges[1].body) + carry.T @ forms[0] @ carry)

@@ -28,7 +28,7 @@ Range = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, eq=False)
-class Closure:
+class ClosedLoop:
     """An arm under a bounded controller, at one ε₀, for all values of what is uncertain about the arm.
 
     Args:
@@ -136,13 +136,13 @@ class Closure:
         ‖M‖ is at most its largest row sum, and ‖C(q,x)y‖ ≤ (Σ c_ijk²)^½ ‖x‖ ‖y‖.
         """
         inertia, largest_coupling = self.inertia, max(self.Lambda)
-        reach = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
+        norm_h = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
         rho, slope = self.member.rho * largest_coupling, self.member.L * largest_coupling
-        G = reach * slope / (slope + reach)
+        G = norm_h * slope / (slope + norm_h)
         return ScalarForm(
             stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
             friction=min(low for low, _ in self.friction),
-            drift=inertia.largest_row() * (rho + G) + reach * root_above(inertia.squares_of_symbols()),
+            drift=inertia.largest_row() * (rho + G) + norm_h * root_above(inertia.squares_of_symbols()),
             cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
         )
 
@@ -203,7 +203,7 @@ class RateProof(Proof, ABC):
     """A proof that dV/dt < 0 at every state but the origin of an admissible closed loop with M ≻ 0."""
 
     @abstractmethod
-    def require_shown(self, closure: Closure) -> None:
+    def require_shown(self, loop: ClosedLoop) -> None:
         """Judge it.
 
         Raises:
