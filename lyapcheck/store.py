@@ -98,6 +98,11 @@ def key_of(question: Mapping[str, Any]) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
+def exact(*subjects: object) -> str:
+    """The digest of arms and gains by all their exact numbers, to stand for them in a question."""
+    return hashlib.sha256(repr(subjects).encode("utf-8", "surrogatepass")).hexdigest()
+
+
 @cache
 def source_digest() -> str:
     """Of every file of lyapcheck and of the proofs that come with it."""

@@ -10,7 +10,7 @@ from lyapcheck.output.document import Document, Paragraph, Table
 from lyapcheck.store import Held
 
 WHAT = {
-    "answers": "proofs that the checker has accepted, and whole reports; judged anew when they are taken",
+    "answers": "proofs that the checker has accepted, ε₀, reports; judged anew when they are taken",
     "kernels": "compiled code of simulations and samplers",
 }
 

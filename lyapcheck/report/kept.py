@@ -8,10 +8,10 @@ from base64 import b64decode, b64encode
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from fractions import Fraction
-from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck import store
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
@@ -28,10 +28,10 @@ LARGEST = "certificates/published/"
 
 def question(subject: Subject) -> dict[str, Any]:
     """All that a report depends on: exact numbers of the arm and of the gains, by their digests."""
-    exact = repr((load(subject.robot), [(file.gains, file.bounds) for file in subject.gain_files]))
+    gains = [(file.gains, file.bounds) for file in subject.gain_files]
     names = [name for _, name in subject.sets]
     about = {"ms": subject.ms, "sets": names, "own": subject.own, "map": subject.map, "boxes": BOXES}
-    return {"report": sha256(exact.encode()).hexdigest(), **about}
+    return {"report": store.exact(load(subject.robot), gains), **about}
 
 
 def written(result: Computed) -> dict[str, Any]:

@@ -224,11 +224,18 @@ def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: Sta
     """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
     for slack in _SLACKS:
         eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
-        if confirms_positive(controlled.arm, controlled.controller, eps0, state):
-            with precision(_SHOWN_BITS):
-                shown = rate(controlled.arm, controlled.controller, eps0, state, _SHOWN_BITS)
-                return Witness(eps0, state, Enclosure.from_arb(shown), kind)
+        if (witness := confirmed(controlled, eps0, kind, state)) is not None:
+            return witness
     return None
+
+
+def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State) -> Witness | None:
+    """The witness that a state is against an ε₀; ``None`` where balls do not prove dV/dt > 0 there."""
+    if not confirms_positive(controlled.arm, controlled.controller, eps0, state):
+        return None
+    with precision(_SHOWN_BITS):
+        shown = rate(controlled.arm, controlled.controller, eps0, state, _SHOWN_BITS)
+        return Witness(eps0, state, Enclosure.from_arb(shown), kind)
 
 
 def round_up(value: Fraction, digits: int) -> Fraction:

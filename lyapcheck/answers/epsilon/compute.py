@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
@@ -102,7 +102,7 @@ def epsilon(
         )
         looked_at = result.looked_at
         proof, by, reasons["certified"] = _best(controlled, result)
-        scalar_proof = _proof_of(controlled, scalar.eps0)
+        scalar_proof = proof_of(controlled, scalar.eps0)
     certified = None if proof is None else proof.loop.eps0
     weighted = None
     if weights and certified is not None and controlled.family.bounded:
@@ -110,27 +110,61 @@ def epsilon(
             controlled, certified, max_boxes, jobs, on_progress=lambda f, note: progress(0.9 + 0.1 * f, note)
         )
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
-    require_consistent(at, witness, {"scalar": scalar.eps0, "certified": certified})
-    return EpsilonResult(
-        gains=gain_set,
-        robot=model.name,
+    return put_together(
+        controlled,
+        at,
+        witness,
         published=published,
         scalar=scalar.eps0,
-        certified=certified,
-        falsified=hint,
-        witness=witness,
-        boxes=looked_at,
         proof=proof,
         scalar_proof=scalar_proof,
         weighted=weighted,
-        against=_refutation(controlled, at, witness),
-        ranges=ranges,
-        corner=_corner(at) if ranges else {},
+        boxes=looked_at,
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
-        findings=tuple(findings(published, certified, witness)),
         assumptions=model.assumptions,
         seed=seed,
+    )
+
+
+def put_together(
+    controlled: ControlledArm,
+    at: ControlledArm,
+    witness: Witness | None,
+    *,
+    published: Fraction | None,
+    scalar: Fraction | None,
+    proof: Proof | None,
+    **more: Any,
+) -> EpsilonResult:
+    """What was found about a gain set, with all that follows from it.
+
+    Args:
+        controlled: gains and arm.
+        at: the arm, within its ranges, that the witness is about.
+        witness: of ``at``.
+        published, scalar, proof: of `EpsilonResult`.
+        more: what else it takes that does not follow from these.
+
+    Raises:
+        Contradiction: the witness refutes a certificate.
+    """
+    certified = None if proof is None else proof.loop.eps0
+    require_consistent(at, witness, {"scalar": scalar, "certified": certified})
+    return EpsilonResult(
+        gains=controlled.gains,
+        robot=controlled.model.name,
+        published=published,
+        scalar=scalar,
+        certified=certified,
+        falsified=None if witness is None else witness.eps0,
+        witness=witness,
+        proof=proof,
+        against=_refutation(controlled, at, witness),
+        ranges=controlled.ranges,
+        corner=_corner(at) if controlled.ranges else {},
+        findings=tuple(findings(published, certified, witness)),
+        **more,
     )
 
 
@@ -156,7 +190,7 @@ def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, s
     return norm, "norms alone", result.reason
 
 
-def _proof_of(controlled: ControlledArm, eps0: Fraction | None) -> Proof | None:
+def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> Proof | None:
     """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
     if eps0 is None or not controlled.family.bounded:
         return None

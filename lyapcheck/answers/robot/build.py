@@ -6,10 +6,10 @@ from lyapcheck._types import Progress
 from lyapcheck.answers.robot import certified as ends
 from lyapcheck.answers.robot import print_claims
 from lyapcheck.answers.robot.judged import judged
+from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.answers.robot.properties import properties
 from lyapcheck.answers.robot.report import RobotReport
 from lyapcheck.claims.certificates import file_name
-from lyapcheck.constants import arm_constants
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
@@ -30,7 +30,7 @@ def build(
     Soundness: what is called proved, refuted or certified is what a fresh process of the checker accepts.
     """
     budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
-    constants = arm_constants(model, budget, on_progress=on_progress)
+    constants = kept_constants(model, budget, on_progress)
     if on_progress is not None:
         on_progress(1.0, "properties 2.1–2.8")
     decided, made = properties(model)

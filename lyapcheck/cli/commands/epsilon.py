@@ -8,7 +8,15 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
+from lyapcheck.cli.options import (
+    add_certificates,
+    add_format,
+    add_gain_file,
+    add_no_store,
+    add_robot,
+    add_vary,
+    varies,
+)
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
@@ -58,6 +66,7 @@ def arguments(parser: Parser) -> None:
     parser.add_whole("--seed", "Seed of the sampled states.", default=20190301, least=0)
     add_certificates(parser)
     parser.add_argument("--timings", action="store_true", help="Add the seconds each gain set took.")
+    add_no_store(parser)
     add_format(parser)
 
 
@@ -76,6 +85,7 @@ def run(
     seed: int,
     certificates: Path | None,
     timings: bool,
+    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
@@ -89,9 +99,12 @@ def run(
       lyapcheck epsilon gains.toml --m 1 --certificates proof/
       lyapcheck epsilon gains.toml --robot pelican2 --spread 5
     """
+    from lyapcheck import store
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
+    if no_store:
+        store.switch_off()
     gain_file = read_gain_file(file)
     ranged = varies(vary)
     model = load(robot_name(robot, [gain_file]), spread=_share(spread), vary=ranged)
@@ -151,7 +164,7 @@ def _each(
     gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
-    from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.kept import kept_epsilon
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []
@@ -161,6 +174,6 @@ def _each(
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
         began = perf_counter()
-        results.append(epsilon(gain_set, model, **asdict(budget), on_progress=tell))
+        results.append(kept_epsilon(gain_set, model, **asdict(budget), on_progress=tell))
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format
+from lyapcheck.cli.options import add_certificates, add_format, add_no_store
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
@@ -28,6 +28,7 @@ def arguments(parser: Parser) -> None:
     about = "Write the arm as an arm file to be edited, and decide nothing."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
     add_certificates(parser, "Write the certificates of what is decided there")
+    add_no_store(parser)
     add_format(parser)
 
 
@@ -37,6 +38,7 @@ def run(
     max_boxes: int | None,
     export: Path | None,
     certificates: Path | None,
+    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
@@ -53,6 +55,7 @@ def run(
       lyapcheck robot arm.urdf --tip hand --certificates proof/
       lyapcheck robot buap3 --export arm.toml
     """
+    from lyapcheck import store
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.robots import load, names
 
@@ -65,6 +68,8 @@ def run(
             raise argument_error("--export", export, "is there already", "name another file")
         write_whole(export, arm_text(robot, export.parent))
         return Exit.PROVED
+    if no_store:
+        store.switch_off()
     model = load(robot, tip)
     from lyapcheck.answers.robot import build
 

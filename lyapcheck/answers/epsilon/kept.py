@@ -1,0 +1,197 @@
+"""Four ε₀ computed before: taken from the store only if the checker accepts all their proofs again.
+
+Closed loops are built anew from gains and arm, the proofs and the witness are judged on them, and what
+follows from these is derived again. Numbers that no certificate shows, and words, are taken as they were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck import store
+from lyapcheck._types import SEED, Progress
+from lyapcheck.answers.epsilon.compute import epsilon, proof_of, put_together
+from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
+from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
+from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.check.loop.states import State
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof as Shown
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.corners import at_corner
+from lyapcheck.search.falsify import STARTS, confirmed
+from lyapcheck.search.proof import Proof
+from lyapcheck.search.weights import Weighted
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.plant import Plant
+
+
+def kept_epsilon(
+    gain_set: GainSet,
+    model: RobotModel,
+    *,
+    max_boxes: int,
+    jobs: int = 1,
+    ranges: bool = False,
+    weights: bool = False,
+    seconds: float | None = None,
+    starts: int = STARTS,
+    seed: int = SEED,
+    on_progress: Progress | None = None,
+) -> EpsilonResult:
+    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds; same arguments."""
+    budget: dict[str, Any] = {
+        "max_boxes": max_boxes,
+        "ranges": ranges,
+        "weights": weights,
+        "starts": starts,
+        "seed": seed,
+    }
+    if seconds is not None:  # what was found in so many seconds, another run of so many may better
+        return epsilon(gain_set, model, jobs=jobs, seconds=seconds, on_progress=on_progress, **budget)
+    asked = question(gain_set, model, **budget)
+    result = read(store.take(asked), gain_set, model, ranges, jobs)
+    if result is None:
+        result = epsilon(gain_set, model, jobs=jobs, on_progress=on_progress, **budget)
+        store.put(asked, written(result))
+    return result
+
+
+def question(
+    gain_set: GainSet,
+    model: RobotModel,
+    *,
+    max_boxes: int,
+    ranges: bool = False,
+    weights: bool = False,
+    starts: int = STARTS,
+    seed: int = SEED,
+) -> dict[str, Any]:
+    """All that the four ε₀ depend on; not the name of the gain set."""
+    gains = (gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit)
+    budget = {"max_boxes": max_boxes, "ranges": ranges, "weights": weights, "starts": starts, "seed": seed}
+    return {"epsilon": store.exact(gains, model), **budget}
+
+
+def written(result: EpsilonResult) -> dict[str, Any]:
+    """What cannot be derived again, as plain data."""
+    witness, weighted = result.witness, result.weighted
+    return {
+        "published": to_json(result.published),
+        "scalar": to_json(result.scalar),
+        "boxes": result.boxes,
+        "certified_by": result.certified_by,
+        "reasons": dict(result.reasons),
+        "proof": None if result.proof is None else _written(result.proof),
+        "scalar_proof": result.scalar_proof is not None,
+        "weighted": None
+        if weighted is None
+        else {**_written(weighted.proof), "states": weighted.states, "looked_at": weighted.looked_at},
+        "witness": None
+        if witness is None
+        else {
+            "eps0": str(witness.eps0),
+            "kind": witness.kind,
+            "state": to_json(witness.state),
+            "arm": None if result.against is None else _written_arm(result.against),
+        },
+        "seed": result.seed,
+    }
+
+
+def read(kept: Any, gain_set: GainSet, model: RobotModel, ranges: bool, jobs: int) -> EpsilonResult | None:
+    """What was written, if the checker accepts all of it for these gains and this arm."""
+    try:
+        controlled = ControlledArm(gain_set, model, ranges)
+        return None if kept is None else _read(kept, controlled, model.assumptions, jobs)
+    except (Refused, Contradiction, KeyError, TypeError, ValueError, ZeroDivisionError, AttributeError):
+        return None
+
+
+def _read(
+    kept: Mapping[str, Any], controlled: ControlledArm, assumptions: tuple[str, ...], jobs: int
+) -> EpsilonResult | None:
+    proof, told = _proof(kept["proof"], controlled), kept["weighted"]
+    weighted, scalar = _proof(told, controlled), _fraction(kept["scalar"])
+    scalar_proof = proof_of(controlled, scalar) if kept["scalar_proof"] else None
+    at, seen = controlled, kept["witness"]
+    witness = None
+    if seen is not None:
+        if controlled.ranges:
+            at = replace(controlled, model=_arm(seen["arm"], controlled), ranges=False)
+        state = from_json(State, seen["state"], "state")
+        witness = confirmed(at, Fraction(seen["eps0"]), str(seen["kind"]), state)
+    proofs = [one for one in (proof, weighted) if one is not None]
+    lost = (witness is None and seen is not None) or (scalar_proof is None and kept["scalar_proof"])
+    if lost or not all(one.accepted(jobs) for one in proofs):
+        return None
+    return put_together(
+        controlled,
+        at,
+        witness,
+        published=_fraction(kept["published"]),
+        scalar=scalar,
+        proof=proof,
+        scalar_proof=scalar_proof,
+        weighted=None
+        if weighted is None
+        else Weighted(weighted, int(told["states"]), int(told["looked_at"])),
+        boxes=int(kept["boxes"]),
+        certified_by=str(kept["certified_by"]),
+        reasons={str(name): str(text) for name, text in kept["reasons"].items()},
+        assumptions=assumptions,
+        seed=int(kept["seed"]),
+    )
+
+
+def _fraction(told: Any) -> Fraction | None:
+    return None if told is None else from_json(Fraction, told, "number")
+
+
+def _written_arm(against: Refutation) -> dict[str, Any]:
+    return {"viscous": to_json(against.viscous), "parameters": to_json(against.parameters)}
+
+
+def _arm(told: Any, controlled: ControlledArm) -> Plant:
+    """The arm at the values that a witness is about.
+
+    Raises:
+        ValueError: it is none of those that are meant.
+    """
+    plant = controlled.model
+    viscous = {f"viscous {i}": number for i, number in enumerate(plant.viscous)}
+    numbers = {**viscous, **plant.parameters}
+    values = dict(zip(numbers, map(Fraction, (*told["viscous"], *told["parameters"])), strict=True))
+    for name, number in numbers.items():
+        low, high = number.bounds
+        if not low <= values[name] <= high:
+            raise ValueError(f"{name} is outside its range")
+    return at_corner(plant, plant, values)
+
+
+def _written(proof: Proof) -> dict[str, Any]:
+    loop = proof.loop
+    return {
+        "eps0": str(loop.eps0),
+        "coupling": to_json(loop.coupling),
+        "proof": to_json(proof.certificate),
+    }
+
+
+def _proof(told: Any, controlled: ControlledArm) -> Proof | None:
+    """A proof as it was written, of what is asked now; not yet judged."""
+    if told is None:
+        return None
+    result = from_json(Shown, told["proof"], "proof")
+    if not isinstance(result, PositiveAndDecreasing) or not isinstance(result.rate, BoxTree | RadialBounds):
+        raise TypeError(f"{type(result).__name__} proves no ε₀")
+    coupling = from_json(tuple[Fraction, ...], told["coupling"], "coupling")
+    return Proof(controlled.loop(Fraction(told["eps0"]), coupling), result.rate, controlled.inertia_proof)
