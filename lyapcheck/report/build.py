@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.report.compute import compute
-from lyapcheck.report.drawings import draw_damping
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Data, Report
 from lyapcheck.report.notes import published_notes
@@ -75,8 +74,8 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     from lyapcheck.robots import load
 
     model, notes = load(subject.robot), published_notes()
-    result = compute(subject, notes, on_progress or (lambda fraction, note: None))
     gate = tuple(_gate(subject))
+    result = compute(subject, notes, gate, on_progress or (lambda fraction, note: None))
     if subject.own:
         weighed = own_findings(gate, result.epsilon, result.claims)
     else:
@@ -95,7 +94,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         sensitivity=result.sensitivity,
         findings=weighed,
         bench=_bench(subject, model, result.cells),
-        figures=dict(sorted({**result.figures, **draw_damping(gate)}.items())),
+        figures=dict(sorted(result.figures.items())),
         certificates=dict(sorted(result.certificates.items())),
         versions={name: version(name) for name in PACKAGES},
         seed=SEED,

@@ -15,10 +15,17 @@ from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.report.bench import kept_map
 from lyapcheck.report.computed import Computed
-from lyapcheck.report.drawings import draw_comparisons, draw_family, draw_sensitivity, draw_set, draw_sides
+from lyapcheck.report.drawings import (
+    draw_comparisons,
+    draw_damping,
+    draw_family,
+    draw_sensitivity,
+    draw_set,
+    draw_sides,
+)
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
-from lyapcheck.report.jobs import PaperData, claims_job, gains_job, map_job, paper_job
+from lyapcheck.report.jobs import gains_job, map_job, proofs_job
 from lyapcheck.report.kept import question, read, written
 from lyapcheck.report.model import Data, behind
 from lyapcheck.robots import load
@@ -27,51 +34,49 @@ from lyapcheck.temporary import pending
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.jobs import ProofsData
     from lyapcheck.report.notes import Notes
 
 Job = Future[Any]
 
-PROOF = "published.py"
-OTHERS = ("scalar.py", "tracking.py")
-"""Proofs of what the paper concludes, that do not rest on what is refuted."""
 WORKERS = 2
 
 
-def compute(subject: Subject, notes: Notes, progress: Progress) -> Computed:
+def compute(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Progress) -> Computed:
     """The long computations, from the store if all that they decided is decided so again.
 
     Args:
         subject: arm, members and gains.
         notes: on the paper.
+        gate: the gate's results, for a figure.
         progress: told the fraction done and a few words.
     """
     asked = question(subject)
     result = read(store.take(asked))
     if result is None:
-        result = _afresh(subject, notes, progress)
+        result = _afresh(subject, notes, gate, progress)
         store.put(asked, written(result))
     return result
 
 
-def _afresh(subject: Subject, notes: Notes, progress: Progress) -> Computed:
+def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Progress) -> Computed:
     """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         jobs = _submit(subject, notes, pool)
-        figures = draw_family(subject.ms) | _drawn(jobs, progress)
+        figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, progress)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))
     parts = [job.result() for job in jobs.sets]
-    paper: PaperData = jobs.paper.result()
-    others = [job.result() for job in jobs.others]
+    proofs: ProofsData = jobs.proofs.result()
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
     certificates: dict[str, str] = {}
-    for part in (paper.claims, *others, *parts):
+    for part in (*proofs.proofs, *parts):
         certificates |= part.certificates
-    small = {} if subject.own else paper.small
+    small = {} if subject.own else proofs.small
     certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
-    rows = (*paper.claims.rows, *(row for part in others for row in part.rows))
+    rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
         unwanted = {row["certificate"] for row in rows if row["id"] not in needed[row["proof"]]}
@@ -108,16 +113,14 @@ class Jobs:
 
     Args:
         sets: ε₀ and simulation of each gain set.
-        paper: the claims of the paper, with small witnesses.
-        others: those of the other proofs.
+        proofs: the claims of the paper and of the other proofs, with small witnesses.
         map: the map over m and k_v, where it is asked for.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
     """
 
     sets: list[Job]
-    paper: Job
-    others: list[Job]
+    proofs: Job
     map: Job | None
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
@@ -133,12 +136,11 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
         return job
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
-    paper = start(PROOF, paper_job, PROOF, *about, notes)
+    proofs = start("claims", proofs_job, *about, notes)
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
-    others = [start(proof, claims_job, proof, *about) for proof in OTHERS]
     cells = start("map", map_job, subject.robot, subject.of_family) if subject.map else None
-    return Jobs(sets, paper, others, cells, labels, dict.fromkeys(sets, draw_set))
+    return Jobs(sets, proofs, cells, labels, dict.fromkeys(sets, draw_set))
 
 
 def _drawn(jobs: Jobs, progress: Progress) -> Files:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import subprocess
 from base64 import b64decode, b64encode
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
@@ -22,8 +23,9 @@ from lyapcheck.temporary import temporary_folder
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
 
-LARGEST = "certificates/published/"
-"""What one process judges while another judges the rest."""
+FIRST = "epsilon"
+"""The certificates that take longest for their size."""
+PROCESSES = 2
 
 
 def question(subject: Subject) -> dict[str, Any]:
@@ -94,27 +96,22 @@ def _eps0(certificate: str) -> Fraction:
 
 
 def _judged(certificates: Mapping[str, str]) -> dict[str, Any]:
-    """What two fresh processes of the checker say, by the digest of each certificate."""
-    with temporary_folder() as folder:
-        processes = [
-            _process(Path(folder, str(number)), paths, certificates)
-            for number, paths in enumerate(
-                [
-                    [path for path in certificates if path.startswith(LARGEST)],
-                    [path for path in certificates if not path.startswith(LARGEST)],
-                ]
-            )
-            if paths
-        ]
-        answers = [json.loads(process.communicate()[0]) for process in processes]
+    """What fresh processes of the checker say, one a folder, by the digest of each certificate."""
+    folders: dict[str, list[str]] = {}
+    for path, text in certificates.items():
+        folders.setdefault(path.split("/")[1], []).append(text)
+    with ThreadPoolExecutor(PROCESSES) as pool:
+        answers = list(pool.map(_answer, [folders[name] for name in sorted(folders, key=FIRST.__ne__)]))
     if any(answer["alarms"] for answer in answers):
         return {}
     return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}
 
 
-def _process(place: Path, paths: Iterable[str], certificates: Mapping[str, str]) -> subprocess.Popen[bytes]:
-    place.mkdir()
-    for number, path in enumerate(paths):
-        (place / f"{number}.json").write_text(certificates[path], encoding="utf-8")
-    words = command("lyapcheck.check", "--format", "json", str(place))
-    return subprocess.Popen(words, stdout=subprocess.PIPE, env=environment())
+def _answer(certificates: list[str]) -> dict[str, Any]:
+    with temporary_folder() as folder:
+        for number, text in enumerate(certificates):
+            Path(folder, f"{number}.json").write_text(text, encoding="utf-8")
+        words = command("lyapcheck.check", "--format", "json", folder)
+        run = subprocess.run(words, stdout=subprocess.PIPE, env=environment(), check=False)
+    answer: dict[str, Any] = json.loads(run.stdout)
+    return answer

@@ -63,7 +63,8 @@ def require_folder(option: str, folder: Path) -> None:
 def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     """Put all files into a folder; what stands there already under other names stays.
 
-    All files are written to a new folder first, so that a full disk leaves the old report whole.
+    What is not there already word for word is written to a new folder first, so that a full disk leaves the
+    old report whole.
 
     Raises:
         InputError: the file system refuses.
@@ -71,11 +72,14 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     staged = None
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        encoded = {name: one if isinstance(one, bytes) else one.encode() for name, one in files.items()}
+        fresh = {name: content for name, content in encoded.items() if not _holds(folder / name, content)}
         staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
         with pending(staged):
-            for name, content in files.items():
-                _put(staged / name, content)
-            for name in files:
+            for name, content in fresh.items():
+                (staged / name).parent.mkdir(parents=True, exist_ok=True)
+                (staged / name).write_bytes(content)
+            for name in fresh:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 os.replace(staged / name, folder / name)
     except OSError as error:
@@ -86,6 +90,5 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
             shutil.rmtree(staged, ignore_errors=True)
 
 
-def _put(path: Path, content: str | bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+def _holds(path: Path, content: bytes) -> bool:
+    return path.is_file() and path.read_bytes() == content
