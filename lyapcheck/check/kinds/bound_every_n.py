@@ -9,7 +9,7 @@ References: ``reyes2019family`` (15), (16).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, islice, product
@@ -227,12 +227,14 @@ def names_at(statement: BoundEveryN, n: int) -> set[str]:
     return result
 
 
-def drawn_entries(statement: BoundEveryN, tries: int) -> Iterator[tuple[int, Drawn, int]]:
+def drawn_entries(
+    statement: BoundEveryN, tries: int, sizes: Sequence[int] = DRAWN_SIZES
+) -> Iterator[tuple[int, Drawn, int]]:
     """n, random exact entries that meet all bounds, and there the sign of right − left."""
     random = Random(repr(statement))
     written = {name for kind, name in letters(statement.left) if kind == "var"}
     only_bounds = frozenset(statement.numbers - written)
-    at = {n: (at_size(statement, n), norms_at(statement, n), names_at(statement, n)) for n in DRAWN_SIZES}
+    at = {n: (at_size(statement, n), norms_at(statement, n), names_at(statement, n)) for n in sizes}
     for _ in range(tries):
         for n, ((sides, equations), norms, names) in at.items():
             try:

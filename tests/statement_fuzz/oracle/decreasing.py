@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from math import isinf
 from random import Random
 from types import SimpleNamespace
 from typing import Any
@@ -160,11 +161,14 @@ def damping_below(statement: Any, random: Random) -> Objection | None:
     """A multiple of K_v beyond the bound, and an ε₀ at which no state is found where V does not fall."""
     try:
         with mp.workdps(DIGITS):
-            bound = Fraction(float(ends(Evaluation({}).of(statement.bound))[1]))
+            highest = float(ends(Evaluation({}).of(statement.bound))[1])
     except Undefined as why:
         return Objection("undefined", f"the bound ({why})")
     except Unsure:
         return None
+    if isinf(highest):
+        return None
+    bound = Fraction(highest)
     factor = (max(bound, Fraction(0)) + 1) / max(statement.kv)
     if _falls(statement, factor, ALLOWED / (1 + factor), random):
         return Objection("false", f"κ = {float(factor)}")
@@ -190,6 +194,6 @@ def damping_above(statement: Any, witness: Mapping[str, Any]) -> bool | None:
         except (Undefined, Unsure):
             return False
         reached = factor * max(statement.kv)
-        if reached < Fraction(float(low)) * (1 - Fraction(1, 10**12)):
+        if mp.mpf(reached.numerator) / reached.denominator < low * (1 - mp.mpf(10) ** -12):
             return False
     return _falls(statement, factor, eps0, Random(0))
