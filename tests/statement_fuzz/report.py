@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from tests.statement_fuzz.judge import VERDICTS
-from tests.statement_fuzz.run import Tally
+from tests.statement_fuzz.judge import VERDICTS, Judged
+from tests.statement_fuzz.run import Recorded, Tally
 
 INTRODUCTION = """\
 A program writes statements of the kinds that users write, many of them false or undefined somewhere,
@@ -29,13 +29,13 @@ def markdown(tally: Tally, seed: int) -> str:
     ]
     lines += ["## By kind of statement", "", *_table(tally), "", "## By family", "", *_families(tally), ""]
     if tally.faults:
-        lines += [
-            "## Faults",
-            "",
-            *(f"- {index}: {judged.text()}" for index, judged in tally.faults[:200]),
-            "",
-        ]
+        lines += ["## Faults", "", *(_fault(*one) for one in tally.faults[:200]), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _fault(index: int, fault: Judged | Recorded) -> str:
+    """What was wrong; of a fault of an earlier run also what has become of its statement."""
+    return f"- {index}: {fault.text()}" + (f"\n  {fault.now()}" if isinstance(fault, Recorded) else "")
 
 
 def _checkers(tally: Tally) -> list[str]:

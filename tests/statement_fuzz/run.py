@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -11,7 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import lyapcheck.check
-from tests.statement_fuzz.generators import draw
+from lyapcheck.check.codec import from_json
+from lyapcheck.check.statement import Statement
+from tests.statement_fuzz.generators import Made, draw
 from tests.statement_fuzz.judge import Judged, judge
 
 
@@ -34,6 +37,13 @@ class Recorded:
     def text(self) -> str:
         """The fault with the statement."""
         return self.words
+
+    def now(self) -> str:
+        """What today's program makes of the statement; how it was made, and so its truth, is not kept."""
+        statement = from_json(Statement, json.loads(self.words.partition("\n")[2]), "statement")
+        judged = judge(Made(statement, "recorded"))
+        against = f"but {judged.fault}" if judged.fault else "and nothing is against it"
+        return f"Today: {judged.verdict}, {against}."
 
 
 @dataclass

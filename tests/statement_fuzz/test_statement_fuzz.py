@@ -248,6 +248,15 @@ def test_the_page_has_the_counts_and_the_faults() -> None:
     assert "- 17: Constant, by hand: proved (faith), but false at every point" in text
 
 
+def test_a_recorded_fault_stands_beside_what_is_said_of_its_statement_today() -> None:
+    tally = Tally()
+    false = Made(Constant(expr(2) < 1), "by hand")
+    tally.enter(17, Judged(false, "proved", "false at every point", "faith"))
+    text = markdown(Tally.of(json.loads(json.dumps(tally.data()))), 3)
+    assert "proved (faith), but false at every point" in text
+    assert "Today: refuted, and nothing is against it." in text
+
+
 def test_the_command_counts_and_writes_its_page(tmp_path: Any, capsys: Any) -> None:
     page = tmp_path / "page.md"
     code = main(["--statements", "20", "--seed", "2", "--only", "BoundEveryN", "--report", str(page)])
