@@ -1,8 +1,9 @@
 """Slotine and Li's passivity-based tracking, with s = dq̃/dt + Λq̃ (the model known).
 
 τ = M(q̈_d + Λ dq̃/dt) + C(q, q̇)(q̇_d + Λq̃) + g(q) + B(q̇_d + Λq̃) + K s makes M ds/dt + C s + (K + B)s = 0.
-V = ½sᵀMs falls, but it is no Lyapunov function of (q̃, dq̃/dt): it is 0 on the whole line s = 0. With
-q̃ᵀΛ(K + B)q̃ added it is one, and as all is quadratic, the origin is even exponentially stable.
+V = ½sᵀMs falls, but it is no Lyapunov function of (q̃, dq̃/dt): it is 0 on the whole line s = 0. What it shows
+is that s → 0, by Barbalat's lemma, and then q̃ → 0, as dq̃/dt = −Λq̃ + s: convergence, not stability. With
+q̃ᵀΛ(K + B)q̃ added it is a Lyapunov function, and as all is quadratic, the origin is exponentially stable.
 """
 
 from lyapcheck.claims import (
@@ -10,6 +11,7 @@ from lyapcheck.claims import (
     along,
     any_vector,
     at_arm,
+    cascade,
     every_n,
     exponential,
     input_to_state,
@@ -41,6 +43,15 @@ bounds = {
     "rate": K.min * b**2 + Λ.min**2 * K.min * r**2,
 }
 theorem = exponential(loop, V, **bounds)
+convergence = cascade(
+    loop,
+    kinetic,
+    changes={"w": Λ @ e - y},
+    above=goal.mu / 2 * norm(y) ** 2,
+    rate=K.min * norm(y) ** 2,
+    motion=(goal.kc * (goal.vd + b) + K.max + B.max) * norm(y),
+    contraction=Λ.min * r**2 - r * norm(y),
+)
 
 proof.add("s", "½sᵀMs has the rate −sᵀ(K + B)s", along(loop, kinetic, -s @ K @ s - s @ B @ s))
 proof.add(
@@ -60,6 +71,12 @@ proof.add(
         rate=K.min * b**2 + Λ.min**2 * K.min * r**2,
     ),
     "the argument that is often printed",
+)
+proof.add_theorem(
+    "convergence",
+    "what ½sᵀMs shows: s → 0, and then q̃ → 0 and dq̃/dt → 0, whatever they are at first",
+    convergence,
+    "what the printed argument comes to",
 )
 proof.add_theorem("P", "q̃ = 0, dq̃/dt = 0 is globally exponentially stable, by ½sᵀMs + q̃ᵀΛ(K + B)q̃", theorem)
 proof.add(

@@ -8,6 +8,17 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.check.theorems.rate import loop_closed, rate_bound
+from lyapcheck.claims.arguments import (
+    along,
+    at_arm,
+    cascade,
+    exponential,
+    input_to_state,
+    lasalle,
+    rate_at_most,
+    strict,
+    uniform,
+)
 from lyapcheck.claims.arms import (
     coriolis_matrix,
     gravity_bounds,
@@ -50,6 +61,7 @@ from lyapcheck.claims.expressions import (
     total,
     var,
 )
+from lyapcheck.claims.goals import constant_goal, moving_goal, norm
 from lyapcheck.claims.letters import (
     AnyMatrix,
     AnyVector,
@@ -113,19 +125,6 @@ from lyapcheck.claims.statements import (
     reals,
     theorem,
 )
-from lyapcheck.claims.systems import (
-    along,
-    at_arm,
-    constant_goal,
-    exponential,
-    input_to_state,
-    lasalle,
-    moving_goal,
-    norm,
-    rate_at_most,
-    strict,
-    uniform,
-)
 
 __all__ = [
     "Agrees",
@@ -171,6 +170,7 @@ __all__ = [
     "atan",
     "below",
     "bounded",
+    "cascade",
     "combined",
     "constant_goal",
     "coriolis_at_rest",

@@ -120,11 +120,10 @@ class Proof:
         They are called ``<id>.origin``, ``.above``, ``.rate`` and so on, and show where an argument breaks;
         the certificate of the theorem itself has the proofs of them all.
         """
-        about = theorem.argument if isinstance(theorem, Stable) else theorem
         groups: dict[str, list[tuple[str, Statement]]] = {}
         try:
             theorem.require_well_formed()
-            for name, obligation in about.obligations():
+            for name, obligation in theorem.obligations():
                 groups.setdefault(_group(name), []).append((name, obligation))
         except Refused:
             groups.clear()  # the claim itself says what is wrong with it
@@ -165,6 +164,7 @@ OBLIGATIONS = {
     "below": "V is at most a form without time",
     "rate": "dV/dt is at most a negative form",
     "rest": "nothing but the origin stays where dV/dt may vanish",
+    "cascade": "the changed letter moves continuously, and the error follows it",
     "arm": "the arm has the constants, and they meet the conditions",
 }
 

@@ -13,22 +13,22 @@ from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm, hessian
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
+from lyapcheck.check.systems.argument import Rest
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import any_matrix, any_vector, cosh, diagonal, expr, log, sqrt, tanh, var
-from lyapcheck.claims.procedures import propose
-from lyapcheck.claims.systems import (
+from lyapcheck.claims.arguments import (
     at_arm,
-    constant_goal,
+    cascade,
     exponential,
     form_of,
     input_to_state,
     lasalle,
-    moving_goal,
-    norm,
     strict,
     uniform,
 )
+from lyapcheck.claims.goals import constant_goal, moving_goal, norm
+from lyapcheck.claims.procedures import propose
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import to_terms
@@ -308,10 +308,90 @@ def test_a_disturbance_is_unknown_and_bounded():
     assert "must be in the system, the theorem and its gain" in why(Stable(uniformly))
 
 
+def passive(goal=None, w=None, **changed):
+    """Slotine and Li's controller, by ½yᵀMy alone, with w = Λe − y."""
+    goal = goal or moving_goal()
+    e, B = goal.e, goal.B
+    K, L = goal.gains("K Lambda")
+    y, r = any_vector("y_w"), norm(e)
+    s, ahead = L @ e - goal.w, goal.velocity + L @ e
+    torque = goal.M @ (goal.acceleration - L @ goal.w) + goal.C @ ahead + B @ ahead + goal.gravity + K @ s
+    size = norm(y)
+    own = {
+        "changes": {"w": L @ e - y if w is None else w(L, e, y)},
+        "above": goal.mu / 2 * size**2,
+        "rate": K.min * size**2,
+        "motion": (goal.kc * (goal.vd + norm(goal.w)) + K.max + B.max) * size,
+        "contraction": L.min * r**2 - r * size,
+    }
+    return cascade(goal.under(torque), s @ goal.M @ s / 2, **(own | changed))
+
+
+def test_a_cascade_attracts_and_says_nothing_of_stability():
+    statement = passive()
+    result = propose(statement)
+    assert result.verdict.value == "proved"
+    assert "globally attractive" in statement.text()
+    assert "stable" not in statement.text().split(" under ")[0]
+    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
+    assert verify(again, result.proof).grade == "exact"
+
+
+def test_what_a_cascade_asks_for():
+    """Boundedness, that y moves continuously, and that the error follows it."""
+    r, b, size, one = var("norm_e"), var("norm_w"), var("norm_y_w"), expr(1)
+    K, L = var("K_min"), var("Lambda_min")
+    s = var("s")
+    assert "must be seen by sizes" in why(passive(above=r**2))
+    assert "must be one of its sizes" in why(passive(above=var("mu") / 2 * b**2))
+    assert "must be one of its sizes" in why(passive(rate=K * b**2))
+    assert "rate, minor" in why(passive(rate=-K * size**2))
+    assert "rate = s: varies" in why(passive(rate=K * s * size**2))
+    assert "cascade, motion" in why(passive(motion=(var("K_max") + var("B_max")) * size))
+    assert "not a polynomial" in why(passive(motion=one / r))
+    assert "must be in sizes and constants" in why(passive(motion=s * size))
+    with pytest.raises(ValueError, match="norm_x is no constant or size"):
+        passive(motion=var("norm_x"))
+    assert "contraction ‖e‖²" in why(passive(contraction=-L * r**2 - r * size))
+    assert "must be quadratic in norm_e" in why(passive(contraction=L * r**2 - r * b))
+    assert "must be quadratic in norm_e" in why(passive(contraction=-size * r - b**2))
+    assert "varies" in why(passive(contraction=L * s * r**2 - r * size))
+
+
+def test_where_the_changed_letter_does_not_lead():
+    """w = y alone leaves e where it is; a constant in w, and a state of the controller, keep it from 0."""
+    for w, fails in (
+        (lambda L, e, y: -1 * y, "contraction"),
+        (lambda L, e, y: -1 * (L @ e) - y, "contraction"),
+        (lambda L, e, y: L @ e - y + any_vector("K"), "w where e and y are 0"),
+    ):
+        statement = passive(w=w)
+        why(statement)
+        assert propose(dict(statement.obligations())[f"cascade, {fails}"]).verdict.value != "proved"
+
+
+def test_a_state_of_the_controller_must_be_bounded():
+    goals = [moving_goal() for _ in range(3)]
+    for goal in goals:
+        goal.state("z", goal.e)
+    above = goals[0].mu / 2 * var("norm_y_w") ** 2 + var("norm_z") ** 2
+    changes = {"w": goals[0].e - any_vector("y_w"), "z": any_vector("y_z")}
+    assert "lower = z" in why(passive(goals[0]))
+    assert "above:" in why(passive(goals[1], above=above))
+    assert "must be of w alone" in why(passive(goals[2], above=above, changes=changes))
+
+
+def test_parts_of_a_cascade_belong_to_it():
+    argument = passive().argument
+    assert "has its own data" in why(Stable(replace(argument, cascade=None)))
+    assert "has its own data" in why(Stable(replace(argument, theorem="uniform", upper=argument.lower)))
+    assert "is for LaSalle" in why(Stable(replace(argument, rest=Rest(any_vector("e"), argument.rate))))
+
+
 def test_a_theorem_that_the_checker_does_not_know():
     argument = replace(PD().argued().argument, theorem="magic")
     assert "is not one that the checker knows" in why(Stable(argument))
-    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS"}
+    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS", "cascade"}
 
 
 def test_proofs_of_other_obligations_show_nothing():

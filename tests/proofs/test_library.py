@@ -155,6 +155,26 @@ FAULTS = {
     ],
 }
 
+CONVERGENCE = [
+    ("+ goal.gravity + K @ s", "+ goal.gravity - K @ s"),
+    ("+ goal.gravity + K @ s", "+ K @ s"),
+    ("rate=K.min * norm(y) ** 2", "rate=2 * K.min * norm(y) ** 2"),
+    ("rate=K.min * norm(y) ** 2", "rate=K.min * b**2"),
+    ("(goal.vd + b) + K.max + B.max) * norm(y)", "b + K.max + B.max) * norm(y)"),
+    ("+ K.max + B.max) * norm(y)", "+ K.max) * norm(y)"),
+    ("contraction=Λ.min * r**2 - r * norm(y)", "contraction=Λ.min * r**2"),
+    ("contraction=Λ.min * r**2 - r * norm(y)", "contraction=Λ.max * r**2 - r * norm(y)"),
+    ("contraction=Λ.min * r**2 - r * norm(y)", "contraction=-Λ.max * r**2 - r * norm(y)"),
+]
+"""Faults in what is true beside the printed argument of Slotine and Li."""
+
+
+@pytest.mark.parametrize(("right", "wrong"), CONVERGENCE)
+def test_a_planted_fault_in_the_cascade_is_not_proved(tmp_path, right, wrong):
+    path = rewriter("slotine_li.py", tmp_path)(right, wrong)
+    conclusion = runpy.run_path(str(path))["proof"].claims["convergence"].statement(Case(2, 2))
+    assert propose(conclusion).verdict.value in ("undecided", "refuted")
+
 
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),

@@ -173,6 +173,35 @@ def test_v_falls_along_the_arm_as_its_bound_says(name):
             assert now.V(argument) <= now.value(argument.upper.tree) + 1e-9 * size
 
 
+def test_the_cascade_moves_as_its_bounds_say():
+    """y = Λe − w along the arm: ‖M dy/dt‖, eᵀw, V and its rate against what is bounded by y's size."""
+    argument = runpy.run_path(str(find_script("slotine_li.py")))["convergence"].argument
+    gaps, step = [], 1e-5
+    for now, rate in moments(argument):
+        after, before = ((np.array(GAINS["Lambda"]) * at.e - at.w) for at in map(now.moved, (step, -step)))
+        y = (after + before) / 2
+        at = Sized(now, y)
+        moved = np.linalg.norm(now.letter("mat", "M") @ (after - before)) / (2 * step)
+        size = 1 + moved + abs(rate)
+        gaps.append(at.value(argument.cascade.motion) - moved)
+        assert gaps[-1] >= -1e-5 * size
+        assert now.e @ now.w >= at.value(argument.cascade.contraction.tree) - 1e-9 * size
+        assert now.V(argument) >= at.value(argument.lower.tree) - 1e-9 * size
+        assert rate <= -at.value(argument.rate.tree) + 1e-5 * size
+    assert min(gaps) < 1
+
+
+class Sized(Moment):
+    """A moment at which the changed letter has a size too."""
+
+    def __init__(self, now, y):
+        super().__init__(now.system, now.q, now.speed, (now.goal, now.goal_speed, now.goal_push), now.own)
+        self.y = np.linalg.norm(y)
+
+    def letter(self, kind, name):
+        return self.y if name == "norm_y_w" else super().letter(kind, name)
+
+
 @pytest.mark.parametrize("name", LIBRARY)
 def test_twice_the_bound_would_be_too_much(name):
     """Negative control: the steps are fine enough to see it."""

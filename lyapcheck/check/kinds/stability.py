@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import relation_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Total
+from lyapcheck.check.statement import Proof, Statement, Total
+from lyapcheck.check.systems.argument import Argument
+from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.systems.system import Entrywise, System
-from lyapcheck.check.systems.theorems import THEOREMS, Argument
+from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 FRICTION = {
@@ -33,6 +35,10 @@ class Stable(Total):
         """Refuse an argument that is not of the form of its theorem."""
         self.argument.require_well_formed()
 
+    def obligations(self) -> Iterator[tuple[str, Statement]]:
+        """What the theorem asks for, by name."""
+        return obligations(self.argument)
+
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
         """Its own."""
@@ -51,7 +57,8 @@ class Stable(Total):
         where = " and ".join(relation_text(one) for one in argument.where)
         about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
         about += [_function_text(f) for f in system.functions]
-        origin = ", ".join(f"{name} = 0" for name in system.moving)
+        moving = system.moving if argument.cascade is None else ("e", "w")
+        origin = ", ".join(f"{name} = 0" for name in moving)
         conclusion = known.conclusion
         if argument.local:
             conclusion = (
@@ -62,6 +69,13 @@ class Stable(Total):
         under = "; ".join([expression_text(system.torque), *about])
         lower, rate = (expression_text(form.tree) for form in (argument.lower, argument.rate))
         beside = f" + delta·({expression_text(argument.gain.tree)})" if argument.gain is not None else ""
+        if argument.cascade is not None:
+            [change], cascade = argument.changes, argument.cascade
+            motion, contraction = (expression_text(t) for t in (cascade.motion, cascade.contraction.tree))
+            beside = (
+                f", w = {expression_text(change.equals)}, ‖M d({change.letter})/dt‖ ≤ {motion}, "
+                f"eᵀw ≥ {contraction}"
+            )
         return (
             f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(system))}"
             f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
@@ -114,7 +128,7 @@ class ByObligations(Proof):
 @rule(Stable, ByObligations)
 def by_obligations(statement: Stable, proof: ByObligations) -> Accepted:
     """Soundness: see ``check.systems.theorems``; each obligation by its own proof."""
-    wanted = list(statement.argument.obligations())
+    wanted = list(statement.obligations())
     require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
     pairs = zip(wanted, proof.proofs, strict=True)
     return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))

@@ -29,7 +29,8 @@ from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Monomials, Relation, Statement, Total
-from lyapcheck.check.systems.theorems import Argument
+from lyapcheck.check.systems.argument import Argument
+from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Numbers = tuple[Fraction, ...]
@@ -124,7 +125,7 @@ class StableArm(Total):
 
     def obligations(self) -> Iterator[tuple[str, Statement]]:
         """Those of the argument, then that this arm has its constants and they meet its conditions."""
-        yield from self.argument.obligations()
+        yield from obligations(self.argument)
         mass, numbers = self.arm.mass, dict(self.numbers)
         yield "M", MassAbove(mass, (), numbers.get("mu", Fraction(0)))
         if "beta" in numbers:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import chain
 
 from lyapcheck.check.expressions.expression import Tree, variables
-from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN, terms_of
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Variable
 from lyapcheck.check.systems.system import DG, DISTURBANCE, DQD, C, D, E, M, S, System, U
@@ -111,6 +111,18 @@ def _number(word: Word) -> Tree:
         matrix: Tree = ("transpose", ("mat", name)) if kind == "transposed" else (kind, name)
         value = ("apply", matrix, value)
     return ("dot", ("vec", first), value)
+
+
+def written_out(number: Tree, words: Words) -> Tree:
+    """A number as a polynomial in its words, without derivatives and what is given."""
+    total: list[Tree] = []
+    for c, powers in terms_of(words.number(number)):
+        factors: list[Tree] = [("num", str(c))]
+        for name, power in powers.items():
+            result = words.seen.get(name)
+            factors += [("var", name) if result is None else _number(min(result))] * power
+        total.append(product(*factors))
+    return ("add", ("num", "0"), *total)
 
 
 def at_most(

@@ -1,7 +1,8 @@
 """Theorems of stability as tables of obligations, and what each concludes.
 
 Common to all: at e = 0, w = 0 and all other states 0, nothing moves and V = 0; V >= φ, positive definite in
-sizes that see every state and that grow without end with it (its coefficients are constants); V is C¹. Then
+sizes that see every state, of a cascade all but e, and that grow without end with it (its coefficients are
+constants); V is C¹. Then
 
 - strict: dV/dt <= −ψ, ψ positive definite in sizes that see every state; nothing depends on time;
 - LaSalle: ψ sees some states only, w among them; nothing depends on time. Where these stay 0, so does M ẇ,
@@ -9,6 +10,11 @@ sizes that see every state and that grow without end with it (its coefficients a
 - uniform: as strict, and V <= Φ; as no time stands in φ, Φ and ψ, q_d may depend on it;
 - exponential: as uniform; φ, Φ and ψ are quadratic forms in the norms of all states, with constants.
 - ISS: as exponential, with an unknown torque d, ‖d‖ <= delta: dV/dt <= −ψ + delta·ℓ, ℓ linear in these norms.
+- cascade: w = ±y + a(e), a(0) = 0. φ sees y and the states of the controller, and grows with them; so all of
+  them are bounded. With d/dt ½‖e‖² = −eᵀw and eᵀw >= χ, quadratic in ‖e‖ and ‖y‖ with a positive coefficient
+  of ‖e‖², e is bounded too, and goes to 0 if y does. So motions go on for all time, and ‖M ẏ‖, at most a
+  polynomial in sizes, is bounded: y is uniformly continuous. ψ is positive definite with constants and sees
+  y, so ‖y‖² has a finite integral. By Barbalat's lemma y → 0; then e → 0 and w → 0. Stability is not said.
 
 ``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so.
 
@@ -22,22 +28,7 @@ the gradient of s is multiplied by what vanishes there: the term is C¹, and u l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-
-from lyapcheck.check.expressions.expression import Tree, variables
-from lyapcheck.check.kinds.bound_every_n import terms_of
-from lyapcheck.check.kinds.every_n import EveryN
-from lyapcheck.check.letters.grammar import letters, require_sort
-from lyapcheck.check.letters.words import Words
-from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Relation, Statement
-from lyapcheck.check.systems.facts import P, at_most, constants_of
-from lyapcheck.check.systems.forms import EPS0, SHARE, ZERO, Form, is_positive
-from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, System, W, replaced
-
-Named = Iterator[tuple[str, Statement]]
-TEST: Tree = ("vec", "x")
 
 
 @dataclass(frozen=True)
@@ -81,250 +72,10 @@ THEOREMS = {
         upper=True,
         disturbed=True,
     ),
+    "cascade": Theorem(
+        "Barbalat's lemma and a cascade",
+        "globally attractive, with all states bounded (nothing is said of its stability)",
+        "khalil2002nonlinear, lemma 8.2",
+        timed=True,
+    ),
 }
-
-
-@dataclass(frozen=True)
-class Change:
-    """A state as ±y plus a function of states that are not changed; y_x is the letter y of the state x."""
-
-    state: str
-    equals: Tree
-
-    @property
-    def letter(self) -> str:
-        """The name of y."""
-        return f"y_{self.state}"
-
-
-@dataclass(frozen=True)
-class Rest:
-    """A vector x, and the form that xᵀ(M ẇ) is at least where the states seen by ψ are 0."""
-
-    against: Tree
-    form: Form
-
-
-@dataclass(frozen=True)
-class Argument:
-    """A theorem applied to a system.
-
-    Attributes:
-        theorem: its key.
-        system: the closed loop.
-        energy: V without the energy of gravity.
-        gravity: whether U_g(q) − U_g(q_d) + g(q_d)ᵀe is added to it.
-        lower: φ.
-        upper: Φ, where the theorem asks for it.
-        rate: ψ.
-        changes: other letters for some states in φ.
-        rest: what LaSalle's theorem asks for, if ψ does not see every state.
-        where: conditions on the constants.
-        small: whether some ε₀ > 0 is enough; else it is one of the constants.
-        local: whether dV/dt is bounded only where ‖e‖ <= R.
-        gain: ℓ, where the theorem is about a disturbance.
-    """
-
-    theorem: str
-    system: System
-    energy: Tree
-    gravity: bool
-    lower: Form
-    upper: Form | None
-    rate: Form
-    changes: tuple[Change, ...]
-    rest: Rest | None
-    where: tuple[Relation, ...]
-    small: bool
-    local: bool
-    gain: Form | None = None
-
-    def require_well_formed(self) -> None:
-        """Refuse what is not of the form that the theorem is about."""
-        system, known = self.system, THEOREMS.get(self.theorem)
-        require(known is not None, "theorem", self.theorem, "is not one that the checker knows")
-        assert known is not None
-        system.require_well_formed()
-        require_sort(self.energy, "number")
-        system.require_letters(self.energy, system.energies, "V")
-        require(known.timed or not system.desired, "theorem", self.theorem, "is not for q_d(t)")
-        require(known.upper == (self.upper is not None), "upper", "", "must be given where it is asked for")
-        disturbed = system.disturbed == known.disturbed == (self.gain is not None)
-        require(disturbed, "disturbance", "", "must be in the system, the theorem and its gain, or in none")
-        require(not (self.gravity and system.desired), "gravity", "", "has no energy where q_d(t) moves")
-        require(not self.local or self.theorem in ("strict", "LaSalle"), "local", "", "is for constant q_d")
-        allowed = set(constants_of(system))
-        for relation in self.where:
-            used = variables(relation.gap)
-            fits = used <= (allowed - {EPS0} if self.small else allowed)
-            require(fits, "where", ", ".join(sorted(used)), "must be about constants of this system")
-        sizes = self._sees()
-        for form in self._forms():
-            form.require_well_formed()
-            for size in (*form.sizes, *form.names):
-                require(size in sizes, "size", size, "is not one of a state or function of this system")
-            for tree in form.coefficients:
-                used = variables(tree)
-                require(used <= allowed | {SHARE}, "coefficient", ", ".join(sorted(used)), "are no constants")
-        for tree in self.lower.coefficients:
-            require(SHARE not in variables(tree), "lower", "s", "goes to 0 far away: bound it by constants")
-        self._require_changes()
-        self._require_smooth()
-        self._require_seen()
-
-    def _forms(self) -> list[Form]:
-        rest = self.rest.form if self.rest is not None else None
-        return [form for form in (self.lower, self.upper, self.rate, rest, self.gain) if form is not None]
-
-    def _sees(self) -> dict[str, tuple[str, bool]]:
-        """For each size the state that it sees, and whether it grows with it without end."""
-        system = self.system
-        result = {f"norm_{name}": (name, True) for name in system.moving}
-        for f in system.functions:
-            result |= {f"norm_{f.name}": (f.of, False), f"sum_U{f.name}": (f.of, True)}
-        return result | {f"norm_{change.letter}": (change.state, True) for change in self.changes}
-
-    def seen(self, form: Form, growing: bool = False) -> set[str]:
-        """The states that a form sees, or those with which it also grows."""
-        sees = self._sees()
-        result = (sees[size] for size in (*form.sizes, *form.names))
-        return {state for state, grows in result if grows or not growing}
-
-    def _require_changes(self) -> None:
-        system, names = self.system, [change.state for change in self.changes]
-        kept = {("vec", name) for name in system.moving if name not in names}
-        kept |= {("vec", f.name) for f in system.functions if f.of not in names}
-        kept |= {("vec", name) for name in system.diagonal} | {("var", SHARE), ("var", EPS0)}
-        kept |= {("var", name) for name in system.constants}
-        for change in self.changes:
-            require(names.count(change.state) == 1, "change", change.state, "is changed twice")
-            require(change.state in system.moving, "change", change.state, "is no state")
-            require(change.state != "e", "change", "e", "is a size of its own: s and gravity depend on it")
-            require_sort(change.equals, "vector")
-            own: Tree = ("vec", change.letter)
-            system.require_letters(change.equals, {*kept, own}, f"what {change.state} is changed to")
-            words = Words((), {}, {}).expand(change.equals)
-            with_own = [word for word in words if any(name == change.letter for _, name in word)]
-            factor = words.get((own,))
-            plain = factor is not None and with_own == [(own,)] and _is_sign(factor)
-            require(plain, "change", change.state, f"must be ±{change.letter} and what does not contain it")
-        gone = {name for f in system.functions if f.of in names for name in (f.name, f"U{f.name}")}
-        used = {name for _, name in letters(self.energy)}
-        require(not gone & used, "change", ", ".join(sorted(gone)), "stands in V, and its state is changed")
-
-    def _require_smooth(self) -> None:
-        """s only beside e or a function of it, so that V is C¹ at e = 0."""
-        words = Words(("M",), {}, {})
-        of_e = {"e", *(f.name for f in self.system.functions if f.of == "e")}
-        for _, powers in terms_of(words.number(self.energy)):
-            if SHARE in powers:
-                factors = (word for name in powers for word in words.seen.get(name, ()))
-                fits = any(name in of_e for word in factors for _, name in word)
-                require(fits, "V", SHARE, "stands in a term without e or a function of it: V is not C¹")
-
-    def _require_seen(self) -> None:
-        """φ grows with every state; ψ sees every state, or those that LaSalle's theorem needs."""
-        system, every = self.system, set(self.system.moving)
-        lost = every - self.seen(self.lower, growing=True)
-        require(not lost, "lower", ", ".join(sorted(lost)), "must be seen by sizes that grow without end")
-        seen = self.seen(self.rate)
-        if self.theorem == "LaSalle":
-            require("w" in seen, "rate", "w", "must be seen: where it is 0, nothing moves but the controller")
-            left = every - seen - (self.seen(self.rest.form) if self.rest is not None else set())
-            require(not left, "rest", ", ".join(sorted(left)), "must be seen where the rest stays 0")
-            if self.rest is not None:
-                require_sort(self.rest.against, "vector")
-                system.require_letters(self.rest.against, system.known, "the vector at rest")
-        else:
-            require(self.rest is None, "rest", "", "is for LaSalle's theorem alone")
-            require(seen == every, "rate", ", ".join(sorted(every - seen)), "must be seen")
-        if self.gain is not None:
-            linear = not self.gain.sizes and all(name[5:] in every for name in self.gain.names)
-            require(linear, "gain", ", ".join(self.gain.sizes), "must be linear in the norms of states")
-        if self.theorem in ("exponential", "ISS"):
-            states = {("vec", name) for name in system.moving}
-            fixed = {("vec", name) for name in system.diagonal}
-            for change in self.changes:  # the new letters are then norms as good as the old ones
-                own = ("vec", change.letter)
-                system.require_letters(change.equals, {*states, *fixed, own}, "a change that must be linear")
-            for form in (self.lower, self.upper, self.rate):
-                assert form is not None
-                fits = len(form.sizes) == len(every) and not form.linear
-                fits = fits and not any(
-                    size in form.sizes for f in system.functions for size in _sizes(f.name)
-                )
-                require(fits, "form", ", ".join(form.sizes), "must be quadratic in the norms of all states")
-                require(
-                    all(SHARE not in variables(tree) for tree in form.coefficients), "form", SHARE, "varies"
-                )
-
-    def obligations(self) -> Named:
-        """What must be proved, by name."""
-        yield from self._origin()
-        yield from self._functions()
-        yield from self._lower()
-        yield from self._definite("above", self.lower)
-        if self.upper is not None:
-            left = self._with_gravity(self.energy)
-            yield "below", at_most(self.system, left, self.upper.tree)
-        yield "rate", self.rate_bound()
-        yield from self._definite("rate", self.rate)
-        if self.rest is not None:
-            force = self.system.at_zero(self.system.force, self.seen(self.rate))
-            against = self.system.at_zero(self.rest.against, self.seen(self.rate))
-            left = ("neg", ("dot", against, force))
-            yield "rest", at_most(self.system, left, ("neg", self.rest.form.tree))
-            yield from self._definite("rest", self.rest.form)
-
-    def rate_bound(self) -> Statement:
-        """dV/dt <= −ψ."""
-        system = self.system
-        used = letters(self.energy) | {("vec", f.name) for f in system.functions if f.of != "w"}
-        rates = {letter: value for letter, value in system.rates().items() if letter in used}
-        left: Tree = ("rate", self.energy)
-        if self.gravity:
-            left = ("add", left, ("dot", DG, W))
-        right: Tree = ("neg", self.rate.tree)
-        if self.gain is not None:
-            right = ("add", right, ("mul", ("var", "delta"), self.gain.tree))
-        return at_most(system, left, right, rates, local=self.local)
-
-    def _origin(self) -> Named:
-        system, every = self.system, self.system.moving
-        force = replaced(system.at_zero(system.force, every), {DISTURBANCE: NOTHING})
-        yield "origin", EveryN(("dot", TEST, force), ZERO)
-        for state in system.states:
-            yield f"origin of {state.name}", EveryN(("dot", TEST, system.at_zero(state.rate, every)), ZERO)
-        yield "V at the origin", EveryN(system.at_zero(self.energy, every), ZERO)
-
-    def _functions(self) -> Named:
-        from lyapcheck.check.systems.members import facts
-
-        for f in self.system.functions:
-            if f.member is not None:
-                for name, fact in facts(f.member):
-                    yield f"{f.name}: {name}", fact
-
-    def _lower(self) -> Named:
-        by = {("vec", change.state): change.equals for change in self.changes}
-        left = self._with_gravity(replaced(self.energy, by))
-        changed = tuple(change.letter for change in self.changes)
-        yield "above", at_most(self.system, ("neg", left), ("neg", self.lower.tree), changed=changed)
-
-    def _with_gravity(self, energy: Tree) -> Tree:
-        return ("add", energy, ("dot", E, P)) if self.gravity else energy
-
-    def _definite(self, subject: str, form: Form) -> Named:
-        for name, tree in form.positive():
-            yield f"{subject}, {name}", is_positive(self.system, tree, self.where, self.small)
-
-
-def _sizes(name: str) -> tuple[str, str]:
-    """The sizes of a function."""
-    return f"norm_{name}", f"sum_U{name}"
-
-
-def _is_sign(factor: Tree) -> bool:
-    """Whether a factor is 1 or −1."""
-    [(c, powers)] = terms_of(factor) or [(0, {"": 1})]
-    return not powers and abs(c) == 1

@@ -13,8 +13,7 @@ METHOD = "obligations of a theorem"
 @procedure(Stable, StableArm)
 def find_stable(statement: Stable | StableArm) -> SearchResult:
     """Decide every obligation; one that fails leaves the conclusion open, as it is only sufficient."""
-    about = statement.argument if isinstance(statement, Stable) else statement
-    result = [(name, find(one)) for name, one in about.obligations()]
+    result = [(name, find(one)) for name, one in statement.obligations()]
     rows = [{"part": name, "verdict": one.verdict.value, "method": one.method} for name, one in result]
     for name, one in result:
         if not one.is_proof:

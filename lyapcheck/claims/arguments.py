@@ -1,4 +1,4 @@
-"""The front end for proofs about an arm under any torque: letters, gains, functions, and theorems by name.
+"""Proofs about an arm under any torque: theorems by name, for all arms and for one.
 
 ::
 
@@ -9,13 +9,12 @@
     V = w @ goal.M @ w / 2 + e @ Kp @ e / 2
     proof.add("P", "…", lasalle(loop, V, above=goal.mu * b**2 / 2 + Kp.min * r**2 / 2, …))
 
-What the letters stand for, how they move and how large they are is the checker's: see ``check.systems``.
+What each theorem asks for is derived by the checker: see ``check.systems``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
 from itertools import combinations_with_replacement
@@ -30,228 +29,21 @@ from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.statement import Monomials, Relation, Statement
+from lyapcheck.check.systems.argument import Argument, Cascade, Change, Rest
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import Form
-from lyapcheck.check.systems.system import Entrywise, Member, State, System
-from lyapcheck.check.systems.theorems import Argument, Change, Rest
+from lyapcheck.check.systems.obligations import rate_bound
+from lyapcheck.check.systems.system import System
 from lyapcheck.claims.bounds import ArmBounds, above
 from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.expressions import Expr, diff, expr, sqrt, total, var
-from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
+from lyapcheck.claims.expressions import Expr, expr, sqrt, total
+from lyapcheck.claims.letters import AnyVector
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 ZERO: Tree = ("num", "0")
-
-
-@dataclass(frozen=True, eq=False)
-class Gain(AnyMatrix):
-    """A diagonal positive matrix: ``K.min``, ``K.max`` are its eigenvalues, ``K @ U`` … its products."""
-
-    name: str = ""
-
-    @property
-    def entries(self) -> AnyVector:
-        """Its diagonal."""
-        return any_vector(self.name)
-
-    @property
-    def min(self) -> Expr:
-        """The least eigenvalue."""
-        return var(f"{self.name}_min")
-
-    @property
-    def max(self) -> Expr:
-        """The largest eigenvalue."""
-        return var(f"{self.name}_max")
-
-    @property
-    def norm(self) -> Expr:
-        """The norm of its diagonal."""
-        return var(f"{self.name}_norm")
-
-
-@dataclass(frozen=True, eq=False)
-class Function(AnyVector):
-    """f(x) for each entry of a state, with its size, potential and constants."""
-
-    name: str = ""
-
-    @property
-    def U(self) -> AnyVector:
-        """Its potential by entries: U' = f, U(0) = 0."""
-        return any_vector(f"U{self.name}")
-
-    @property
-    def sum_U(self) -> Expr:
-        """Σ U(x_i)."""
-        return var(f"sum_U{self.name}")
-
-    @property
-    def reach(self) -> Expr:
-        """At least ‖f(x)‖."""
-        return var(f"{self.name}_reach")
-
-    @property
-    def slope(self) -> Expr:
-        """At least |f'|."""
-        return var(f"{self.name}_slope")
-
-    @property
-    def secant(self) -> Expr:
-        """At least |f(x)/x|."""
-        return var(f"{self.name}_secant")
-
-    @property
-    def sector(self) -> Expr:
-        """1/secant: x f(x) is at least this times f(x)²."""
-        return var(f"{self.name}_sector")
-
-
-def norm(x: AnyVector) -> Expr:
-    """The size of a letter, as forms have it.
-
-    Raises:
-        ValueError: it is a sum or product; sizes are those of states and functions.
-    """
-    if x.tree[0] != "vec":
-        raise ValueError("norm: a size is that of one letter, such as e, w or a function")
-    return var(f"norm_{x.tree[1]}")
-
-
-@dataclass
-class Goal:
-    """What an arm is asked to do, and the letters of its closed loop; ``constant_goal``, ``moving_goal``."""
-
-    desired: bool
-    friction: str
-    disturbed: bool = False
-    _gains: list[str] = field(default_factory=list)
-    _functions: list[Entrywise] = field(default_factory=list)
-    _states: list[State] = field(default_factory=list)
-    _constants: list[str] = field(default_factory=list)
-
-    e, w = any_vector("e"), any_vector("w")
-    """q_d − q, and q̇ − q̇_d."""
-    M = any_matrix("M")
-    mu, beta, kc, kg, vd, R, eps0, s = map(var, ("mu", "beta", "kc", "kg", "vd", "R", "eps0", "s"))
-    """λmin(M), ‖M‖, the Coriolis bound, ‖∂g/∂q‖, ‖q̇_d‖, the radius of a local bound; ε = ε₀ s."""
-
-    @property
-    def C(self) -> AnyMatrix:
-        """C(q, q̇)."""
-        return any_matrix("C") + any_matrix("D") if self.desired else any_matrix("C")
-
-    @property
-    def B(self) -> Gain:
-        """The matrix of viscous friction."""
-        return _gain("B")
-
-    @property
-    def gravity(self) -> AnyVector:
-        """g(q)."""
-        return any_vector("g") if self.desired else self.gravity_at_goal + any_vector("dg")
-
-    @property
-    def gravity_at_goal(self) -> AnyVector:
-        """g(q_d), for a constant q_d."""
-        return any_vector("gd")
-
-    @property
-    def velocity(self) -> AnyVector:
-        """q̇_d."""
-        return any_vector("dqd")
-
-    @property
-    def acceleration(self) -> AnyVector:
-        """q̈_d."""
-        return any_vector("ddqd")
-
-    def gains(self, names: str) -> list[Gain]:
-        """Diagonal positive matrices, by names between spaces."""
-        self._gains += names.split()
-        return [_gain(name) for name in names.split()]
-
-    def constants(self, names: str) -> list[Expr]:
-        """Positive numbers, by names between spaces."""
-        self._constants += names.split()
-        return [var(name) for name in names.split()]
-
-    def state(self, name: str, rate: AnyVector) -> AnyVector:
-        """A vector of the controller's own, with its derivative."""
-        self._states.append(State(name, rate.tree))
-        return any_vector(name)
-
-    def entrywise(self, name: str, of: AnyVector, bounded: bool = True) -> Function:
-        """Any odd C¹ function by entries, positive for x > 0, of bounded slope, with an endless integral."""
-        self._functions.append(Entrywise(name, of.tree[1], bounded, None))
-        return Function(("vec", name), name)
-
-    def function(
-        self,
-        name: str,
-        of: AnyVector,
-        value: Expr,
-        potential: Expr,
-        *,
-        rho: object,
-        secant: object,
-        low: object,
-        start: object = 1,
-        gamma: object | None = None,
-    ) -> Function:
-        """One such function of x, with its potential and numbers that show it to be one.
-
-        Args:
-            name: the letter.
-            of: the state.
-            value: f, an expression in x; so is ``potential``, U.
-            potential: U' = f, U(0) = 0.
-            rho: at least |f'|.
-            secant: at least |f(x)/x|.
-            low: at most f(x) for x >= ``start``.
-            start: a number.
-            gamma: at least |f|; none for one that is not bounded.
-        """
-        numbers = [exact_value(number) for number in (rho, secant, low, start)]
-        most = None if gamma is None else exact_value(gamma)
-        member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *numbers)
-        self._functions.append(Entrywise(name, of.tree[1], gamma is not None, member))
-        return Function(("vec", name), name)
-
-    def under(self, torque: AnyVector) -> System:
-        """The closed loop."""
-        return System(
-            torque.tree,
-            tuple(self._gains),
-            tuple(self._functions),
-            tuple(self._states),
-            tuple(self._constants),
-            self.desired,
-            self.friction,
-            self.disturbed,
-        )
-
-
-def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:
-    """A constant q_d: e = q_d − q, w = q̇.
-
-    Args:
-        friction: ``any``, for arms with or without it; ``positive``, where a proof needs it; ``none``.
-        disturbed: whether an unknown torque of at most delta acts beside that of the controller.
-    """
-    return Goal(False, friction, disturbed)
-
-
-def moving_goal(friction: str = "any", disturbed: bool = False) -> Goal:
-    """q_d(t) with bounded q̇_d: e = q_d − q, w = q̇ − q̇_d."""
-    return Goal(True, friction, disturbed)
-
-
-def _gain(name: str) -> Gain:
-    return Gain(diagonal(any_vector(name)).tree, name)
 
 
 def strict(loop: System, V: Expr, above: Expr, rate: Expr, **more: object) -> Stable:
@@ -281,6 +73,13 @@ def input_to_state(
     return _argued("ISS", loop, V, above, rate, below=below, gain=gain, **more)  # type: ignore[arg-type]
 
 
+def cascade(
+    loop: System, V: Expr, above: Expr, rate: Expr, motion: Expr, contraction: Expr, **more: object
+) -> Stable:
+    """For ``changes={"w": …y}``: dV/dt <= −rate sees y, ‖M ẏ‖ <= motion, eᵀw >= contraction: y, e, w → 0."""
+    return _argued("cascade", loop, V, above, rate, motion=motion, contraction=contraction, **more)  # type: ignore[arg-type]
+
+
 def _argued(
     theorem: str,
     loop: System,
@@ -296,11 +95,11 @@ def _argued(
     small: bool = False,
     local: bool = False,
     gain: Expr | None = None,
+    motion: Expr | None = None,
+    contraction: Expr | None = None,
 ) -> Stable:
-    relations, forms = (
-        tuple(where),
-        [one for one in (above, rate, below, rest and rest[1], gain) if one is not None],
-    )
+    relations, given = tuple(where), (above, rate, below, rest and rest[1], gain, motion, contraction)
+    forms = [one for one in given if one is not None]
     for one in (*(form.tree for form in forms), *(relation.gap for relation in relations)):
         _require_names(loop, variables(one), [*(changes or ())])
     return Stable(
@@ -318,6 +117,7 @@ def _argued(
             small,
             local,
             None if gain is None else form_of(gain),
+            None if motion is None or contraction is None else Cascade(motion.tree, form_of(contraction)),
         )
     )
 
@@ -355,7 +155,7 @@ def along(loop: System, V: Expr, equals: Expr, gravity: bool = False) -> EveryN:
 
 def rate_at_most(stable: Stable) -> Statement:
     """The bound dV/dt <= −rate of a theorem as a claim of its own."""
-    return stable.argument.rate_bound()
+    return rate_bound(stable.argument)
 
 
 def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:

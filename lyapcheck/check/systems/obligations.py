@@ -1,0 +1,122 @@
+"""What an argument by a theorem has to prove, by name: see ``theorems`` for why it is enough."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.letters.grammar import letters
+from lyapcheck.check.letters.words import Words
+from lyapcheck.check.statement import Statement
+from lyapcheck.check.systems.argument import Argument, Cascade
+from lyapcheck.check.systems.facts import P, at_most, product, size, written_out
+from lyapcheck.check.systems.forms import ZERO, Form, is_positive
+from lyapcheck.check.systems.members import facts
+from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, M, W, minus, replaced
+
+Named = Iterator[tuple[str, Statement]]
+TEST: Tree = ("vec", "x")
+
+
+def obligations(argument: Argument) -> Named:
+    """What must be proved, by name."""
+    yield from _origin(argument)
+    yield from _functions(argument)
+    yield from _lower(argument)
+    yield from _definite(argument, "above", argument.lower)
+    if argument.upper is not None:
+        left = _with_gravity(argument, argument.energy)
+        yield "below", at_most(argument.system, left, argument.upper.tree)
+    yield "rate", rate_bound(argument)
+    yield from _definite(argument, "rate", argument.rate)
+    if argument.rest is not None:
+        force = argument.system.at_zero(argument.system.force, argument.seen(argument.rate))
+        against = argument.system.at_zero(argument.rest.against, argument.seen(argument.rate))
+        left = ("neg", ("dot", against, force))
+        yield "rest", at_most(argument.system, left, ("neg", argument.rest.form.tree))
+        yield from _definite(argument, "rest", argument.rest.form)
+    if argument.cascade is not None:
+        yield from _follows(argument, argument.cascade)
+
+
+def rate_bound(argument: Argument) -> Statement:
+    """dV/dt <= −ψ."""
+    system = argument.system
+    used = letters(argument.energy) | {("vec", f.name) for f in system.functions if f.of != "w"}
+    rates = {letter: value for letter, value in system.rates().items() if letter in used}
+    left: Tree = ("rate", argument.energy)
+    if argument.gravity:
+        left = ("add", left, ("dot", DG, W))
+    right: Tree = ("neg", argument.rate.tree)
+    if argument.gain is not None:
+        right = ("add", right, ("mul", ("var", "delta"), argument.gain.tree))
+    if argument.cascade is not None:
+        return at_most(system, _changed(argument, left), right, changed=argument.changed)
+    return at_most(system, left, right, rates, local=argument.local)
+
+
+def _origin(argument: Argument) -> Named:
+    system, every = argument.system, argument.system.moving
+    force = replaced(system.at_zero(system.force, every), {DISTURBANCE: NOTHING})
+    yield "origin", EveryN(("dot", TEST, force), ZERO)
+    for state in system.states:
+        yield f"origin of {state.name}", EveryN(("dot", TEST, system.at_zero(state.rate, every)), ZERO)
+    yield "V at the origin", EveryN(system.at_zero(argument.energy, every), ZERO)
+
+
+def _functions(argument: Argument) -> Named:
+    for f in argument.system.functions:
+        if f.member is not None:
+            for name, fact in facts(f.member):
+                yield f"{f.name}: {name}", fact
+
+
+def _lower(argument: Argument) -> Named:
+    by = {("vec", change.state): change.equals for change in argument.changes}
+    left = _with_gravity(argument, replaced(argument.energy, by))
+    yield (
+        "above",
+        at_most(argument.system, ("neg", left), ("neg", argument.lower.tree), changed=argument.changed),
+    )
+
+
+def _with_gravity(argument: Argument, energy: Tree) -> Tree:
+    return ("add", energy, ("dot", E, P)) if argument.gravity else energy
+
+
+def _definite(argument: Argument, subject: str, form: Form) -> Named:
+    for name, tree in form.positive():
+        yield f"{subject}, {name}", is_positive(argument.system, tree, argument.where, argument.small)
+
+
+def _changed(argument: Argument, left: Tree) -> Tree:
+    """A number along the loop without derivatives in it, in the changed letters."""
+    solved = {("M", "dw"): argument.system.force}
+    plain = written_out(left, Words(("M",), argument.system.rates() | {TEST: NOTHING}, solved))
+    return replaced(plain, {("vec", change.state): change.equals for change in argument.changes})
+
+
+def _follows(argument: Argument, cascade: Cascade) -> Named:
+    """That y is uniformly continuous, and that e is bounded with it and follows it to 0.
+
+    xᵀM ẏ is the rate of xᵀMy for a constant x, less xᵀ(C + Cᵀ)y.
+    """
+    system, [change] = argument.system, argument.changes
+    own: Tree = ("vec", change.letter)
+    rest = replaced(change.equals, {own: NOTHING})
+    yield "cascade, w where e and y are 0", EveryN(("dot", TEST, system.at_zero(rest, ["e"])), ZERO)
+    y: Tree = ("sum", W, minus(rest))  # or its opposite: their norms agree
+    turned = ("apply", system.rates()[M], y)
+    moving: Tree = ("add", ("rate", ("dot", TEST, ("apply", M, y))), ("neg", ("dot", TEST, turned)))
+    most = product(size(TEST[1]), cascade.motion)
+    yield (
+        "cascade, motion",
+        at_most(system, _changed(argument, moving), most, changed=(*argument.changed, TEST[1])),
+    )
+    left: Tree = ("neg", ("dot", E, change.equals))
+    right: Tree = ("neg", cascade.contraction.tree)
+    yield "cascade, contraction", at_most(system, left, right, changed=argument.changed)
+    k = cascade.contraction.sizes.index("norm_e")
+    corner = cascade.contraction.rows[k][k]
+    yield "cascade, contraction ‖e‖²", is_positive(system, corner, argument.where, argument.small)
