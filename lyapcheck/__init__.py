@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult, epsilon
     from lyapcheck.answers.explain import explain
     from lyapcheck.answers.gate import GateResult, gate
+    from lyapcheck.answers.sweep import Plan, Rows, read_plan, sweep
     from lyapcheck.answers.table import Table, build_table
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.targets import Targets
@@ -70,11 +71,13 @@ __all__ = [
     "LyapunovNumeric",
     "Number",
     "NumericModel",
+    "Plan",
     "Problem",
     "Proof",
     "ProofResult",
     "RobotConstants",
     "RobotModel",
+    "Rows",
     "Run",
     "Table",
     "Targets",
@@ -95,6 +98,7 @@ __all__ = [
     "named_family",
     "paper_gain_file",
     "read_gain_file",
+    "read_plan",
     "read_reference",
     "recheck",
     "robot_constants",
@@ -103,6 +107,7 @@ __all__ = [
     "run_proof",
     "run_simulation",
     "run_tracking",
+    "sweep",
     "tune_gains",
 ]
 
@@ -126,11 +131,13 @@ _HOMES = {
     "LyapunovNumeric": "lyapunov.numeric",
     "Number": "robots.number",
     "NumericModel": "robots.numeric",
+    "Plan": "answers.sweep",
     "Problem": "errors",
     "Proof": "claims.claim",
     "ProofResult": "answers.check",
     "RobotConstants": "constants.bounds",
     "RobotModel": "robots.model",
+    "Rows": "answers.sweep",
     "Run": "simulate.run",
     "Table": "answers.table",
     "Targets": "answers.tune.targets",
@@ -150,6 +157,7 @@ _HOMES = {
     "named_family": "family.registry:named",
     "paper_gain_file": "control.paper",
     "read_gain_file": "control.gains",
+    "read_plan": "answers.sweep",
     "read_reference": "tracking.reference.file",
     "recheck": "check.recheck",
     "robot_constants": "constants.bounds",
@@ -158,6 +166,7 @@ _HOMES = {
     "run_proof": "claims.run",
     "run_simulation": "simulate.closed_loop:simulate",
     "run_tracking": "tracking.simulation:track",
+    "sweep": "answers.sweep",
     "tune_gains": "answers.tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""

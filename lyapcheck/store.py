@@ -93,13 +93,18 @@ def put(question: Mapping[str, Any], answer: Any) -> None:
 
 def key_of(question: Mapping[str, Any]) -> str:
     """The digest of a question, plain data, with all that an answer depends on besides."""
-    whole = {"question": question, "source": source_digest(), "versions": {p: version(p) for p in BEHIND}}
-    text = json.dumps(whole, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    text = json.dumps(question, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    return exact(text, made_with())
+
+
+@cache
+def made_with() -> str:
+    """The digest of what answers rest on besides their question: lyapcheck and the packages behind it."""
+    return exact(source_digest(), [(name, version(name)) for name in BEHIND])
 
 
 def exact(*subjects: object) -> str:
-    """The digest of arms and gains by all their exact numbers, to stand for them in a question."""
+    """The digest of what some objects show of themselves, such as arms and gains all their exact numbers."""
     return hashlib.sha256(repr(subjects).encode("utf-8", "surrogatepass")).hexdigest()
 
 

@@ -92,7 +92,7 @@ def read_gain_file(path: str | Path) -> GainFile:
     top = Fields(document.data, (), notes)
     robot = top.text("robot") or None
     tables = top.tables("gains", required=True)
-    sets = [_gain_set(table, index) for index, table in enumerate(tables)]
+    sets = [gain_set_of(table, index) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds = _bounds(top.table("bounds"))
     top.close()
@@ -103,7 +103,8 @@ def read_gain_file(path: str | Path) -> GainFile:
     return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document)
 
 
-def _gain_set(table: Fields, index: int) -> GainSet | None:
+def gain_set_of(table: Fields, index: int) -> GainSet | None:
+    """The gain set of one table of a file; nothing where something is wrong with it, which is noted."""
     name = table.text("name", required=True)
     family = table.choice("family", names(), "hyperbolic")
     m = table.integer("m", 1, LARGEST_M, required=family == "hyperbolic")

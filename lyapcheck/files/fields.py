@@ -22,12 +22,12 @@ class Notes:
     def __init__(self, file: str, line: Callable[[KeyPath], int | None]) -> None:
         self.file = file
         self.problems: list[Problem] = []
-        self._line = line
+        self.line = line
 
     def fail(self, path: KeyPath, value: object, rule: str, repair: str) -> None:
         """Note one problem at a key."""
         shown = "" if value is None else _shown(value)
-        self.problems.append(Problem(self.file, self._line(path), key_text(path), shown, rule, repair))
+        self.problems.append(Problem(self.file, self.line(path), key_text(path), shown, rule, repair))
 
 
 class Fields:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
@@ -52,9 +52,8 @@ def certificates(results: Sequence[GateResult]) -> Certified:
     made = Certified()
     for result in results:
         limits = result.limits
-        of_the_arm = limits.robot and result.file.bounds.gravity is None
-        gravity = _gravity(limits.robot, limits.gravity) if of_the_arm else (None,) * limits.n
-        if of_the_arm:
+        gravity = _gravity_of(result)
+        if _of_the_arm(result):
             missing = (f"|g_{i + 1}| ≤ {decimal_text(limits.gravity[i])} N·m" for i in _missing(gravity))
             made.granted += (f"{limits.robot}: no certificate shows {one} for all q" for one in missing)
         for check in (*result.checks, *(() if result.otherwise is None else (result.otherwise,))):
@@ -74,6 +73,21 @@ def certificates(results: Sequence[GateResult]) -> Certified:
     return made
 
 
+def gravity_bounds_of(result: GateResult) -> tuple[Certificate, ...]:
+    """The certificates of |g_i| ≤ k_gi for the joints of an arm of which there is one."""
+    return tuple(one for one in _gravity_of(result) if one is not None)
+
+
+def _of_the_arm(result: GateResult) -> bool:
+    """Whether the bounds of gravity are those of an arm, and not of the gain file."""
+    return bool(result.limits.robot) and result.file.bounds.gravity is None
+
+
+def _gravity_of(result: GateResult) -> tuple[Certificate | None, ...]:
+    limits = result.limits
+    return _gravity(limits.robot, limits.gravity) if _of_the_arm(result) else (None,) * limits.n
+
+
 def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) -> Certificate | None:
     outcome = check.judgement
     if outcome is None or outcome.proof is None:
@@ -83,7 +97,7 @@ def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) 
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
     uses = {one.claim.id: one.digest for one in used} if outcome.shown == "proved" else {}
     return Certificate(
-        about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses, _versions()
+        about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses, versions()
     )
 
 
@@ -102,7 +116,7 @@ def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | No
             continue
         says = f"{model.name}: |g_{i + 1}(q)| ≤ k_g{i + 1} = {decimal_text(bound)} N·m"
         about = About(f"{model.name}.k_g{i + 1}", says, None, model.n, PROOF)
-        result.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, _versions()))
+        result.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, versions()))
     return tuple(result)
 
 
@@ -114,5 +128,7 @@ def _file(certificate: Certificate) -> str:
     return f"{file_stem(certificate.claim.id)}.json"
 
 
-def _versions() -> dict[str, str]:
+@cache
+def versions() -> dict[str, str]:
+    """What the certificates were made with."""
     return {name: version(name) for name in ("lyapcheck", "python-flint")}

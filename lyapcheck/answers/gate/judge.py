@@ -113,8 +113,12 @@ def judged_sets(
     gamma: str = "true",
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
+    explained: int = MOST_EXPLAINED,
 ) -> list[GateResult]:
-    """The results of a file, in its order; see :func:`lyapcheck.gate`."""
+    """The results of a file, in its order; more than whether they pass of the first so many.
+
+    See :func:`lyapcheck.gate` for the rest.
+    """
     _require_known(deciding)
     limits = limits_for(gain_file, robot, arms)
     conditions: dict[tuple[str, int | None], Conditions] = {}
@@ -127,9 +131,9 @@ def judged_sets(
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
         checks = (*conditions[key].all(gains, deciding), *certificates)
-        explained = len(results) < MOST_EXPLAINED
-        result = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=explained)
-        results.append(_looked_into(result, gain_file.bounds.viscous_min) if explained else result)
+        more = len(results) < explained
+        result = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=more)
+        results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 
 

@@ -13,8 +13,11 @@ FORMS = ("svg", "png", "csv")
 def figure(report: Report, name: str, caption: str, class_: str = "") -> Markup | None:
     """A figure by its name with a caption and links to its forms; nothing where there is none."""
     text = report.figures.get(f"{name}.svg")
-    if not isinstance(text, str):
-        return None
+    return drawn(name, text, caption, class_) if isinstance(text, str) else None
+
+
+def drawn(name: str, text: str, caption: str, class_: str = "") -> Markup:
+    """A figure by its SVG, with a caption and links to its forms in ``figures``."""
     links = [element("a", form.upper(), href=f"figures/{name}.{form}") for form in FORMS]
     words = element(
         "figcaption", caption, " ", element("span", [[" ", link] for link in links], class_="forms")

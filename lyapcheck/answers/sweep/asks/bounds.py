@@ -1,0 +1,40 @@
+"""How long does a motion take, and what do disturbances leave? See ``lyapcheck bounds``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from lyapcheck.answers.bounds.certificates import certificates
+from lyapcheck.answers.bounds.compare import compare
+from lyapcheck.answers.bounds.data import above, comparison_data
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.tasks import task_of
+
+OPTIONS = {"delta": 1.0, "time": 5.0, "max_boxes": 20_000, "target": (), "start": ()}
+NOMINAL = "bounds are about an arm at its nominal numbers; ask them without a variation"
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """The certified settling time of each gain set, and what its arm's dry friction leaves."""
+    return [_asked(one, jobs) for one in questions]
+
+
+def _asked(question: Question, jobs: int) -> Answered:
+    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
+    if known.ranges:
+        return answered(question, "undecided", None, reason=NOMINAL)
+    assert question.gains is not None
+    task = task_of(known.model, options)
+    delta = math.nextafter(math.radians(options["delta"]), 0.0)
+    found = compare(question.gains, known.model, task, delta, max_boxes=options["max_boxes"], jobs=jobs)
+    return answered(
+        question,
+        "proved" if found.certified else "undecided",
+        comparison_data(found),
+        tuple(certificates(found).values()),
+        "" if found.certified else found.settling.reason or found.disturbance.reason,
+        settling=found.simulated_time,
+        settling_certified=above(found.settling.time),
+    )

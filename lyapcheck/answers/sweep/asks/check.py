@@ -1,0 +1,37 @@
+"""What holds of a proof script, for these gains on this arm? See ``lyapcheck check``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.asks.robot import VERDICTS
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.claims.run import run_proof
+from lyapcheck.control.gains import GainFile
+
+OPTIONS = {"proof": "published.py", "only": ()}
+MEMBER = "a proof script is about members of the hyperbolic family; give m"
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """Every claim of a script for each gain set, or those named: the worst verdict counts."""
+    del jobs
+    return [_asked(one) for one in questions]
+
+
+def _asked(question: Question) -> Answered:
+    known, options, gains = (
+        arm(question.robot, question.variation),
+        {**OPTIONS, **dict(question.options)},
+        question.gains,
+    )
+    assert gains is not None
+    if gains.m is None:
+        return answered(question, "undecided", None, reason=MEMBER)
+    file = GainFile("plan", question.robot, (gains,))
+    result = run_proof(options["proof"], (gains.m,), known.model, None, file, options["only"])
+    verdict = VERDICTS[result.exit_code]
+    names = [row.id for row in result.claims if row.verdict.value == verdict]
+    reason = f"{verdict}: {', '.join(names)}" if verdict != "proved" else ""
+    return answered(question, verdict, result.data(), tuple(result.certificates.values()), reason)

@@ -1,0 +1,34 @@
+"""How large may ε₀ be? See ``lyapcheck epsilon``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.answers.epsilon.certificates import certificates
+from lyapcheck.answers.epsilon.data import result_data
+from lyapcheck.answers.epsilon.kept import kept_epsilon
+from lyapcheck.answers.epsilon.words import exact
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+
+OPTIONS = {"max_boxes": 100_000, "starts": 30}
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """The four ε₀ of each gain set, over all ranges where there are some: ``proved`` if one is certified."""
+    return [_asked(one, jobs) for one in questions]
+
+
+def _asked(question: Question, jobs: int) -> Answered:
+    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
+    assert question.gains is not None
+    result = kept_epsilon(question.gains, known.model, jobs=jobs, ranges=bool(known.ranges), **options)
+    return answered(
+        question,
+        "undecided" if result.certified is None else "proved",
+        result_data(result),
+        tuple(certificates(result).values()),
+        result.reasons.get("certified", ""),
+        eps0=exact(result.certified),
+        falsified=exact(result.falsified),
+    )

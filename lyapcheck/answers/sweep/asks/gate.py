@@ -1,0 +1,56 @@
+"""Do the gains hold the conditions? See ``lyapcheck gate``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from lyapcheck.answers.gate.answer import GateAnswer
+from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
+from lyapcheck.answers.gate.whole import whole
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.control.arm_limits import arm_limits, varied_limits
+from lyapcheck.control.conditions import UNDECIDED
+from lyapcheck.control.gains import GainFile
+
+OPTIONS = {"condition": DECIDING, "gamma": "true"}
+DIGITS = 6
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """Whether each gain set is accepted, with the least margin as a share of its limit."""
+    del jobs
+    first, options = questions[0], {**OPTIONS, **dict(questions[0].options)}
+    known = arm(first.robot, first.variation)
+    if not known.limits:
+        ranges = known.ranges
+        known.limits[first.robot] = varied_limits(first.robot, ranges) if ranges else arm_limits(first.robot)
+    sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
+    file = GainFile("plan", first.robot, sets)
+    results = judged_sets(file, None, options["condition"], options["gamma"], arms=known.limits, explained=0)
+    return [
+        _answered(question, result, data)
+        for question, result, data in zip(
+            questions, results, GateAnswer(results).data()["results"], strict=True
+        )
+    ]
+
+
+def _answered(question: Question, result: GateResult, data: dict[str, object]) -> Answered:
+    undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
+    reason = undecided[0] if result.verdict == UNDECIDED and undecided else ""
+    return answered(question, result.verdict, data, whole(result), reason, margin=_margin(result))
+
+
+def _margin(result: GateResult) -> float | None:
+    """The least (limit − value)/limit of what decides; below 0 where a condition is broken."""
+    shares = [
+        check.margin / abs(check.limit.lower)
+        for check in result.checks
+        if check.id in result.deciding
+        and check.margin is not None
+        and check.limit is not None
+        and check.limit.lower != 0
+    ]
+    return round(float(min(shares)), DIGITS) if shares else None

@@ -1,0 +1,35 @@
+"""What is known of an arm? See ``lyapcheck robot``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lyapcheck.answers.robot import build
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.verdicts import Exit
+
+OPTIONS = {"max_boxes": 20_000}
+VERDICTS = {
+    Exit.PROVED: "proved",
+    Exit.REFUTED: "refuted",
+    Exit.UNDECIDED: "undecided",
+    Exit.INTERNAL: "error",
+}
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """Properties 2.1–2.8 and the constants of each arm at its nominal numbers: the worst verdict counts."""
+    del jobs
+    return [_asked(one) for one in questions]
+
+
+def _asked(question: Question) -> Answered:
+    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
+    report = build(known.model, options["max_boxes"])
+    verdict = VERDICTS[report.exit_code]
+    open_ones = [
+        f"{row.id}: {row.finding.reason}" for row in report.properties if row.verdict.value == verdict
+    ]
+    reason = "; ".join(open_ones) if verdict in ("undecided", "error") else ""
+    return answered(question, verdict, report.data(), tuple(report.certificates.values()), reason)

@@ -1,0 +1,61 @@
+"""What does the closed loop do? See ``lyapcheck simulate``: floating point, observed and never proved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+from lyapcheck.answers.simulate.runs import SetPointRuns
+from lyapcheck.answers.simulate.simulation import Unfinished
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.tasks import task_of
+from lyapcheck.robots.vary import corners
+from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
+from lyapcheck.simulate.trial import experiment
+from lyapcheck.verdicts import Exit
+
+OPTIONS = {"time": 5.0, "experiment": False, "target": (), "start": ()}
+VERDICTS = {Exit.PROVED: "observed", Exit.REFUTED: "refuted", Exit.UNDECIDED: "undecided"}
+"""What a run that breaks no promise is called: it proves nothing."""
+
+
+def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """One run of each gain set, and one at every corner of what varies; the slowest of them counts."""
+    del jobs
+    return [_asked(one) for one in questions]
+
+
+def _asked(question: Question) -> Answered:
+    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
+    gains, task = question.gains, task_of(known.model, options)
+    assert gains is not None
+    way = (task.q_d, task.q0, task.w0, task.T)
+    mover = experiment if options["experiment"] else partial(simulate, stop=True)
+    runs: list[Run] = []
+    unfinished: list[Unfinished] = []
+    cases = [(gains, known.model)]
+    if known.ranges:
+        ends = corners(known.model, known.ranges)
+        cases += [(replace(gains, name=f"{gains.name}: {what}"), model) for what, model in ends]
+    for one, model in cases:
+        try:
+            runs.append(mover(one, model, *way))
+        except SimulationFailed as failure:
+            if not isinstance(failure, PromiseBroken):
+                unfinished.append(Unfinished(one.name, failure.reason))
+            runs += [] if failure.partial is None else [failure.partial]
+    found = SetPointRuns(tuple(runs), tuple(unfinished))
+    verdict = VERDICTS[found.exit_code]
+    return answered(
+        question, verdict, found.data(), reason="; ".join(found.complaints()), settling=_slowest(runs)
+    )
+
+
+def _slowest(runs: Sequence[Run]) -> float | None:
+    """s: when the last joint of the slowest run has settled; nothing where one does not."""
+    times = [math.nan if t is None else float(t) for run in runs for t in run.indices.settling]
+    return max(times) if times and all(map(math.isfinite, times)) else None

@@ -1,0 +1,140 @@
+"""One question of a sweep, and what came of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.check.certificate import digest_of
+from lyapcheck.files.decimals import decimal_text
+
+if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.control.gains import GainSet
+
+Row = dict[str, Any]
+COLUMNS: Mapping[str, str] = {
+    "index": "integer",
+    "question": "text",
+    "robot": "text",
+    "variation": "texts",
+    "ask": "text",
+    "name": "text",
+    "family": "text",
+    "m": "integer",
+    "kp": "texts",
+    "kv": "texts",
+    "verdict": "text",
+    "reason": "text",
+    "margin": "number",
+    "eps0": "text",
+    "falsified": "text",
+    "settling": "number",
+    "settling_certified": "number",
+    "certificates": "texts",
+    "answer": "data",
+}
+"""The columns of a row, and what they hold; a cell that does not apply is empty."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question about an arm, and a gain set where it is about one.
+
+    Args:
+        index: its place in the plan, from 0.
+        robot: name or file of the arm.
+        variation: ranges, as ``--vary`` takes them.
+        gains: the gain set.
+        ask: which question: a module of ``asks``.
+        options: what else it was asked with.
+    """
+
+    index: int
+    robot: str
+    variation: tuple[str, ...]
+    gains: GainSet | None
+    ask: str
+    options: tuple[tuple[str, Any], ...] = ()
+
+    def numbered(self, index: int) -> Question:
+        """The same at another place."""
+        return replace(self, index=index)
+
+    @property
+    def digest(self) -> str:
+        """Of the arm with all its numbers, the gains and the options: the same question has the same."""
+        return digest_of({**self.data, "robot": arm(self.robot, self.variation).digest})
+
+    @property
+    def data(self) -> Row:
+        """Its part of a row."""
+        gains = self.gains
+        return {
+            "robot": self.robot,
+            "variation": list(self.variation),
+            "ask": self.ask,
+            "name": None if gains is None else gains.name,
+            "family": None if gains is None else gains.family,
+            "m": None if gains is None else gains.m,
+            "kp": None if gains is None else [decimal_text(k) for k in gains.kp],
+            "kv": None if gains is None else [decimal_text(k) for k in gains.kv],
+            "options": {
+                key: list(value) if isinstance(value, tuple) else value for key, value in self.options
+            },
+        }
+
+
+@dataclass(frozen=True)
+class Answered:
+    """What came of a question.
+
+    Args:
+        index: its place in the plan.
+        row: its row, without certificates.
+        certificates: by digest, as they are written to files.
+    """
+
+    index: int
+    row: Row
+    certificates: Mapping[str, str] = field(default_factory=dict)
+
+
+def answered(
+    question: Question,
+    verdict: str,
+    data: Any,
+    certificates: tuple[Certificate, ...] = (),
+    reason: str = "",
+    **cells: Any,
+) -> Answered:
+    """A row with its certificates.
+
+    Args:
+        question: what was asked.
+        verdict: in the words of the command that answers it.
+        data: what that command writes as JSON.
+        certificates: behind the verdict.
+        reason: why nothing was decided, where that is so.
+        cells: of the other columns.
+    """
+    own = question.data
+    del own["options"]
+    known = {
+        "index": question.index,
+        "question": question.digest,
+        **own,
+        "verdict": verdict,
+        "reason": reason,
+    }
+    texts = {one.digest: one.text() for one in certificates}
+    known |= {**cells, "certificates": sorted(texts), "answer": data}
+    return Answered(question.index, {name: known.get(name) for name in COLUMNS}, texts)
+
+
+def line_of(row: Row) -> str:
+    """A row as one line of JSON, its columns in their order."""
+    return json.dumps(row, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"

@@ -1,0 +1,101 @@
+"""``lyapcheck sweep``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from lyapcheck.cli.options import add_format, add_no_store
+from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.show import show
+from lyapcheck.errors import argument_error
+from lyapcheck.output.formats import Format
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.sweep.question import Answered
+    from lyapcheck.answers.sweep.tally import Tally
+    from lyapcheck.cli.parser import Parser
+    from lyapcheck.verdicts import Exit
+
+MOST = 1_024
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    parser.add_argument("plan", metavar="FILE", type=Path, help="A plan (TOML); see examples/sweep.toml.")
+    about = "Write rows, certificates and a page with maps there."
+    parser.add_argument("--out", metavar="DIR", type=Path, help=about)
+    parser.add_whole("--jobs", "Processes; one a core if missing.", least=1, most=MOST)
+    about = "Ask the workers of this Dask scheduler, tcp://host:port (extra sweep)."
+    parser.add_argument("--scheduler", metavar="ADDRESS", help=about)
+    about = "Go on with the sweep in --out: what is kept is judged again, the rest is asked."
+    parser.add_argument("--resume", action="store_true", help=about)
+    add_no_store(parser)
+    add_format(parser, Format)
+
+
+def run(
+    plan: Path,
+    out: Path | None,
+    jobs: int | None,
+    scheduler: str | None,
+    resume: bool,
+    no_store: bool,
+    format: str,  # noqa: A002
+) -> Exit:
+    """Ask many questions: every arm, variation and gain set of a plan × gate, epsilon, bounds, simulate, …
+
+    In --out: rows.jsonl and, with pyarrow, rows.parquet in the order of the plan, certificates by their
+    digests, index.html with maps over m and k_v. The same plan gives the same bytes on any workers.
+
+    Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input,
+    3: something undecided, 4: a question failed; its row says why.
+
+    Examples:
+      lyapcheck sweep examples/sweep.toml --out sweep/
+      lyapcheck sweep plan.toml --out sweep/ --resume
+      lyapcheck sweep plan.toml --out sweep/ --scheduler tcp://head:8786
+    """
+    from lyapcheck import store
+    from lyapcheck.answers.sweep import asked, read_plan
+    from lyapcheck.answers.sweep.folder import Folder
+    from lyapcheck.answers.sweep.local import cores
+    from lyapcheck.answers.sweep.page import files
+    from lyapcheck.answers.sweep.result import SweepAnswer
+    from lyapcheck.answers.sweep.tally import Tally
+
+    if no_store:
+        store.switch_off()
+    if resume and out is None:
+        raise argument_error("--resume", "", "has a meaning with --out only", "add --out DIR")
+    read = read_plan(plan)
+    folder = None if out is None else Folder(out, resume)
+    tally = Tally()
+    with progress("sweep") as advance:
+        found = asked(read, cores() if jobs is None else jobs, scheduler)
+        _count(found if folder is None else folder.written(found), read.count, tally, advance)
+    answer = SweepAnswer(read.path, tally)
+    if folder is not None:
+        folder.put(files(SweepAnswer(read.path, tally, figures=True)))
+    show(answer, format)
+    return answer.exit_code
+
+
+def _count(found: Iterator[Answered], total: int, tally: Tally, advance: Advance) -> None:
+    """Take all answers, and say how far they have come and how long the rest will take at that pace."""
+    begun = monotonic()
+    advance(0.0, f"{total} questions")
+    for done, one in enumerate(found, start=1):
+        tally.add(one.row)
+        left = (monotonic() - begun) / done * (total - done)
+        advance(done / total, f"{done} of {total}, {_span(left)} left")
+
+
+def _span(seconds: float) -> str:
+    """A time of which nobody wants to know more than its size."""
+    for size, unit in ((3600.0, "h"), (60.0, "min")):
+        if seconds >= 2 * size:
+            return f"about {seconds / size:.0f} {unit}"
+    return f"about {seconds:.0f} s"
