@@ -71,15 +71,20 @@ class Certificate:
         }
 
     @cached_property
+    def _parts(self) -> dict[str, str]:
+        """The document without its digest, part by part in canonical JSON."""
+        return {key: canonical(part) for key, part in self.content().items()}
+
+    @cached_property
     def digest(self) -> str:
         """The digest of the document."""
-        return digest_of(self.content())
+        whole = ",".join(f"{json.dumps(key)}:{self._parts[key]}" for key in sorted(self._parts))
+        return _sha256(f"{{{whole}}}")
 
     def text(self) -> str:
         """The document as it is written to a file: the same bytes for the same certificate."""
-        document = {**self.content(), "digest": self.digest}
-        lines = (f"{json.dumps(key)}: {canonical(document[key])}" for key in sorted(document))
-        return "{\n" + ",\n".join(lines) + "\n}\n"
+        parts = {**self._parts, "digest": canonical(self.digest)}
+        return "{\n" + ",\n".join(f"{json.dumps(key)}: {parts[key]}" for key in sorted(parts)) + "\n}\n"
 
 
 def canonical(value: Any) -> str:
@@ -89,7 +94,11 @@ def canonical(value: Any) -> str:
 
 def digest_of(content: dict[str, Any]) -> str:
     """The SHA-256 of the canonical JSON."""
-    return hashlib.sha256(canonical(content).encode("utf-8", "surrogatepass")).hexdigest()
+    return _sha256(canonical(content))
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def parse(text: str) -> Any:

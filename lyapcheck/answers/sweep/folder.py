@@ -15,6 +15,9 @@ ROWS, PART, TABLE, CERTIFICATES = "rows.jsonl", ".rows.jsonl", "rows.parquet", "
 GROUP = 10_000
 """Rows that are turned into Parquet at a time."""
 
+RECENT = 1_000
+"""Certificates that are not looked for again on the disk: many questions have some in common."""
+
 
 class Folder:
     """A folder that takes the answers of a sweep in the order of its plan.
@@ -29,6 +32,7 @@ class Folder:
 
     def __init__(self, path: Path, resume: bool) -> None:
         self.path = path
+        self._recent: set[str] = set()
         held = [name for name in (ROWS, PART) if (path / name).exists()]
         if held and not resume:
             repair = "add --resume, or name another folder"
@@ -65,6 +69,11 @@ class Folder:
     def _put(self, certificates: Mapping[str, str]) -> None:
         """Every certificate under its digest; one that is there already stays if it is the same."""
         for digest, text in certificates.items():
+            if digest in self._recent:
+                continue
+            if len(self._recent) == RECENT:
+                self._recent.clear()
+            self._recent.add(digest)
             path = self.path / CERTIFICATES / f"{digest}.json"
             content = text.encode()
             if not path.exists() or path.read_bytes() != content:

@@ -47,10 +47,10 @@ def heat_plot(
         axis.set(xlabel="k_v [N·m]", ylabel="m", title=title)
         axis.grid(visible=False)
         if len(columns) <= LEGIBLE:
-            middle = (np.nanmin(values) + np.nanmax(values)) / 2
+            dark = (np.nanmin(values) + np.nanmax(values)) / 2
             for (i, j), value in np.ndenumerate(values):
                 if not np.isnan(value):
-                    colour = "white" if value < middle else "black"
+                    colour = "white" if value < dark else "black"
                     axis.text(
                         j + 0.5, i + 0.5, f"{value:.3g}", ha="center", va="center", color=colour, fontsize=7
                     )
