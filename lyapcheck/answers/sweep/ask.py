@@ -8,7 +8,7 @@ from itertools import groupby
 
 from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.errors import InputError
-from lyapcheck.extensions import folders, modules
+from lyapcheck.extensions import modules
 
 PACKAGE = "lyapcheck.answers.sweep.asks"
 ERROR = "error"
@@ -22,7 +22,7 @@ Batch = tuple[Question, ...]
 
 def names() -> tuple[str, ...]:
     """The questions that can be asked: a file each."""
-    return modules([*folders(PACKAGE), *import_module(PACKAGE).__path__])
+    return modules(import_module(PACKAGE).__path__)
 
 
 def batches(questions: Iterable[Question]) -> Iterator[Batch]:

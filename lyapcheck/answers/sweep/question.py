@@ -66,8 +66,8 @@ class Question:
 
     @property
     def digest(self) -> str:
-        """Of the arm with all its numbers, the gains and the options: the same question has the same."""
-        return digest_of({**self.data, "robot": arm(self.robot, self.variation).digest})
+        """Of the arm with all its numbers, the gains and the options, whatever the gain set is called."""
+        return digest_of({**self.data, "name": "", "robot": arm(self.robot, self.variation).digest})
 
     @property
     def data(self) -> Row:

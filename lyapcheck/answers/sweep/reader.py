@@ -34,7 +34,8 @@ def read_plan(path: str | Path) -> Plan:
     top = Fields(document.data, (), notes)
     robots = tuple(str(beside(name, Path(path))) for name in _texts(top, "robots", required=True))
     variations = _variations(top)
-    asks = tuple((name, _options(top, name)) for name in _asked(top))
+    options = {name: _options(top, name) for name in names()}
+    asks = tuple((name, options[name]) for name in _asked(top))
     tables = top.tables("gains")
     listed = [gain_set_of(table, index) for index, table in enumerate(tables)]
     grid = _grid(top.table("grid"))

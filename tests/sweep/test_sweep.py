@@ -1,0 +1,275 @@
+"""Sweeps: the same bytes whoever answers, whatever is killed, and every verdict that of the command."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import lyapcheck
+from lyapcheck import InputError
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.sweep import folder as folders
+from lyapcheck.answers.sweep import read_plan
+from lyapcheck.answers.sweep.question import COLUMNS
+from lyapcheck.answers.sweep.result import SweepAnswer
+from lyapcheck.answers.sweep.tally import Tally
+from tests.helpers.command import lyapcheck as command
+
+PLAN = """
+robots = ["reyes-kelly2"]
+variations = [[], ["viscous=-30%..+0%"]]
+questions = ["gate"]
+[grid]
+m = [1, 2]
+kp = [[20, 5]]
+kv = {from = 0.05, to = 0.2, step = 0.05}
+"""
+PENDULUM = """
+robots = ["pendulum1"]
+questions = ["robot", "gate", "epsilon", "bounds", "simulate", "check"]
+[[gains]]
+name = "one"
+m = 1
+kp = [0.5]
+kv = [0.1]
+[epsilon]
+max_boxes = 300
+starts = 2
+[bounds]
+max_boxes = 500
+target = [45]
+[simulate]
+time = 1
+[check]
+only = ["7a", "16.6"]
+"""
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Path:
+    path = tmp_path / "plan.toml"
+    path.write_text(PLAN, encoding="utf-8")
+    return path
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def rows_of(folder: Path) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in (folder / "rows.jsonl").read_text(encoding="utf-8").splitlines()]
+
+
+def test_rows_come_in_order_with_the_verdicts_of_the_gate(plan: Path, tmp_path: Path) -> None:
+    rows = list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "out"))
+    assert rows == rows_of(tmp_path / "out")
+    assert [row["index"] for row in rows] == list(range(16))
+    assert all(list(row) == list(COLUMNS) for row in rows)
+    file = lyapcheck.GainFile("plan", "reyes-kelly2", tuple(read_plan(plan).grid.gains(2)))
+    verdicts = [result.verdict for result in gate(file)]
+    assert [row["verdict"] for row in rows[:8]] == verdicts
+    assert {"accepted", "rejected"} <= set(verdicts)
+    assert all((row["margin"] > 0) == (row["verdict"] == "accepted") for row in rows)
+
+
+def test_every_row_names_certificates_that_the_checker_accepts(plan: Path, tmp_path: Path) -> None:
+    rows = list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "out"))
+    place = tmp_path / "out" / "certificates"
+    named = {digest for row in rows for digest in row["certificates"]}
+    assert {path.stem for path in place.iterdir()} == named
+    told = command("recheck", place, "--format", "json")
+    judged = {row["digest"]: row for row in json.loads(told.stdout)["certificates"]}
+    assert set(judged) == named
+    assert all(row["accepted"] for row in judged.values())
+    words = {"proved": "accepted", "refuted": "rejected"}
+    for row in rows:
+        (own,) = [judged[d] for d in row["certificates"] if judged[d]["id"] == row["name"]]
+        assert words[own["verdict"]] == row["verdict"]
+
+
+def test_the_command_leaves_rows_maps_and_a_page(plan: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = command("sweep", plan, "--out", out, "--jobs", 1)
+    assert done.returncode == 1  # some are rejected
+    assert "16 questions" in done.stdout
+    left = contents(out)
+    page = left["index.html"].decode()
+    assert page.count("<svg") == 2
+    assert "figures/map1_margin.csv" in left
+    maps = json.loads(left["sweep.json"])["maps"]
+    cells = {
+        (row["variation"][0] if row["variation"] else "", row["m"], row["kv"][0]): row["margin"]
+        for row in rows_of(out)
+    }
+    for one in maps:
+        for cell in one["cells"]:
+            key = (one["variation"][0] if one["variation"] else "", int(cell["m"]), cell["kv"])
+            assert cell["value"] == cells[key]
+    refused = command("sweep", plan, "--out", out, "--jobs", 1)
+    assert refused.returncode == 2
+    assert "add --resume" in refused.stderr
+    assert command("sweep", plan, "--out", out, "--jobs", 1, "--resume").returncode == 1
+    assert contents(out) == left
+
+
+def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(
+    plan: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "whole"))
+    whole = contents(tmp_path / "whole")
+    broken = tmp_path / "broken"
+    rows = lyapcheck.sweep(plan, workers=1, out=broken)
+    for _ in range(5):
+        next(rows)
+    del rows
+    some = sorted((broken / "certificates").iterdir())
+    assert 0 < len(some) < len(whole) - 1
+    some[0].write_bytes(some[0].read_bytes()[:-5])  # altered, and to be written again
+    with monkeypatch.context() as patch:
+
+        def no_room(path: Path, content: bytes) -> None:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+        patch.setattr(folders, "_write", no_room)
+        with pytest.raises(InputError, match="go on with --resume"):
+            list(lyapcheck.sweep(plan, workers=1, out=broken, resume=True))
+    assert not (broken / "rows.jsonl").exists()
+    list(lyapcheck.sweep(plan, workers=1, out=broken, resume=True))
+    assert contents(broken) == whole
+
+
+def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from lyapcheck.answers.sweep.asks import gate as asks
+
+    def fragile(question: Any, result: Any, data: Any) -> Any:
+        if question.index == 3:
+            raise ValueError("a fault in lyapcheck")
+        return own(question, result, data)
+
+    own = asks._answered
+    monkeypatch.setattr(asks, "_answered", fragile)
+    rows = list(lyapcheck.sweep(plan, workers=1))
+    assert [row["index"] for row in rows if row["verdict"] == "error"] == [3]
+    assert rows[3]["reason"] == "ValueError: a fault in lyapcheck"
+    tally = Tally()
+    for row in rows:
+        tally.add(row)
+    assert SweepAnswer("plan", tally).exit_code == 4
+
+
+@pytest.mark.slow
+def test_every_question_is_answered_as_by_its_command(tmp_path: Path) -> None:
+    path = tmp_path / "plan.toml"
+    path.write_text(PENDULUM, encoding="utf-8")
+    gains = tmp_path / "gains.toml"
+    gains.write_text(
+        'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [0.5]\nkv = [0.1]\n', encoding="utf-8"
+    )
+    rows = {row["ask"]: row for row in lyapcheck.sweep(path, workers=1, out=tmp_path / "out")}
+    options = {
+        "robot": ["pendulum1", "--max-boxes", 20000],
+        "epsilon": [gains, "--max-boxes", 300, "--starts", 2],
+        "bounds": [gains, "--max-boxes", 500, "--target", 45],
+        "simulate": [gains, "--time", 1, "--target", 45],
+        "check": [
+            "published.py",
+            "--robot",
+            "pendulum1",
+            "--gains",
+            gains,
+            "--m",
+            1,
+            "--only",
+            "7a",
+            "--only",
+            "16.6",
+        ],
+    }
+    for ask, words in options.items():
+        data = json.loads(command(ask, *words, "--format", "json").stdout)
+        told = rows[ask]["answer"]
+        data = data["results"][0] if ask in ("epsilon", "bounds") else {key: data[key] for key in told}
+        assert told == data, ask
+    assert [row["verdict"] for row in rows.values()] == [
+        "proved",
+        "accepted",
+        "proved",
+        "proved",
+        "observed",
+        "refuted",
+    ]
+    named = {digest for row in rows.values() for digest in row["certificates"]}
+    judged = json.loads(command("recheck", tmp_path / "out" / "certificates", "--format", "json").stdout)
+    assert {row["digest"] for row in judged["certificates"] if row["accepted"]} == named
+
+
+KILLER = """
+import os, signal
+from lyapcheck.answers.sweep.question import answered
+OPTIONS = {}
+def ask(questions, jobs):
+    if any(one.gains.m == 2 for one in questions):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return [answered(one, "observed", None) for one in questions]
+"""
+
+
+@pytest.mark.slow
+def test_a_question_that_kills_its_worker_takes_no_other_with_it(tmp_path: Path) -> None:
+    (tmp_path / "answers" / "sweep" / "asks").mkdir(parents=True)
+    (tmp_path / "answers" / "sweep" / "asks" / "killer.py").write_text(KILLER, encoding="utf-8")
+    path = tmp_path / "plan.toml"
+    path.write_text(
+        PLAN.replace("gate", "killer")
+        .replace("m = [1, 2]", "m = [1, 2, 3]")
+        .replace(", step = 0.05", ", step = 0.2"),
+        encoding="utf-8",
+    )
+    rows = rows_after(
+        ["sweep", path, "--out", tmp_path / "out", "--jobs", 2],
+        tmp_path / "out",
+        LYAPCHECK_PATH=str(tmp_path),
+    )
+    assert [(row["m"], row["verdict"]) for row in rows] == [
+        (1, "observed"),
+        (2, "error"),
+        (3, "observed"),
+    ] * 2
+    assert "was killed" in rows[1]["reason"]
+
+
+@pytest.mark.slow
+def test_two_workers_and_a_kill_change_no_byte(tmp_path: Path) -> None:
+    """kill -9 of all of it in the middle, then --resume on two workers; beside one that was left alone."""
+    path = tmp_path / "plan.toml"
+    path.write_text(PLAN.replace("step = 0.05", "step = 0.0005"), encoding="utf-8")
+    out = tmp_path / "out"
+    words = ["sweep", path, "--out", out, "--jobs", 2]
+    process = subprocess.Popen(program(*words), stdout=subprocess.DEVNULL, start_new_session=True)
+    while process.poll() is None and not list(out.glob("certificates/*.json")):
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    assert not (out / "rows.jsonl").exists()
+    rows = rows_after([*words, "--resume"], out)
+    assert len(rows) == read_plan(path).count > 1000
+    rows_after(["sweep", path, "--out", tmp_path / "alone", "--jobs", 1], tmp_path / "alone")
+    assert contents(out) == contents(tmp_path / "alone")
+
+
+def program(*words: object) -> list[str]:
+    return [sys.executable, "-m", "lyapcheck", *map(str, words)]
+
+
+def rows_after(words: list[object], out: Path, **variables: str) -> list[dict[str, Any]]:
+    subprocess.run(program(*words), env={**os.environ, **variables}, capture_output=True, check=False)
+    return rows_of(out)
