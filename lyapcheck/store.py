@@ -97,10 +97,14 @@ def key_of(question: Mapping[str, Any]) -> str:
     return exact(text, made_with())
 
 
-@cache
 def made_with() -> str:
     """The digest of what answers rest on besides their question: lyapcheck and the packages behind it."""
-    return exact(source_digest(), [(name, version(name)) for name in BEHIND])
+    return exact(source_digest(), _versions())
+
+
+@cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    return tuple((name, version(name)) for name in BEHIND)
 
 
 def exact(*subjects: object) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.sweep.arms import arm
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.verdicts import Exit, Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.check.certificate import Certificate
@@ -38,6 +39,14 @@ COLUMNS: Mapping[str, str] = {
     "answer": "data",
 }
 """The columns of a row, and what they hold; a cell that does not apply is empty."""
+
+VERDICTS: Mapping[Exit, str] = {
+    Exit.PROVED: Verdict.PROVED.value,
+    Exit.REFUTED: Verdict.REFUTED.value,
+    Exit.UNDECIDED: Verdict.UNDECIDED.value,
+    Exit.INTERNAL: Verdict.ERROR.value,
+}
+"""What the exit codes of commands say."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from lyapcheck.verdicts import Exit
 WRONG = ("refuted", "rejected")
 OPEN = ("undecided",)
 ERROR = "error"
-SIGNS = {"proved": "✓", "accepted": "✓", "refuted": "✗", "rejected": "✗", "undecided": "?", "error": "!"}
+SIGNS = {Exit.PROVED: "✓", Exit.REFUTED: "✗", Exit.UNDECIDED: "?", Exit.INTERNAL: "!"}
 LEGEND = "Of cells that differ in K_p the worst is shown; empty: not every one has a value."
 OBSERVED = "observed: a simulation in floating point that broke no promise; it proves nothing."
 
@@ -81,9 +81,8 @@ class SweepAnswer(Answer):
         verdicts: dict[str, int] = {}
         for (_, _, verdict), count in self.tally.counts.items():
             verdicts[verdict] = verdicts.get(verdict, 0) + count
-        worst = next((v for v in (ERROR, *WRONG, *OPEN) if v in verdicts), "proved" if total else "undecided")
         told = ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
-        return f"{SIGNS[worst]} {total} question{'' if total == 1 else 's'}: {told or 'none asked'}"
+        return f"{SIGNS[self.exit_code]} {total} question{'' if total == 1 else 's'}: {told or 'none asked'}"
 
     def _counts(self) -> Iterator[Block]:
         rows = [

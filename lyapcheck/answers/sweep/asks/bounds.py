@@ -9,8 +9,9 @@ from lyapcheck.answers.bounds.certificates import certificates
 from lyapcheck.answers.bounds.compare import compare
 from lyapcheck.answers.bounds.data import above, comparison_data
 from lyapcheck.answers.sweep.arms import arm
-from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.answers.sweep.tasks import task_of
+from lyapcheck.verdicts import Exit
 
 OPTIONS = {"delta": 1.0, "time": 5.0, "max_boxes": 20_000, "target": (), "start": ()}
 NOMINAL = "bounds are about an arm at its nominal numbers; ask them without a variation"
@@ -31,7 +32,7 @@ def _asked(question: Question, jobs: int) -> Answered:
     found = compare(question.gains, known.model, task, delta, max_boxes=options["max_boxes"], jobs=jobs)
     return answered(
         question,
-        "proved" if found.certified else "undecided",
+        VERDICTS[Exit.PROVED if found.certified else Exit.UNDECIDED],
         comparison_data(found),
         tuple(certificates(found).values()),
         "" if found.certified else found.settling.reason or found.disturbance.reason,

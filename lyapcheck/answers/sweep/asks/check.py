@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lyapcheck.answers.sweep.arms import arm
-from lyapcheck.answers.sweep.asks.robot import VERDICTS
-from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.claims.run import run_proof
 from lyapcheck.control.gains import GainFile
+from lyapcheck.verdicts import Exit
 
 OPTIONS = {"proof": "published.py", "only": ()}
 MEMBER = "a proof script is about members of the hyperbolic family; give m"
@@ -33,5 +33,5 @@ def _asked(question: Question) -> Answered:
     result = run_proof(options["proof"], (gains.m,), known.model, None, file, options["only"])
     verdict = VERDICTS[result.exit_code]
     names = [row.id for row in result.claims if row.verdict.value == verdict]
-    reason = f"{verdict}: {', '.join(names)}" if verdict != "proved" else ""
+    reason = "" if result.exit_code is Exit.PROVED else f"{verdict}: {', '.join(names)}"
     return answered(question, verdict, result.data(), tuple(result.certificates.values()), reason)

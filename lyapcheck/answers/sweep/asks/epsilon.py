@@ -9,7 +9,8 @@ from lyapcheck.answers.epsilon.data import result_data
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.words import exact
 from lyapcheck.answers.sweep.arms import arm
-from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
+from lyapcheck.verdicts import Exit
 
 OPTIONS = {"max_boxes": 100_000, "starts": 30}
 
@@ -25,10 +26,10 @@ def _asked(question: Question, jobs: int) -> Answered:
     result = kept_epsilon(question.gains, known.model, jobs=jobs, ranges=bool(known.ranges), **options)
     return answered(
         question,
-        "undecided" if result.certified is None else "proved",
+        VERDICTS[Exit.UNDECIDED if result.certified is None else Exit.PROVED],
         result_data(result),
         tuple(certificates(result).values()),
-        result.reasons.get("certified", ""),
+        result.reasons["certified"] if "certified" in result.reasons else "",
         eps0=exact(result.certified),
         falsified=exact(result.falsified),
     )

@@ -6,16 +6,9 @@ from collections.abc import Sequence
 
 from lyapcheck.answers.robot import build
 from lyapcheck.answers.sweep.arms import arm
-from lyapcheck.answers.sweep.question import Answered, Question, answered
-from lyapcheck.verdicts import Exit
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 
 OPTIONS = {"max_boxes": 20_000}
-VERDICTS = {
-    Exit.PROVED: "proved",
-    Exit.REFUTED: "refuted",
-    Exit.UNDECIDED: "undecided",
-    Exit.INTERNAL: "error",
-}
 
 
 def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:

@@ -10,7 +10,7 @@ from functools import partial
 from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.simulation import Unfinished
 from lyapcheck.answers.sweep.arms import arm
-from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.answers.sweep.tasks import task_of
 from lyapcheck.robots.vary import corners
 from lyapcheck.simulate.closed_loop import simulate
@@ -19,7 +19,7 @@ from lyapcheck.simulate.trial import experiment
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"time": 5.0, "experiment": False, "target": (), "start": ()}
-VERDICTS = {Exit.PROVED: "observed", Exit.REFUTED: "refuted", Exit.UNDECIDED: "undecided"}
+OBSERVED = "observed"
 """What a run that breaks no promise is called: it proves nothing."""
 
 
@@ -49,7 +49,7 @@ def _asked(question: Question) -> Answered:
                 unfinished.append(Unfinished(one.name, failure.reason))
             runs += [] if failure.partial is None else [failure.partial]
     found = SetPointRuns(tuple(runs), tuple(unfinished))
-    verdict = VERDICTS[found.exit_code]
+    verdict = OBSERVED if found.exit_code is Exit.PROVED else VERDICTS[found.exit_code]
     return answered(
         question, verdict, found.data(), reason="; ".join(found.complaints()), settling=_slowest(runs)
     )
