@@ -29,7 +29,7 @@ def _asked(question: Question, jobs: int) -> Answered:
         VERDICTS[Exit.UNDECIDED if result.certified is None else Exit.PROVED],
         result_data(result),
         tuple(certificates(result).values()),
-        result.reasons["certified"] if "certified" in result.reasons else "",
+        "; ".join(text for kind, text in result.reasons.items() if kind == "certified" and not result.proof),
         eps0=exact(result.certified),
         falsified=exact(result.falsified),
     )
