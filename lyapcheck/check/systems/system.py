@@ -30,8 +30,8 @@ B: Tree = ("diag", "B")
 NOTHING: Tree = ("sum",)
 OWN_NAMES = frozenset(
     {"e", "w", "dw", "g", "gd", "dg", "u", "x", "d", "dqd", "ddqd", "P", "M", "C", "D", "B", "s", "n", "R"}
-) | {"eps0", "mu", "beta", "kc", "kg", "vd", "delta"}
-"""What an author can name nothing else."""
+) | {"eps0", "mu", "beta", "kc", "kg", "vd", "delta", "norm", "sum"}
+"""What an author can name nothing else; norm_min is the size of a state min, and no gain norm has it."""
 FRICTION = ("none", "any", "positive")
 
 
@@ -105,6 +105,7 @@ class System:
         for name in names:
             require(names.count(name) == 1 and name not in OWN_NAMES, "name", name, "is taken")
             require("_" not in name, "name", name, "must have no underscore: sizes and bounds have one")
+            require_sort(("vec", name), "vector")  # also one that no expression has: the text shows it
         require(self.friction in FRICTION, "friction", self.friction, f"must be one of {', '.join(FRICTION)}")
         for f in self.functions:
             require(f.of in self.moving, "function", f.name, f"is of {f.of!r}, which is no state")
