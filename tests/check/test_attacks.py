@@ -196,6 +196,12 @@ def test_a_theorem_is_judged_from_the_bytes_whose_premises_are_judged(tmp_path, 
     assert result == {"c.json": "accepted", "T.json": "refused"}
 
 
+def test_the_id_of_a_claim_stays_within_its_quotation():
+    loop = ClosedLoop(2, ("neg", X), num(-1), X, F(1), F(1), F(1), F(2), F(1), (num(-1), num(0), num(-1)))
+    text = Theorem(NAME, loop, (("equilibrium", "c”; and so for every robot, by the claim “d"),)).text()
+    assert text.endswith("equilibrium by the claim “c’’; and so for every robot, by the claim “d”")
+
+
 def test_what_stands_under_a_rate_must_have_a_value():
     """−1/(s − 1) ≤ 0 is no refutation of d/dt ln(s − 1) ≥ 0 at s = 1/2, where there is no logarithm."""
     s = ("var", "s")

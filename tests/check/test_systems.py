@@ -14,6 +14,7 @@ from lyapcheck.check.kinds.stable_arm import StableArm, hessian
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.systems.argument import Rest
+from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import any_matrix, any_vector, cosh, diagonal, expr, log, sqrt, tanh, var
@@ -140,11 +141,20 @@ def test_a_torque_that_is_another_one(torque, reason):
     assert reason in why(PD(torque=torque).argued())
 
 
-@pytest.mark.parametrize("name", ["x", "mu", "kc", "e", "dw", "s", "eps0", "K_min", "Kp", "n", "B"])
+@pytest.mark.parametrize("name", ["x", "mu", "kc", "e", "dw", "s", "eps0", "K_min", "Kp", "n", "B", "norm"])
 def test_a_name_that_is_taken_or_could_be_mistaken(name):
     pd = PD()
     pd.goal.gains(name)
     assert "is taken" in why(pd.argued()) or "underscore" in why(pd.argued())
+
+
+@pytest.mark.parametrize("field", ["gains", "constants", "functions"])
+def test_words_in_a_name_that_no_expression_has(field):
+    argument = PD().argued().argument
+    words = "c > 0 and every saturated torque"
+    new = Entrywise(words, "e", True, None) if field == "functions" else words
+    system = replace(argument.system, **{field: (*getattr(argument.system, field), new)})
+    assert "is not a name" in why(Stable(replace(argument, system=system)))
 
 
 def test_a_function_of_what_is_no_state():

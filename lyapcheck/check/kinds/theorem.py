@@ -81,7 +81,8 @@ class Theorem(OfTerms):
         known, loop = THEOREMS.get(self.name), self.loop
         if known is None:
             return f"by a theorem that the checker does not know, {self.name}"
-        pairs = ((label, claim.replace("”", "’’")) for label, claim in self.hypotheses)  # no end of a quotation
+        # an id must not end its quotation
+        pairs = ((label, claim.replace("”", "’’")) for label, claim in self.hypotheses)
         given = ", ".join(f"{label} by the claim “{claim}”" for label, claim in pairs)
         torque = TRACKING_TORQUE if loop.desired else TORQUE
         condition = " and ".join(map(relation_text, loop.condition))
