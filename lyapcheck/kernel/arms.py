@@ -27,6 +27,8 @@ LITTLE = Fraction(1, 10**7)
 """The part of K_p and B that is kept back, so that dV/dt is as far below 0 as convergence asks."""
 SLACK = 2.0**-20
 """How much wider than the certificate's the box is, so that it reaches far enough after outward rounding."""
+PIECES = range(2, 7)
+"""The members of ``formal/Turns.v``."""
 LITERAL = 4000
 """Longer texts overflow the stack of Coq's parser."""
 
@@ -80,13 +82,20 @@ def _script(loop: ClosedLoop, tree: str | None) -> str:
             "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
             "signs": f"[{signs}]",
             "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
-            "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m})",
-            "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m})",
+            "hI": _range("h", loop.m),
+            "dhI": _range("dh", loop.m),
             "more": f"{MORE_HALVINGS}%nat",
             "tree": _text(tree),
         }
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
     return f"match goal with |- certified ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+
+
+def _range(name: str, m: int | None) -> str:
+    """The range of h_m or h_m′ over an interval: by monotone pieces, where Coq knows them."""
+    if m == 1:
+        return f"{name}1_I"
+    return f"{name}_R_{m}" if m in PIECES else f"({name}_I {m} 3)"
 
 
 def _four_digits(value: Fraction) -> Fraction:
