@@ -53,12 +53,13 @@ Definition wave_at (q : list Q) (t : harmonic) : T :=
   let '(k, a, b) := t in let p := rat B (phase_Q k q) in add B (mul B (rat B a) (cosine B p)) (mul B (rat B b) (sine B p)).
 Definition total_at (q : list Q) (ts : list harmonic) : T := fold_right (fun t s => add B (wave_at q t) s) (zer B) ts.
 
+Variable at_goal : bool.                            (* e = 0, where the paper's V has the derivative 0 of eps h(e) *)
 Variables (M : nat -> nat -> T) (c : nat -> nat -> nat -> T) (h dh e w hw b kp kv : nat -> T) (eps0 : T).
 Notation sum_of := (sumn B n).
 Definition r2_at : T := sum_of (fun i => mul B (e i) (e i)).
 Definition one_r : T := add B (cst B 1) (root B r2_at).
 Definition eps_at : T := div B eps0 one_r.
-Definition eps_rate_at : T := div B (mul B eps0 (div B (sum_of (fun i => mul B (e i) (w i))) (root B r2_at))) (mul B one_r one_r).
+Definition eps_rate_at : T := if at_goal then zer B else div B (mul B eps0 (div B (sum_of (fun i => mul B (e i) (w i))) (root B r2_at))) (mul B one_r one_r).
 Definition y_at (i : nat) : T := sub B (w i) (mul B eps_at (h i)).
 Definition gr_at (i : nat) : T := sub B (mul B eps_rate_at (h i)) (mul B eps_at (mul B (dh i) (w i))).
 Definition rate_at : T :=
@@ -70,18 +71,18 @@ Definition rate_at : T :=
 End Rate.
 Ltac contained := repeat first [assumption | apply rel_zer | apply rel_cst | apply rel_add | apply rel_sub | apply rel_mul | apply rel_div | apply rel_root
   | apply rel_sumn; intros ? | match goal with K : forall _, _ |- _ => apply K end].
-Lemma rel_rate n M c h dh e w hw b kp kv ep M' c' h' dh' e' w' hw' b' kp' kv' ep' :
+Lemma rel_rate n z M c h dh e w hw b kp kv ep M' c' h' dh' e' w' hw' b' kp' kv' ep' :
   (forall i j, rel (M i j) (M' i j)) -> (forall i j k, rel (c i j k) (c' i j k)) -> (forall i, rel (h i) (h' i)) -> (forall i, rel (dh i) (dh' i)) ->
   (forall i, rel (e i) (e' i)) -> (forall i, rel (w i) (w' i)) -> (forall i, rel (hw i) (hw' i)) -> (forall i, rel (b i) (b' i)) ->
   (forall i, rel (kp i) (kp' i)) -> (forall i, rel (kv i) (kv' i)) -> rel ep ep' ->
-  rel (rate_at IA n M c h dh e w hw b kp kv ep) (rate_at RA n M' c' h' dh' e' w' hw' b' kp' kv' ep').
+  rel (rate_at IA n z M c h dh e w hw b kp kv ep) (rate_at RA n z M' c' h' dh' e' w' hw' b' kp' kv' ep').
 Proof.
   intros. assert (R2 : rel (r2_at IA n e) (r2_at RA n e')) by (unfold r2_at; contained).
   assert (O : rel (one_r IA n e) (one_r RA n e')) by (unfold one_r; contained).
   assert (Ep : rel (eps_at IA n e ep) (eps_at RA n e' ep')) by (unfold eps_at; contained).
-  assert (Er : rel (eps_rate_at IA n e w ep) (eps_rate_at RA n e' w' ep')) by (unfold eps_rate_at; contained).
+  assert (Er : rel (eps_rate_at IA n z e w ep) (eps_rate_at RA n z e' w' ep')) by (unfold eps_rate_at; destruct z; contained).
   assert (Y : forall i, rel (y_at IA n h e w ep i) (y_at RA n h' e' w' ep' i)) by (intros; unfold y_at; contained).
-  assert (G : forall i, rel (gr_at IA n h dh e w ep i) (gr_at RA n h' dh' e' w' ep' i)) by (intros; unfold gr_at; contained).
+  assert (G : forall i, rel (gr_at IA n z h dh e w ep i) (gr_at RA n z h' dh' e' w' ep' i)) by (intros; unfold gr_at; contained).
   unfold rate_at. contained.
 Qed.
 Lemma phase_value n k q : Q2R (phase_Q n k q) = phase n k (entries q).
@@ -116,9 +117,11 @@ Hypothesis dhI_correct : forall i x, rel i x -> rel (dhI i) (Loop.dhf f x).
 Definition of_list (l : list Q) (i : nat) : I.type := rat IA (nth i l 0%Q).
 Lemma rel_list l i : rel (of_list l i) (entries l i).
 Proof. unfold of_list, entries. rewrite <- (rat_Q (nth i l 0%Q)). apply rel_rat. Qed.
-Definition rate_I : I.type := rate_at IA n (fun i j => total_at IA n q (H A i j)) (fun i j k => total_at IA n q (c_of A i j k))
+Definition at_goal : bool := forall_to n (fun i => Qeq_bool (nth i e 0%Q) 0).
+Definition rate_I : I.type := rate_at IA n at_goal (fun i j => total_at IA n q (H A i j)) (fun i j k => total_at IA n q (c_of A i j k))
   (fun i => hI (of_list e i)) (fun i => dhI (of_list e i)) (of_list e) (of_list w) (fun i => hI (of_list w i)) (of_list (viscous A)) (of_list kp) (of_list kv) (rat IA eps0).
-Hypothesis Hr2 : positive (r2_at IA n (of_list e)) = true.
+Definition elsewhere : bool := positive (r2_at IA n (of_list (if at_goal then w else e))).
+Hypothesis Helse : elsewhere = true.
 Hypothesis Hrate : positive rate_I = true.
 
 Lemma nonzero_entry k (x : vec) : 0 < dot k x x -> exists i, (i < k)%nat /\ x i <> 0.
@@ -126,31 +129,42 @@ Proof.
   unfold dot. induction k as [|k IH]; cbn [sum]; intros H; [lra|]. destruct (Req_dec (x k) 0) as [Z|Z]; [|exists k; auto].
   rewrite Z in H. destruct IH as (i & Hi & Hx); [lra|]. exists i. split; [lia|auto].
 Qed.
-Lemma r2_pos : 0 < dot n (entries e) (entries e).
+Lemma r2_pos l : positive (r2_at IA n (of_list l)) = true -> 0 < dot n (entries l) (entries l).
 Proof.
-  apply (positive_correct _ _ Hr2). replace (dot n (entries e) (entries e)) with (r2_at RA n (entries e)) by apply sumn_sum.
+  intros K. apply (positive_correct _ _ K). replace (dot n (entries l) (entries l)) with (r2_at RA n (entries l)) by apply sumn_sum.
   unfold r2_at. apply rel_sumn. intros i. apply rel_mul; apply rel_list.
+Qed.
+Lemma at_goal_zero : at_goal = true -> norm n (entries e) = 0.
+Proof.
+  intros Z. unfold norm, dot. rewrite (Loop.sum_ext n _ (fun _ => 0)), Loop.sum_const, Rmult_0_r; [apply sqrt_0|]. intros i Hi.
+  pose proof (forall_to_true _ _ Z i Hi) as K. apply Qeq_bool_iff, Qeq_eqR in K. unfold entries. rewrite K, Q2R_0. ring.
+Qed.
+Lemma not_at_goal : at_goal = false -> norm n (entries e) <> 0.
+Proof.
+  intros Z N. unfold elsewhere in Helse. rewrite Z in Helse. pose proof (r2_pos e Helse) as R0. pose proof (Loop.norm2 n (entries e)) as N2.
+  rewrite N in N2. lra.
 Qed.
 Let qd : vec := fun i => entries q i + entries e i.
 Lemma rate_value (ec wc : R -> vec) t : ec t = entries e -> wc t = entries w -> 0 < Loop.rate n rb f g qd ec wc (Q2R eps0) t.
 Proof.
   intros Ee Ew. apply (positive_correct _ _ Hrate). unfold rate_I.
   assert (Eq : Loop.q_of qd ec t = entries q) by (apply functional_extensionality; intros i; unfold Loop.q_of, qd; rewrite Ee; ring).
-  pose proof r2_pos as R0. pose proof (Loop.norm_pos n (entries e)) as N0. pose proof (Loop.norm2 n (entries e)) as N2.
-  assert (N : norm n (entries e) <> 0) by (intros Z; rewrite Z in N2; lra).
-  replace (Loop.rate n rb f g qd ec wc (Q2R eps0) t) with (rate_at RA n (fun i j => total_at RA n q (H A i j)) (fun i j k => total_at RA n q (c_of A i j k))
+  pose proof (Loop.norm_pos n (entries e)) as N0.
+  replace (Loop.rate n rb f g qd ec wc (Q2R eps0) t) with (rate_at RA n at_goal (fun i j => total_at RA n q (H A i j)) (fun i j k => total_at RA n q (c_of A i j k))
     (fun i => Loop.hf f (entries e i)) (fun i => Loop.dhf f (entries e i)) (entries e) (entries w) (fun i => Loop.hf f (entries w i)) (entries (viscous A)) (entries kp) (entries kv) (rat RA eps0)).
   { apply rel_rate; intros; try apply rel_total; try apply rel_list; try apply hI_correct; try apply dhI_correct; try apply rel_list; apply rel_rat. }
   assert (E1 : one_r RA n (entries e) = 1 + norm n (entries e)) by (unfold one_r, r2_at; rewrite sumn_sum; reflexivity).
   assert (E2 : eps_at RA n (entries e) (rat RA eps0) = eps n (Q2R eps0) (entries e)).
   { unfold eps_at. rewrite E1, (rat_Q eps0). reflexivity. }
-  assert (E3 : eps_rate_at RA n (entries e) (entries w) (rat RA eps0) = Loop.eps_rate n ec wc (Q2R eps0) t).
-  { unfold eps_rate_at, Loop.eps_rate. rewrite Ee, Ew. destruct (Req_EM_T _ _) as [Z|_]; [contradiction|]. rewrite E1, (rat_Q eps0). unfold r2_at. rewrite !sumn_sum.
+  assert (E3 : eps_rate_at RA n at_goal (entries e) (entries w) (rat RA eps0) = Loop.eps_rate n ec wc (Q2R eps0) t).
+  { unfold eps_rate_at, Loop.eps_rate. rewrite Ee, Ew. destruct at_goal eqn:Z.
+    { rewrite (at_goal_zero Z). destruct (Req_EM_T 0 0); [reflexivity|lra]. }
+    pose proof (not_at_goal Z) as N. destruct (Req_EM_T _ _) as [|_]; [contradiction|]. rewrite E1, (rat_Q eps0). unfold r2_at. rewrite !sumn_sum.
     cbn [div mul root RA]. change (sqrt (sum n (fun i => entries e i * entries e i))) with (norm n (entries e)).
     change (sum n (fun i => entries e i * entries w i)) with (dot n (entries e) (entries w)). change (num RA) with R in *. field. split; lra. }
   assert (Ey : forall i, y_at RA n (fun i => Loop.hf f (entries e i)) (entries e) (entries w) (rat RA eps0) i = Loop.yt n f ec wc (Q2R eps0) t i).
   { intros i. unfold y_at, Loop.yt, y_of. rewrite E2, Ee, Ew. reflexivity. }
-  assert (Eg : forall i, gr_at RA n (fun i => Loop.hf f (entries e i)) (fun i => Loop.dhf f (entries e i)) (entries e) (entries w) (rat RA eps0) i = Loop.gr n f ec wc (Q2R eps0) t i).
+  assert (Eg : forall i, gr_at RA n at_goal (fun i => Loop.hf f (entries e i)) (fun i => Loop.dhf f (entries e i)) (entries e) (entries w) (rat RA eps0) i = Loop.gr n f ec wc (Q2R eps0) t i).
   { intros i. unfold gr_at, Loop.gr. rewrite E2, E3, Ee, Ew. cbn [sub mul RA]. rring. }
   unfold rate_at, Loop.rate. rewrite !sumn_sum, E2, Ee, Ew, Hkp, Hkv, HM, HC, Hbv, Eq. cbn [sub mul add zer RA]. f_equal; [f_equal|].
   - apply Loop.sum_ext; intros i Hi. rewrite Ey. unfold b_of. rring.
@@ -177,7 +191,7 @@ Proof.
     - replace (fun j => Derive (fun s => wc s j) 0) with a by (apply functional_extensionality; intros j; symmetry; apply is_derive_unique, Dw).
       rewrite Ee, Ew. replace (fun j => qd j - entries e j) with (entries q) by (apply functional_extensionality; intros j; unfold qd; ring). now apply Ha. }
   exists qd, ec, wc, 0, (Loop.rate n rb f g qd ec wc (Q2R eps0) 0). split; [exact Sv|]. split; [|split].
-  - rewrite Ee. destruct (nonzero_entry n (entries e) r2_pos) as (i & Hi & Hx). exists i. auto.
+  - rewrite Ee, Ew. unfold elsewhere in Helse. destruct at_goal; destruct (nonzero_entry n _ (r2_pos _ Helse)) as (i & Hi & Hx); exists i; auto.
   - pose proof (Loop.V_rate n rb f g qd ec wc (fun s => s = 0)) as VR. rewrite HM, HC, Hbv, Hkp, Hkv in VR. apply VR; auto. intros t ->. exact Sv.
   - now apply rate_value.
 Qed.
@@ -206,11 +220,11 @@ Hypothesis Hkp : forall_to n (fun i => Qle_bool kmin (nth i kp 0%Q)) = true.
 Hypothesis Hkv : forall_to n (fun i => Qle_bool 0 (nth i kv 0%Q) && Qle_bool (nth i kv 0%Q) vmax) = true.
 Hypothesis hI_correct : forall i x, rel i x -> rel (hI i) (h m x).
 Hypothesis dhI_correct : forall i x, rel i x -> rel (dhI i) (dh m x).
-Hypothesis Hr2 : positive (r2_at IA n (of_list e)) = true.
+Hypothesis Helse : elsewhere A e w = true.
 Hypothesis Hrate : positive (rate_I A kp kv eps0 q e w hI dhI) = true.
 Theorem falsified_by_state : falsified A m kp kv eps0.
 Proof.
   exact (rises A (rb A angles ks Hn Sym Known alpha turn Hturn Hcovers fuel Hmass beta kc lo hi Halpha Hbeta Hkc kc_pos Hlo Hb) eq_refl eq_refl eq_refl
-    (Stability.hyperbolic m Hm) (Certified.g A Hn kp kv kmin vmax Hkmin Hkp Hkv) kp kv eq_refl eq_refl eps0 q e w hI dhI hI_correct dhI_correct Hr2 Hrate).
+    (Stability.hyperbolic m Hm) (Certified.g A Hn kp kv kmin vmax Hkmin Hkp Hkv) kp kv eq_refl eq_refl eps0 q e w hI dhI hI_correct dhI_correct Helse Hrate).
 Qed.
 End Arm.
