@@ -66,7 +66,7 @@ def state_script(statement: Decreasing, state: StateWitness) -> str:
         "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m} 0)",
         "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m} 0)",
     }
-    return _applied("falsified", "falsified_by_state", parts)
+    return _applied("falsified_by_state", parts)
 
 
 def by_norms(loop: ClosedLoop) -> str:
@@ -81,7 +81,7 @@ def _script(loop: ClosedLoop, tree: str | None) -> str:
         "c2": exact(min(loop.arm.viscous) * LITTLE),
     }
     if tree is None:
-        return _applied("certified", "certified_by_norms", parts)
+        return _applied("certified_by_norms", parts)
     count, n = len(loop.angles), loop.n
     errors = loop.start[count : count + n]
     signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
@@ -95,7 +95,7 @@ def _script(loop: ClosedLoop, tree: str | None) -> str:
         "more": f"{MORE_HALVINGS}%nat",
         "tree": _text(tree),
     }
-    return _applied("certified", "certified_by_boxes", parts)
+    return _applied("certified_by_boxes", parts)
 
 
 def _robot(loop: ClosedLoop) -> dict[str, str]:
@@ -117,7 +117,8 @@ def _robot(loop: ClosedLoop) -> dict[str, str]:
     }
 
 
-def _applied(goal: str, theorem: str, parts: dict[str, str]) -> str:
+def _applied(theorem: str, parts: dict[str, str]) -> str:
+    goal, _, _ = theorem.partition("_by_")
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
     return f"match goal with |- {goal} ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
 
