@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
+from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.report.bench import kept_map
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
@@ -64,7 +65,8 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
-        jobs = _submit(subject, notes, pool)
+        with main_unnamed():
+            jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, progress)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))

@@ -50,6 +50,13 @@ def certify(
     return cover(start, problem.proved, sides, max_boxes, on_progress, deadline)
 
 
+ANGLES = 0.25
+"""Share of the estimate of an angle that counts: the mean value form encloses M more tightly than its slopes.
+
+Trees for 0.99 of the falsified ε₀ and beyond have a tenth to all of the boxes that they have with 1.
+"""
+
+
 @dataclass(frozen=True, eq=False)
 class Splitter:
     """Chooses for each box the side to halve: the one whose length moves P most, by rough estimates."""
@@ -83,7 +90,7 @@ class Splitter:
         weights = np.empty_like(half)
         family, e = self.problem.family, self.problem.sides(boxes).e
         steep = max(float(family.constants().rho.upper), 1.0)
-        weights[:, :first] = half[:, :first] * self.angle_slopes * steep
+        weights[:, :first] = ANGLES * half[:, :first] * self.angle_slopes * steep
         for i, x in enumerate(e):
             bend, move = dh_range(family, x).radius, h_range(family, x).radius
             weights[:, first + i] = self.inertia[i] * (bend + half[:, first + i] * 0.5) + self.coriolis * move

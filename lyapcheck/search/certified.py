@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from time import monotonic
@@ -15,9 +16,13 @@ from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 
-SHARES = tuple(Fraction(n, 10_000) for n in (5000, 8000, 9000, 9500, 9800, 9900, 9950, 9980, 9992))
-"""Shares of the falsified ε₀ that are tried one after the other."""
+HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
+"""Shares of the falsified ε₀ that are tried first, one after the other."""
+SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
+"""Those that are tried one after the other where not even the first of these is proved."""
 
+_CHECKING = 0.8
+"""The share of the work done when the checker begins."""
 DIGITS = 7
 MAX_BOXES = 400_000
 MOST_JOINTS = 3
@@ -68,35 +73,49 @@ def certified_epsilon(
     if controlled.n > MOST_JOINTS:
         return Certified(None, 0, _MANY_JOINTS)
     progress = on_progress or (lambda fraction, note: None)
-    deadline = math.inf if seconds is None else monotonic() + seconds
-    result, looked_at, reason = _attempts(controlled, ceiling, max_boxes, deadline, progress)
+    search = _Search(controlled, ceiling, progress)
+    began, seconds = monotonic(), math.inf if seconds is None else seconds
+    # no more than half of everything for what may be too much
+    result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
+    result += search.climb(HOPED[1:] if result else SHARES, max_boxes, began + seconds)
     while result:
         proof = result.pop()
-        progress(len(SHARES) / (len(SHARES) + 1), f"checking {proof.boxes} boxes in balls")
+        progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
         if proof.accepted(jobs):
-            return Certified(proof, looked_at, reason)
-        reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
-    return Certified(None, looked_at, reason)
+            return Certified(proof, search.looked_at, search.reason)
+        search.reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
+    return Certified(None, search.looked_at, search.reason)
 
 
-def _attempts(
-    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, deadline: float, progress: Progress
-) -> tuple[list[Proof], int, str]:
-    """What the search believes to be proofs, of growing ε₀; boxes looked at; why it went no further."""
-    result: list[Proof] = []
-    looked_at = 0
-    for index, share in enumerate(SHARES):
-        loop = controlled.loop(_rounded_down(ceiling * share))
-        if not loop.admissible:
-            return result, looked_at, f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
-        advance = _part(progress, index, f"{float(share):.1%} of falsified")
-        advance(0.0, "")
-        outcome = certify(Problem(loop), max_boxes - looked_at, advance, deadline)
-        looked_at += outcome.boxes
-        if not outcome.proved:
-            return result, looked_at, _advice(outcome.reason, loop.eps0, max_boxes)
-        result.append(Proof(loop, BoxTree(outcome.tree), controlled.inertia_proof))
-    return result, looked_at, ""
+@dataclass
+class _Search:
+    """The attempts at shares of a ceiling: boxes looked at so far, and why the last one failed."""
+
+    controlled: ControlledArm
+    ceiling: Fraction
+    progress: Progress
+    looked_at: int = 0
+    attempts: int = 0
+    reason: str = ""
+
+    def climb(self, shares: Sequence[Fraction], max_boxes: int, deadline: float) -> list[Proof]:
+        """What the search believes to be proofs, up to the first share for which there is none."""
+        result: list[Proof] = []
+        for share in shares:
+            loop = self.controlled.loop(_rounded_down(self.ceiling * share))
+            if not loop.admissible:
+                self.reason = f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
+                return result
+            advance = _part(self.progress, self.attempts, f"{float(share):.1%} of falsified")
+            advance(0.0, "")
+            outcome = certify(Problem(loop), max_boxes - self.looked_at, advance, deadline)
+            self.attempts += 1
+            self.looked_at += outcome.boxes
+            if not outcome.proved:
+                self.reason = _advice(outcome.reason, loop.eps0, max_boxes)
+                return result
+            result.append(Proof(loop, BoxTree(outcome.tree), self.controlled.inertia_proof))
+        return result
 
 
 def _part(progress: Progress, index: int, label: str) -> Progress:
@@ -104,7 +123,7 @@ def _part(progress: Progress, index: int, label: str) -> Progress:
 
     def advance(fraction: float, note: str) -> None:
         decided = f", {note}, {fraction:.1%} of the volume decided" if note else ""
-        progress((index + fraction) / (len(SHARES) + 1), f"{label}{decided}")
+        progress(_CHECKING * (index + fraction) / (1 + len(SHARES)), f"{label}{decided}")
 
     return advance
 

@@ -21,6 +21,7 @@ Chooser = Callable[[Boxes], Indices]
 
 CHUNK = 32768
 PROBES = 64
+FEW = 512
 SMALLEST = 1e-5
 """Half width below which a box that is not proved ends the search."""
 
@@ -82,14 +83,13 @@ def cover(
         seen += len(boxes)
         if seen > max_boxes or monotonic() > deadline:
             return Outcome(False, seen, EXHAUSTED if seen > max_boxes else LATE)
-        proved = prove(boxes)
+        proved, point = _judged(boxes, prove)
         done += float(np.sum(_volumes(boxes[proved])))
         rest = boxes[~proved]
         if on_progress is not None:
             still_open = sum(len(waiting) for waiting, _ in stack) + 2 * len(rest)
             on_progress(min(done / volume, 1.0) if volume else 0.0, f"{seen} boxes, {still_open} open")
         if len(rest):
-            point = _resisting(rest, prove)
             if point is not None:
                 return Outcome(False, seen, RESISTS, point)
             sides = choose(rest)
@@ -137,15 +137,26 @@ def _volumes(boxes: Boxes) -> Array:
     return np.asarray(np.prod(boxes[:, 1] - boxes[:, 0], axis=1))
 
 
-def _resisting(boxes: Boxes, prove: Prover) -> Array | None:
-    """The middle of a box where not even that point is proved, or of a box too small to halve."""
-    probes = boxes[:: max(1, len(boxes) // PROBES)]
-    middles = probes.mean(axis=1)
-    failed = ~prove(np.stack([middles, middles], axis=1))
-    if failed.any():
-        return np.asarray(middles[failed][0])
-    small = np.max(boxes[:, 1] - boxes[:, 0], axis=1) < 2 * SMALLEST
-    return np.asarray(boxes[small][0].mean(axis=0)) if small.any() else None
+def _judged(boxes: Boxes, prove: Prover) -> tuple[NDArray[np.bool_], Array | None]:
+    """Which boxes are proved, and a point that resists: halving would not help there.
+
+    It is the middle of a box where not even that point is proved, or of a box too small to halve.
+    """
+    if len(boxes) <= FEW:
+        # one call for both: so few boxes cost less than the call
+        middles = boxes.mean(axis=1)
+        judged = prove(np.concatenate([boxes, np.stack([middles, middles], axis=1)]))
+        proved, central = judged[: len(boxes)], judged[len(boxes) :]
+        rest = boxes[~proved]
+    else:
+        proved = prove(boxes)
+        rest = boxes[~proved]
+        middles = rest[:: max(1, len(rest) // PROBES)].mean(axis=1)
+        central = prove(np.stack([middles, middles], axis=1))
+    if not central.all():
+        return proved, np.asarray(middles[~central][0])
+    small = np.max(rest[:, 1] - rest[:, 0], axis=1) < 2 * SMALLEST
+    return proved, np.asarray(rest[small][0].mean(axis=0)) if small.any() else None
 
 
 def halve(boxes: Boxes, side: Indices) -> Boxes:

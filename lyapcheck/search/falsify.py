@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 
 import numpy as np
 
@@ -41,7 +42,8 @@ STARTS = 30
 _DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
 _EPS_DIGITS = 7
-_STEPS = 9
+_STEPS, _QUICK = 9, 3
+"""Kinds of candidates: all, and those up to the fast states."""
 _WIDE, _NEAR = 30.0, 1e-5
 """Largest |e_i| of slow states, rad: anywhere, and at the origin."""
 _SHOWN_BITS = 256
@@ -79,6 +81,7 @@ def falsify(
     samples: int = SAMPLES,
     seed: int = SEED,
     on_progress: Progress | None = None,
+    quick: bool = False,
 ) -> Witness | None:
     """The smallest ε₀ for which a state with dV/dt > 0 was found and confirmed, with that state.
 
@@ -88,6 +91,7 @@ def falsify(
         samples: how many random states they are chosen from.
         seed: of the random numbers.
         on_progress: told how far the search is.
+        quick: look at fast states alone, from a third of the starts; what slow states refute is then missed.
 
     Returns:
         the witness; ``None`` when no state was confirmed, which proves nothing.
@@ -97,7 +101,8 @@ def falsify(
     """
     progress = on_progress or (lambda fraction, note: None)
     result: list[tuple[float, str, State]] = []
-    for share, (kind, states) in enumerate(_candidates(controlled, starts, samples, seed), start=1):
+    candidates = _candidates(controlled, math.ceil(starts / 3) if quick else starts, samples, seed)
+    for share, (kind, states) in enumerate(islice(candidates, _QUICK if quick else None), start=1):
         progress(share / _STEPS, f"{kind} states")
         result += _best(controlled, kind, states)
     for reciprocal, kind, state in sorted(result, key=lambda entry: -entry[0]):

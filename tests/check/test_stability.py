@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -77,8 +80,7 @@ def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> No
             middle = generator.uniform(-2, 2, len(angles) + case.n)
             box = tuple((float(x - width), float(x + width)) for x in middle)
             sides, errors = box[: len(angles)], box[len(angles) :]
-            r_squared = sum((evaluator.square(side) for side in errors), arb(0))
-            P = evaluator.schur(sides, errors, (), r_squared)
+            P = evaluator.schur(sides, errors, ())
             for _ in range(8):
                 point = np.array([generator.uniform(*side) for side in box])
                 q = generator.uniform(-3, 3, case.n)
@@ -243,8 +245,7 @@ def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic: Arithmetic) -> N
             width = 10.0 ** generator.uniform(-2, 0)
             middle = generator.uniform(-2, 2, last)
             box = (*((float(x - width), float(x + width)) for x in middle), *case.start[last:])
-            r_squared = sum((evaluator.square(side) for side in box[first:last]), arb(0))
-            P = evaluator.schur(box[:first], box[first:last], box[last:], r_squared)
+            P = evaluator.schur(box[:first], box[first:last], box[last:])
             for _ in range(5):
                 point = [generator.uniform(*side) for side in box]
                 arm = at_random(model, point[last:])
@@ -302,3 +303,22 @@ def test_undefined_spans_are_not_positive() -> None:
     assert not wide.positive
     assert not (wide - wide).positive
     assert not Span.of(arb("nan")).positive
+
+
+def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Path) -> None:
+    """The processes import what they need and do not run the script again."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from fractions import Fraction\n"
+        "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
+        "from lyapcheck.check.loop import proof\n"
+        "from lyapcheck.search.branch_and_bound import certify\n"
+        "from lyapcheck.search.controlled_arm import ControlledArm\n"
+        "from lyapcheck.search.schur import Problem\n"
+        "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
+        "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
+        "proof.WORTH_SHARING = 0\n"
+        "print(proof.proves(loop, certify(Problem(loop), 10_000).tree, jobs=2))\n"
+    )
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
+    assert (run.stdout, run.stderr) == ("True\n", "")

@@ -254,8 +254,20 @@ def test_boxes_that_the_checker_refuses_are_no_certificate(monkeypatch: pytest.M
 
 
 def test_shares_rise_to_just_below_the_falsified() -> None:
-    assert list(certified.SHARES) == sorted(set(certified.SHARES))
-    assert certified.SHARES[-1] < 1
+    shares = (*certified.SHARES, *certified.HOPED)
+    assert list(shares) == sorted(set(shares))
+    assert shares[-1] < 1
+
+
+def test_where_nearly_all_is_too_much_smaller_shares_are_tried() -> None:
+    """What the ceiling is too high for by a quarter, four fifths of it may be."""
+    case = controlled("reyes-kelly2", 0)
+    nothing = certified_epsilon(case, 5 * FALSIFIED[0], 2000)
+    assert nothing.proof is None
+    assert nothing.reason
+    part = certified_epsilon(case, FALSIFIED[0] * F(5, 4), 2000)
+    assert part.eps0 is not None
+    assert part.eps0 < FALSIFIED[0]
 
 
 # Covers, with properties of which everything is known
@@ -315,8 +327,8 @@ def test_a_budget_ends_in_not_proved(budget: int) -> None:
     sizes: list[int] = []
 
     def prove(boxes: Array) -> NDArray[np.bool_]:
-        points = bool(np.all(boxes[:, 0] == boxes[:, 1]))
-        sizes.append(0 if points else len(boxes))  # points are probes, not boxes of the cover
+        # points are probes, not boxes of the cover
+        sizes.append(int(np.sum(np.any(boxes[:, 0] != boxes[:, 1], axis=1))))
         return small(boxes * 100.0)
 
     outcome = cover(START, prove, longest, budget)

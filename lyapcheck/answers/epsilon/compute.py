@@ -11,6 +11,7 @@ References: ``reyes2019family`` (12), (16), (18).
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
-from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, MOST_JOINTS, Certified, certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import STARTS, Witness, falsify
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
 
+NEARLY = Fraction(98, 100)
+"""The share of the falsified ε₀ from which slow states are not asked."""
 _DIGITS = 9
 
 
@@ -76,31 +79,31 @@ def epsilon(
     """
     progress = on_progress or (lambda fraction, note: None)
     controlled, reasons = ControlledArm(gain_set, model, ranges), {}
-    at, witness = _falsified(controlled, starts, seed, lambda f, note: progress(0.3 * f, note))
-    if witness is None:
-        reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
-    progress(0.3, "scalar form")
+    progress(0.0, "scalar form")
     bounds, constants = robot_bounds(model), controlled.family.constants()
     published, reasons["published"] = _published(gain_set, constants, bounds)
     # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
-    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds))
+    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
     scalar = _scalar(controlled, bounds) or sharp
     reasons["scalar"] = scalar.reason
-    hint = None if witness is None else witness.eps0
-    looked_at, by = 0, ""
+    by = ""
     proof: Proof | None = None
     scalar_proof: Proof | None = None
     reasons["certified"] = unphysical(controlled)
+    search = _Search(
+        controlled,
+        10 * (scalar.eps0 or Fraction(1)),
+        0 if reasons["certified"] else max_boxes,
+        jobs,
+        seconds,
+        starts,
+        seed,
+        lambda f, note: progress((0.9 if weights else 1.0) * f, note),
+    )
+    at, witness, result = search.run()
+    if witness is None:
+        reasons["falsified"] = "no state with dV/dt > 0 was confirmed; try more starts"
     if not reasons["certified"]:
-        result = certified_epsilon(
-            controlled,
-            hint or 10 * (scalar.eps0 or Fraction(1)),
-            max_boxes,
-            jobs,
-            seconds,
-            lambda f, note: progress(0.35 + (0.55 if weights else 0.65) * f, note),
-        )
-        looked_at = result.looked_at
         proof, by, reasons["certified"] = _best(controlled, result)
         scalar_proof = proof_of(controlled, scalar.eps0)
     certified = None if proof is None else proof.loop.eps0
@@ -119,7 +122,7 @@ def epsilon(
         proof=proof,
         scalar_proof=scalar_proof,
         weighted=weighted,
-        boxes=looked_at,
+        boxes=result.looked_at,
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
         assumptions=model.assumptions,
@@ -168,13 +171,60 @@ def put_together(
     )
 
 
-def _falsified(
-    controlled: ControlledArm, starts: int, seed: int, progress: Progress
-) -> tuple[ControlledArm, Witness | None]:
-    """The witness, and the arm it is about."""
-    if controlled.ranges:
-        return falsify_corners(controlled, starts, seed, progress)
-    return controlled, falsify(controlled, starts, seed=seed, on_progress=progress)
+@dataclass(frozen=True)
+class _Search:
+    """The search for the witness of the smallest ε₀ and for the proof of the largest, both of one gain set.
+
+    Args:
+        guess: the ceiling where nothing is falsified.
+        max_boxes: 0 where nothing can be proved.
+    """
+
+    controlled: ControlledArm
+    guess: Fraction
+    max_boxes: int
+    jobs: int
+    seconds: float | None
+    starts: int
+    seed: int
+    progress: Progress
+
+    def run(self) -> tuple[ControlledArm, Witness | None, Certified]:
+        """The arm that the witness is about, the witness, and what was proved.
+
+        Fast states are looked at first: where nearly all of the ε₀ that they refute is proved, slow states
+        refute hardly less, and are left alone.
+        """
+        before, first = None, Certified(None, 0, "")
+        if self.max_boxes and not self.controlled.ranges and self.controlled.n <= MOST_JOINTS:
+            before = falsify(
+                self.controlled, self.starts, seed=self.seed, on_progress=self._part(0.0, 0.1), quick=True
+            )
+        if before is not None:
+            first = self._certified(before, self.max_boxes, 0.1, 0.5)
+            if first.eps0 is not None and first.eps0 >= NEARLY * before.eps0:
+                return self.controlled, before, first
+        at, witness = self._falsified(self._part(0.5, 0.7))
+        if before is not None and (witness is None or before.eps0 <= witness.eps0):
+            return self.controlled, before, first
+        if not self.max_boxes:
+            return at, witness, first
+        result = self._certified(witness, max(0, self.max_boxes - first.looked_at), 0.7, 1.0)
+        better = max((result, first), key=lambda one: one.eps0 or 0)
+        return at, witness, replace(better, looked_at=first.looked_at + result.looked_at)
+
+    def _falsified(self, progress: Progress) -> tuple[ControlledArm, Witness | None]:
+        if self.controlled.ranges:
+            return falsify_corners(self.controlled, self.starts, self.seed, progress)
+        return self.controlled, falsify(self.controlled, self.starts, seed=self.seed, on_progress=progress)
+
+    def _certified(self, witness: Witness | None, max_boxes: int, low: float, high: float) -> Certified:
+        ceiling = self.guess if witness is None else witness.eps0
+        progress = self._part(low, high)
+        return certified_epsilon(self.controlled, ceiling, max_boxes, self.jobs, self.seconds, progress)
+
+    def _part(self, low: float, high: float) -> Progress:
+        return lambda fraction, note: self.progress(low + (high - low) * fraction, note)
 
 
 def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, str, str]:
@@ -211,9 +261,9 @@ def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | No
     if not controlled.family.bounded:
         return None
     if controlled.ranges:
-        return scalar_epsilon(controlled.loop(Fraction(1)).tail)
+        return scalar_epsilon(controlled.loop(Fraction(1)).tail, conic=False)
     form = scalar_form(controlled.gains, controlled.family.constants(), bounds)
-    return None if form is None else scalar_epsilon(form)
+    return None if form is None else scalar_epsilon(form, conic=False)
 
 
 def _corner(controlled: ControlledArm) -> dict[str, Fraction]:

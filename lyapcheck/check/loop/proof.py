@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -58,13 +59,26 @@ def proves(loop: ClosedLoop, tree: str, jobs: int = 1) -> bool:
     """
     if jobs <= 1 or len(tree) < WORTH_SHARING:
         return proves_part(loop, tree, 0, 1)
-    # spawned processes import afresh; the copy leaves behind what the closure has computed for itself
+    # spawned processes import afresh; the copy leaves behind what the closed loop has computed for itself
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        parts = [pool.submit(proves_part, replace(loop), tree, part, jobs) for part in range(jobs)]
+        with main_unnamed():
+            parts = [pool.submit(proves_part, replace(loop), tree, part, jobs) for part in range(jobs)]
         return all(part.result() for part in parts)
+
+
+@contextmanager
+def main_unnamed() -> Iterator[None]:
+    """Hide where the main module came from, so that processes spawned inside do not run a caller's script."""
+    main = sys.modules["__main__"]
+    file, main.__spec__, spec = vars(main).pop("__file__", None), None, main.__spec__
+    try:
+        yield
+    finally:
+        main.__spec__ = spec
+        vars(main).update({} if file is None else {"__file__": file})
 
 
 def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
@@ -89,14 +103,15 @@ def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
 
     The side that is cut is the widest beside what it was at the start.
     """
-    whole = [high - low for low, high in evaluators[0].loop.start]
     stack = [(box, 0)]
     while stack:
         part, depth = stack.pop()
-        if any(evaluator.proves(part) for evaluator in evaluators):
+        # spans cost several times what balls do: halves are tried in balls first
+        if any(evaluator.proves(part) for evaluator in evaluators[: 1 + (depth > 0)]):
             continue
         if depth == MORE_HALVINGS:
             return False
+        whole = [high - low for low, high in evaluators[0].loop.start]
         side = max(range(len(part)), key=lambda i: (part[i][1] - part[i][0]) / whole[i])
         stack += [(half, depth + 1) for half in halves(part, side)]
     return True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import arb
 
@@ -21,8 +21,19 @@ Symbols = dict[tuple[int, int, int], Value]
 _KEPT = 1 << 16
 
 
+class Errors(NamedTuple):
+    """What P needs of a box of errors alone: r², ε, ε/(4 k̃_i), Λh, Λh' and êᵀ/(1+r)."""
+
+    r_squared: arb
+    eps: Value
+    weight: list[Value]
+    h: list[Value]
+    dh: list[Value]
+    along: list[Value]
+
+
 class Evaluator:
-    """P over boxes; ranges of functions of one side are kept, since boxes share sides.
+    """P over boxes; ranges of functions of one side, and of all errors, are kept, since boxes share them.
 
     Args:
         loop: what is to be shown.
@@ -46,26 +57,25 @@ class Evaluator:
         self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.h(ball(side))))
         self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.dh(ball(side))))
         self.square = lru_cache(maxsize=_KEPT)(_square)
+        self.errors = lru_cache(maxsize=_KEPT // 4)(self._errors)
         self.arms: dict[Box, tuple[Rows, Symbols]] = {}
 
     def proves(self, box: Box) -> bool:
         """Whether P ≻ 0 at every point of the box, or all of it lies beyond R."""
         first, last = len(self.loop.angles), len(self.loop.angles) + self.loop.n
         sides, errors = box[:first], box[first:last]
-        r_squared = sum((self.square(side) for side in errors), arb(0))
-        if r_squared >= self.radius_squared:
+        if self.errors(errors).r_squared >= self.radius_squared:
             return True
-        return self.of.positive_definite(self.schur(sides, errors, box[last:], r_squared))
+        return self.of.positive_definite(self.schur(sides, errors, box[last:]))
 
-    def schur(self, sides: Box, errors: Box, uncertain: Box, r_squared: arb) -> Rows:
+    def schur(self, sides: Box, errors: Box, uncertain: Box) -> Rows:
         """P, the entries on and below the diagonal."""
         n, filled = self.loop.n, self._filled(uncertain)
         B = filled[len(filled) - n :]
-        shrink = self.of.value(_inverse_one_plus_root(r_squared))
-        eps = self.eps0 * shrink
-        S = self._coupling(self._arm(sides, uncertain, filled), errors, shrink)
+        known = self.errors(errors)
+        eps, weight = known.eps, known.weight
+        S = self._coupling(*self._arm(sides, uncertain, filled), known)
         X = [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in range(n)] for i in range(n)]
-        weight = [eps * c for c in self.compliance]
         return [
             [*(self._beside(i, j, S, X, eps, weight) for j in range(i)), self._diagonal(i, X, weight)]
             for i in range(n)
@@ -86,14 +96,24 @@ class Evaluator:
         sides = iter(uncertain)
         return [self.of.value(ball(next(sides))) if value is None else value for value in self.fixed]
 
-    def _coupling(self, arm: tuple[Rows, Symbols], errors: Box, shrink: Value) -> Rows:
+    def _errors(self, errors: Box) -> Errors:
+        r_squared = sum((self.square(side) for side in errors), arb(0))
+        shrink = self.of.value(_inverse_one_plus_root(r_squared))
+        eps = self.eps0 * shrink
+        return Errors(
+            r_squared,
+            eps,
+            [eps * c for c in self.compliance],
+            self._coupled(self.h, errors),
+            self._coupled(self.dh, errors),
+            [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)],
+        )
+
+    def _coupling(self, M: Rows, symbols: Symbols, errors: Errors) -> Rows:
         """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
-        n = self.loop.n
-        M, symbols = arm
-        h, dh = self._coupled(self.h, errors), self._coupled(self.dh, errors)
-        pushed = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
-        direction = [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)]
-        rows = [[pushed[i] * direction[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
+        n, h, dh, along = self.loop.n, errors.h, errors.dh, errors.along
+        mh = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
+        rows = [[mh[i] * along[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
         for (i, j, k), symbol in symbols.items():
             rows[i][j] = rows[i][j] + symbol * h[k]
             if k != j:
