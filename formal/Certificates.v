@@ -4,7 +4,7 @@ From Coquelicot Require Export Coquelicot.
 From Interval Require Export Tactic.
 Require Export Definitions.
 Require Export Family Bounds Stability.
-Require Export Arm Boxes Bridge Certified Members Sharp.
+Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.
@@ -59,7 +59,9 @@ Ltac computed := lazymatch goal with
   | |- (_ <= _)%nat => lia
   | |- @eq (R -> R) _ _ => reflexivity
   | |- (Loop.Lf _ <= _)%R => cbn [Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12]; apply Rle_refl
-  | |- forall i x, rel i x -> _ => first [exact h1_correct | exact dh1_correct | apply h_correct; lia | apply dh_correct; lia]
+  | |- forall i x, rel i x -> _ => first [exact h1_correct | exact dh1_correct | exact h_R_2_correct | exact dh_R_2_correct | exact h_R_3_correct | exact dh_R_3_correct
+      | exact h_R_4_correct | exact dh_R_4_correct | exact h_R_5_correct | exact dh_R_5_correct | exact h_R_6_correct | exact dh_R_6_correct
+      | apply h_correct; lia | apply dh_correct; lia]
   | |- _ => unfold enough; cbn [Loop.gammaf Loop.rhof Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12 joints];
       unfold Q2R; cbn [Qnum Qden]; simpl INR; interval with (i_prec 100)
   end.

@@ -145,7 +145,7 @@ Proof.
 Qed.
 End At.
 
-(** In eight parts of the interval of a, which are joined: each entry occurs several times. *)
+(** In 2^k parts of the interval of a, which are joined: each entry occurs several times. *)
 Fixpoint parted (k : nat) (f : I.type -> I.type) (s : side) : I.type :=
   match k with
   | O => f (span s)
@@ -161,9 +161,9 @@ Proof.
       destruct (Rle_dec x (value (PrimFloat.mul 0.5 (PrimFloat.add l u)))); [left|right]; apply IH; auto; split; cbn [fst snd]; lra.
     + apply Hf. apply span_correct; cbn [fst snd]; [rewrite Rl, Ru; reflexivity|exact Hx].
 Qed.
-Definition over (f : I.type -> I.type) (i : I.type) : I.type :=
-  let s := (I.lower i, I.upper i) in if is_real (fst s) && is_real (snd s) then parted 3 f s else f i.
-Lemma over_correct F f i x : (forall i x, rel i x -> rel (f i) (F x)) -> rel i x -> rel (over f i) (F x).
+Definition over (k : nat) (f : I.type -> I.type) (i : I.type) : I.type :=
+  let s := (I.lower i, I.upper i) in if is_real (fst s) && is_real (snd s) then parted k f s else f i.
+Lemma over_correct k F f i x : (forall i x, rel i x -> rel (f i) (F x)) -> rel i x -> rel (over k f i) (F x).
 Proof.
   intros Hf K. unfold over. destruct (is_real _ && is_real _)%bool eqn:E; [|now apply Hf]. apply andb_prop in E. destruct E as [El Eu]. cbn [fst snd] in *.
   apply parted_correct; auto. unfold inside. cbn [fst snd]. pose proof (real_val _ El) as Vl. pose proof (real_val _ Eu) as Vu.
@@ -177,16 +177,17 @@ Lemma a_correct i x : rel i x -> rel (a_I i) (1 - exp (-2 * x)).
 Proof. intros K. apply rel_sub; [apply rel_cst|]. apply rel_expo. apply rel_mul; [apply rel_cst|exact K]. Qed.
 Lemma rel_abs i x : rel i x -> rel (I.abs i) (Rabs x).
 Proof. intros K. exact (I.abs_correct i (Xreal x) K). Qed.
+Variable k : nat.
 Definition h_I (i : I.type) : I.type :=
-  let j := over (h_A IA) (a_I (I.abs i)) in
+  let j := over k (h_A IA) (a_I (I.abs i)) in
   match I.sign_large i with Xgt | Xeq => j | Xlt => I.neg j | Xund => I.join j (I.neg j) end.
-Definition dh_I (i : I.type) : I.type := over (dh_A IA) (a_I (I.abs i)).
+Definition dh_I (i : I.type) : I.type := over k (dh_A IA) (a_I (I.abs i)).
 Theorem h_correct i x : rel i x -> rel (h_I i) (h m x).
 Proof.
   intros K. unfold h_I. cbv zeta.
-  assert (J : rel (over (h_A IA) (a_I (I.abs i))) (h m (Rabs x))).
-  { rewrite <- h_by_a. apply (over_correct (h_A RA)); [apply rel_h_A|]. apply a_correct. now apply rel_abs. }
-  set (j := over _ _) in *. clearbody j. pose proof (I.sign_large_correct i) as Sg.
+  assert (J : rel (over k (h_A IA) (a_I (I.abs i))) (h m (Rabs x))).
+  { rewrite <- h_by_a. apply (over_correct k (h_A RA)); [apply rel_h_A|]. apply a_correct. now apply rel_abs. }
+  set (j := over _ _ _) in *. clearbody j. pose proof (I.sign_large_correct i) as Sg.
   assert (P : 0 <= x -> rel j (h m x)) by (intros Hx; rewrite Rabs_pos_eq in J; auto).
   assert (N : x <= 0 -> rel (I.neg j) (h m x)).
   { intros Hx. rewrite <- (Ropp_involutive (h m x)), <- (Family.h_odd m Hm). apply rel_neg. rewrite Rabs_left1 in J; auto. }
@@ -200,6 +201,6 @@ Theorem dh_correct i x : rel i x -> rel (dh_I i) (dh m x).
 Proof.
   intros K. unfold dh_I. assert (E : dh m x = dh m (Rabs x)).
   { unfold Rabs. destruct (Rcase_abs x); auto. now rewrite (Family.dh_even m Hm). }
-  rewrite E, <- dh_by_a. apply (over_correct (dh_A RA)); [apply rel_dh_A|]. apply a_correct. now apply rel_abs.
+  rewrite E, <- dh_by_a. apply (over_correct k (dh_A RA)); [apply rel_dh_A|]. apply a_correct. now apply rel_abs.
 Qed.
 End Rational.

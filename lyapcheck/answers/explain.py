@@ -210,7 +210,7 @@ def _found(script: Path, claim: str) -> tuple[str, ...]:
     return tuple(
         "; ".join(
             (
-                f"{f'm = {row.m}: ' if row.m is not None else ''}{row.verdict} [{row.decision.grade.label}]",
+                f"{f'm = {row.m}: ' if row.m is not None else ''}{row.verdict} [{row.grade}]",
                 *row.support,
             )
         )

@@ -1,4 +1,7 @@
-"""How Coq is to prove that dV/dt < 0 for one arm, its gains and ε₀: numbers and trees, which it judges."""
+"""How Coq is to prove that dV/dt < 0 for one arm, its gains and ε₀, or that a state refutes it.
+
+Numbers and trees are given, which Coq judges.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,13 @@ from itertools import product
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, closed_loop_of
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    Decreasing,
+    PositiveAndDecreasing,
+    StateWitness,
+    closed_loop_of,
+)
 from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Side
 from lyapcheck.check.loop.closed_loop import root_above
@@ -19,7 +28,7 @@ from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.harmonics import largest
 from lyapcheck.check.statement import Proof
-from lyapcheck.kernel.terms import NotPrinted, exact
+from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""
@@ -27,6 +36,8 @@ LITTLE = Fraction(1, 10**7)
 """The part of K_p and B that is kept back, so that dV/dt is as far below 0 as convergence asks."""
 SLACK = 2.0**-20
 """How much wider than the certificate's the box is, so that it reaches far enough after outward rounding."""
+PIECES = range(2, 7)
+"""The members of ``formal/Turns.v``."""
 LITERAL = 4000
 """Longer texts overflow the stack of Coq's parser."""
 
@@ -45,16 +56,53 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     return _script(loop, proof.rate.tree)
 
 
+def state_script(statement: Decreasing, state: StateWitness) -> str:
+    """The tactics for ``falsified``."""
+    loop = closed_loop_of(statement)
+    parts = _robot(loop) | {
+        "q": exact_list(state.q),
+        "e": exact_list(state.e),
+        "w": exact_list(state.w),
+        "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m} 0)",
+        "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m} 0)",
+    }
+    return _applied("falsified_by_state", parts)
+
+
 def by_norms(loop: ClosedLoop) -> str:
     """The tactics for ``certified`` where ε₀ is so small that norms alone show it."""
     return _script(loop, None)
 
 
 def _script(loop: ClosedLoop, tree: str | None) -> str:
-    arm, n = loop.arm, loop.n
+    parts = _robot(loop) | {
+        "f": f"member_{loop.m}",
+        "c1": exact(min(loop.kp) * LITTLE),
+        "c2": exact(min(loop.arm.viscous) * LITTLE),
+    }
+    if tree is None:
+        return _applied("certified_by_norms", parts)
+    count, n = len(loop.angles), loop.n
+    errors = loop.start[count : count + n]
+    signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
+    parts |= {
+        "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
+        "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
+        "signs": f"[{signs}]",
+        "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
+        "hI": _range("h", loop.m),
+        "dhI": _range("dh", loop.m),
+        "more": f"{MORE_HALVINGS}%nat",
+        "tree": _text(tree),
+    }
+    return _applied("certified_by_boxes", parts)
+
+
+def _robot(loop: ClosedLoop) -> dict[str, str]:
+    """What shows that the arm is a robot and the gains are positive: for every theorem about one arm."""
+    viscous, n = loop.arm.viscous, loop.n
     turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(loop.angles)
-    viscous, stiffest = arm.viscous, min(loop.kp)
-    parts = {
+    return {
         "angles": f"[{'; '.join(map(str, loop.angles))}]%nat",
         "ks": "waves_in A",
         "alpha": exact(_lowest(loop)),
@@ -64,29 +112,22 @@ def _script(loop: ClosedLoop, tree: str | None) -> str:
         "kc": exact(root_above(_squares(loop))),
         "lo": exact(min(viscous)),
         "hi": exact(max(viscous)),
-        "f": f"member_{loop.m}",
-        "kmin": exact(stiffest),
+        "kmin": exact(min(loop.kp)),
         "vmax": exact(max(loop.kv)),
-        "c1": exact(stiffest * LITTLE),
-        "c2": exact(min(viscous) * LITTLE),
     }
-    theorem = "certified_by_norms"
-    if tree is not None:
-        theorem = "certified_by_boxes"
-        errors = loop.start[len(turn) : len(turn) + n]
-        signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
-        parts |= {
-            "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
-            "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
-            "signs": f"[{signs}]",
-            "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
-            "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m})",
-            "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m})",
-            "more": f"{MORE_HALVINGS}%nat",
-            "tree": _text(tree),
-        }
+
+
+def _applied(theorem: str, parts: dict[str, str]) -> str:
+    goal, _, _ = theorem.partition("_by_")
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
-    return f"match goal with |- certified ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+    return f"match goal with |- {goal} ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+
+
+def _range(name: str, m: int | None) -> str:
+    """The range of h_m or h_m′ over an interval: by monotone pieces, where Coq knows them."""
+    if m == 1:
+        return f"{name}1_I"
+    return f"{name}_R_{m}" if m in PIECES else f"({name}_I {m} 3)"
 
 
 def _four_digits(value: Fraction) -> Fraction:

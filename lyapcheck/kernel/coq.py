@@ -14,6 +14,7 @@ PACKAGES = "coq libcoq-interval"
 QUIET = "-ambiguous-paths,-notation-overridden"
 LIBRARY = "Lyapcheck"
 NAME = re.compile(r"[A-Za-z_][\w'.]*")
+TIMES = re.compile(r"^Chars .* secs \(([\d.]+)u,([\d.]+)s\)$", re.MULTILINE)
 
 
 class CoqRefused(Exception):
@@ -38,7 +39,7 @@ class Coq:
         self._compile_library()
 
     def accept(self, name: str, text: str) -> str:
-        """Write a file and have it compiled; what Coq prints.
+        """Write a file and have it compiled; what Coq prints, with the seconds of each sentence.
 
         Raises:
             CoqRefused: Coq does not accept it, or takes too long.

@@ -14,11 +14,11 @@ from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
 from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, axioms_of, golden
+from lyapcheck.kernel.record import GRADE
 from lyapcheck.kernel.scripts import script
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
 
-GRADE = "kernel"
 JOBS = 2
 COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|vm_cast_no_check)\b")
 HEAD = f"""From Coq Require Import Floats.

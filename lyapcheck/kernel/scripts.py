@@ -13,7 +13,7 @@ from typing import Any
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.decreasing import Decreasing, closed_loop_of
+from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness, closed_loop_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
@@ -22,7 +22,7 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
-from lyapcheck.kernel.arms import arm_script, by_norms
+from lyapcheck.kernel.arms import arm_script, by_norms, state_script
 from lyapcheck.kernel.statements import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact_list, identifier, rational
 
@@ -42,6 +42,8 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     """
     if isinstance(statement, Decreasing) and verdict == "proved":
         return arm_script(statement, proof)
+    if isinstance(statement, Decreasing) and isinstance(proof, StateWitness):
+        return state_script(statement, proof)
     if verdict == "proved":
         return facts(statement) + proved(statement)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):

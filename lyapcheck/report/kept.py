@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
+from lyapcheck.check.judging import certificate_of
 from lyapcheck.claims.python_process import command, environment
+from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
 from lyapcheck.report.model import Witness
@@ -71,6 +73,8 @@ def _holds(result: Computed) -> bool:
     judged = _judged(result.certificates)
     digests = {path: json.loads(text)["digest"] for path, text in result.certificates.items()}
 
+    texts = {digests[path]: text for path, text in result.certificates.items()}
+
     def verdict(path: str | None) -> str | None:
         return None if path is None else judged.get(digests[path], {}).get("verdict")
 
@@ -78,8 +82,12 @@ def _holds(result: Computed) -> bool:
         if row["verdict"] not in ("proved", "refuted"):
             continue
         answer = judged.get(row["digest"], {})
-        said = [answer.get(key) for key in ("verdict", "grade", "id", "m", "rules")]
-        if said != [row[key] for key in ("verdict", "grade", "id", "m", "rules")]:
+        said = [answer.get(key) for key in ("verdict", "id", "m", "rules")]
+        if said != [row[key] for key in ("verdict", "id", "m", "rules")]:
+            return False
+        certificate, _ = certificate_of(texts[row["digest"]].encode())
+        by_coq = accepted_before(certificate.statement, certificate.proof, certificate.verdict)
+        if row["grade"] != (GRADE if by_coq else answer["grade"]):
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False

@@ -11,6 +11,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import to_json
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
+from lyapcheck.kernel.record import GRADE, accepted_before
 
 if TYPE_CHECKING:
     from lyapcheck.claims.decision import Decision
@@ -60,6 +61,15 @@ class ClaimResult:
         """The verdict, with what the claim uses taken into account."""
         return self.decision.verdict
 
+    @cached_property
+    def grade(self) -> str:
+        """The grade of the evidence: ``kernel`` if Coq's kernel has accepted what was decided."""
+        stated, decision = self.stated, self.decision
+        if isinstance(stated, Statement) and (proof := decision.certificate) is not None:
+            known = accepted_before(stated, proof, decision.verdict.value)
+            return GRADE if known else decision.grade.label
+        return decision.grade.label
+
     @property
     def words(self) -> str:
         """What the author calls it, marked as such."""
@@ -82,7 +92,7 @@ class ClaimResult:
             "section": self.section,
             "kind": self.kind,
             "verdict": self.verdict.value,
-            "grade": self.decision.grade.label,
+            "grade": self.grade,
             "uses": list(self.uses),
             "broken": list(self.broken),
             "witness": self.decision.witness,

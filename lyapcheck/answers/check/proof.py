@@ -8,6 +8,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.check.claim import ClaimResult
+from lyapcheck.kernel.record import GRADE as KERNEL
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
@@ -25,9 +26,10 @@ LEVELS = {
     Verdict.UNDECIDED: Level.UNDECIDED,
 }
 GRADES = {
-    Grade.EXACT: "exact: rational numbers and symbolic normal forms.",
-    Grade.ENCLOSURE: "enclosure: balls that enclose the exact numbers.",
-    Grade.NUMERIC: "numeric: nothing that could decide the claim.",
+    KERNEL: "kernel: Coq's kernel has accepted it as a theorem as well; recheck --kernel asks it anew.",
+    Grade.EXACT.label: "exact: rational numbers and symbolic normal forms.",
+    Grade.ENCLOSURE.label: "enclosure: balls that enclose the exact numbers.",
+    Grade.NUMERIC.label: "numeric: nothing that could decide the claim.",
 }
 WHOSE = "Statements and verdicts are the checker's; what the author calls them stands in quotation marks."
 
@@ -152,9 +154,7 @@ class ProofResult(Answer):
     def _notes(self) -> Iterator[str]:
         """Whose words are whose, and what the grades mean."""
         yield WHOSE
-        yield from (
-            text for grade, text in GRADES.items() if any(r.decision.grade is grade for r in self.claims)
-        )
+        yield from (text for grade, text in GRADES.items() if any(row.grade == grade for row in self.claims))
 
 
 def _ids(rows: Sequence[ClaimResult]) -> str:
@@ -194,7 +194,7 @@ def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
             "": row.verdict.sign,
             "claim": row.id,
             "m": "" if row.m is None else str(row.m),
-            "grade": row.decision.grade.label,
+            "grade": row.grade,
             "seconds": f"{row.seconds:.2f}",
             "statement": row.statement,
         }

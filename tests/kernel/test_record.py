@@ -1,0 +1,56 @@
+"""What Coq's kernel has accepted before: known by the printed proposition, without Coq."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.answers.check.claim import ClaimResult
+from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.loop_property import LoopProperty
+from lyapcheck.claims.decision import Decision
+from lyapcheck.kernel import coq, record
+from lyapcheck.kernel.judge import Kernel
+from lyapcheck.verdicts import Grade, Verdict
+from tests.kernel.test_statements import GOOD
+
+ONE = certificate_of((GOOD / "ext.V-is-positive-definite.json").read_bytes())[0]
+
+
+def result(one: object, decision: Decision) -> ClaimResult:
+    return ClaimResult("V", 1, None, "", "", "", "", (), (), decision, one, 0.0)  # type: ignore[arg-type]
+
+
+def test_check_shows_the_grade_of_what_the_record_has(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof)
+    assert result(ONE.statement, decision).grade == "kernel"
+    assert isinstance(ONE.statement, LoopProperty)
+    x = ("var", "x")
+    other = replace(ONE.statement, h=("h", 77, x), slope=("dh", 77, x), potential=("potential", 77, x))
+    assert result(other, decision).grade == "exact"
+
+
+def test_another_page_of_definitions_makes_the_record_void(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    accepted = json.loads(record.FILE.read_text(encoding="utf-8"))
+    old = tmp_path / "accepted.json"
+    old.write_text(json.dumps(accepted | {"definitions": "0" * 64}), encoding="utf-8")
+    monkeypatch.setattr(record, "FILE", old)
+    record._record.cache_clear()
+    try:
+        assert not record.accepted_before(ONE.statement, ONE.proof, ONE.verdict)
+    finally:
+        record._record.cache_clear()
+
+
+def test_only_what_coq_accepted_enters_the_record() -> None:
+    written = json.loads(
+        record.written([Kernel("a", True, "", "0 = 0", "real"), Kernel("b", False, "no", "0 = 1", "")])
+    )
+    assert written["accepted"][record.digest("0 = 0")] == "real"
+    assert record.digest("0 = 1") not in written["accepted"]
