@@ -3,7 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report screenshots site study test test-slow test-robots kernel fuzz lint types bench lock clean help
+.PHONY: report screenshots site study test test-slow test-robots test-sweep kernel fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
@@ -13,6 +13,7 @@ help:
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 10,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
+	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
 	@echo "make lint       style (ruff) and formatting"
@@ -46,6 +47,10 @@ test-slow: .venv/.ready
 test-robots: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
 	$(BIN)/pytest tests/robots/against_pinocchio.py
+
+test-sweep: .venv/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sweep]"
+	$(BIN)/pytest tests/sweep/on_a_cluster.py
 
 # Only this target needs Coq; it installs nothing by itself.
 kernel:

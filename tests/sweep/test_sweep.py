@@ -201,7 +201,7 @@ def test_every_question_is_answered_as_by_its_command(tmp_path: Path) -> None:
         assert told == data, ask
     assert [row["verdict"] for row in rows.values()] == [
         "proved",
-        "accepted",
+        "rejected",
         "proved",
         "proved",
         "observed",
