@@ -24,6 +24,7 @@ from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.intervals.family import dh_range, h_range
 from lyapcheck.search.cover import Outcome, cover
 from lyapcheck.search.schur import Problem
+from lyapcheck.search.shared import prover
 
 
 def certify(
@@ -47,7 +48,7 @@ def certify(
         return Outcome(True, 0, tree=".")
     start = np.array(loop.start).T[None]
     sides = Splitter.of(problem).sides
-    return cover(start, problem.proved, sides, max_boxes, on_progress, deadline)
+    return cover(start, prover(problem), sides, max_boxes, on_progress, deadline)
 
 
 ANGLES = 0.25

@@ -15,6 +15,7 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
+from lyapcheck.search.shared import boxes_shared
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
 """Shares of the falsified ε₀ that are tried first, one after the other."""
@@ -59,7 +60,7 @@ def certified_epsilon(
         controlled: gains and arm, with its ranges where the setting has them.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
-        jobs: processes for the checker.
+        jobs: processes that share the boxes, of the search and of the checker; they change no answer.
         seconds: no new boxes are looked at after that time; the answer then depends on the machine.
         on_progress: told the share of the attempts done.
 
@@ -75,9 +76,10 @@ def certified_epsilon(
     progress = on_progress or (lambda fraction, note: None)
     search = _Search(controlled, ceiling, progress)
     began, seconds = monotonic(), math.inf if seconds is None else seconds
-    # no more than half of everything for what may be too much
-    result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
-    result += search.climb(HOPED[1:] if result else SHARES, max_boxes, began + seconds)
+    with boxes_shared(jobs):
+        # no more than half of everything for what may be too much
+        result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
+        result += search.climb(HOPED[1:] if result else SHARES, max_boxes, began + seconds)
     while result:
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")

@@ -17,6 +17,8 @@ import pytest
 from pyarrow import parquet
 
 import lyapcheck
+from lyapcheck.search import shared
+from tests.search.test_shared import certified
 from tests.sweep.test_sweep import PLAN, contents, program, rows_after
 
 MANY = PLAN.replace("step = 0.05", "step = 0.0002")
@@ -109,6 +111,17 @@ def test_a_worker_is_killed_in_the_middle_and_no_byte_changes(plan: Path, tmp_pa
     assert [row["index"] for row in rows] == list(range(len(rows)))
     table = parquet.read_table(out / "rows.parquet").to_pylist()
     assert [{**row, "answer": json.loads(row["answer"])} for row in table] == rows
+
+
+def test_workers_share_the_boxes_of_one_question(cluster, monkeypatch: pytest.MonkeyPatch) -> None:
+    from distributed import Client
+
+    address, _ = cluster
+    until(lambda: workers_of(address) == 2)
+    alone = certified(600)
+    monkeypatch.setattr(shared, "WORTH", 8)
+    with Client(address, set_as_default=False) as client, shared.boxes_shared(2, client.get_executor()):
+        assert certified(600) == alone
 
 
 def test_rows_become_a_data_frame(plan: Path) -> None:

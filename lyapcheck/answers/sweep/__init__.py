@@ -30,7 +30,7 @@ def asked(plan: Plan, workers: int, scheduler: str | None = None) -> Iterator[An
     if scheduler is not None:
         from lyapcheck.answers.sweep import cluster
 
-        results = cluster.answers(work, scheduler)
+        results = cluster.answers(work, scheduler, plan.count)
     else:
         from lyapcheck.answers.sweep import local
 

@@ -10,6 +10,7 @@ from lyapcheck import store
 from lyapcheck.answers.sweep.ask import Batch, ask
 from lyapcheck.answers.sweep.question import Answered
 from lyapcheck.errors import argument_error
+from lyapcheck.search.shared import boxes_shared
 
 AHEAD = 16
 """Batches a thread of a worker that may be under way, or done and waiting for an earlier one."""
@@ -19,13 +20,13 @@ RETRIES = 5
 """How often a batch is asked again whose worker was lost."""
 
 
-def answers(batches: Iterable[Batch], scheduler: str, jobs: int = 1) -> Iterator[list[Answered]]:
+def answers(batches: Iterable[Batch], scheduler: str, count: int) -> Iterator[list[Answered]]:
     """What comes of each batch, in their order.
 
     Args:
         batches: taken as they are needed.
         scheduler: the address, ``tcp://host:port``.
-        jobs: processes that a worker may start for one question.
+        count: how many questions; threads beyond that share the boxes of each.
 
     Raises:
         InputError: distributed is not installed, no scheduler answers, or a worker has another lyapcheck.
@@ -44,7 +45,8 @@ def answers(batches: Iterable[Batch], scheduler: str, jobs: int = 1) -> Iterator
     under_way: deque[Any] = deque()
     with client:
         while True:
-            room = AHEAD * max(1, sum(client.nthreads().values()))
+            threads = max(1, sum(client.nthreads().values()))
+            room, jobs = AHEAD * threads, threads // min(threads, max(1, count))
             while len(under_way) < room and (batch := next(left, None)) is not None:
                 under_way.append(client.submit(_ask, batch, jobs, pure=False, retries=RETRIES))
             if not under_way:
@@ -58,5 +60,13 @@ def answers(batches: Iterable[Batch], scheduler: str, jobs: int = 1) -> Iterator
 
 
 def _ask(batch: Batch, jobs: int) -> tuple[str, list[Answered]]:
-    """What comes of a batch, and what the worker is made of."""
-    return store.made_with(), ask(batch, jobs)
+    """What comes of a batch, and what the worker is made of.
+
+    With more than one job the boxes of a hard question go to the other workers; the checker stays here.
+    """
+    if jobs <= 1:
+        return store.made_with(), ask(batch)
+    from distributed import worker_client
+
+    with worker_client() as client, boxes_shared(jobs, client.get_executor()):
+        return store.made_with(), ask(batch)

@@ -52,7 +52,13 @@ def arguments(parser: Parser) -> None:
     about = "Only the gain sets of these members: 3, 1,2,5 or 1:12."
     parser.add_argument("--m", metavar="M", help=about)
     parser.add_whole("--max-boxes", "Budget of branch and bound.", default=400_000, least=1)
-    parser.add_whole("--jobs", "Processes for checking the boxes.", default=2, least=1, most=64)
+    parser.add_whole(
+        "--jobs",
+        "Processes that share the boxes, of the search and of the checker.",
+        default=2,
+        least=1,
+        most=64,
+    )
     about = "For all values of what is uncertain about the arm."
     parser.add_argument("--ranges", action="store_true", help=about)
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
