@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.search.cover import Prover
 from lyapcheck.search.schur import Problem
 
@@ -53,7 +54,8 @@ class Sharing:
             self.pool, self.own = ProcessPoolExecutor(self.jobs, get_context("spawn")), True
         loop = replace(problem.loop)  # without what it has computed for itself
         slices = np.array_split(boxes, self.jobs * SLICES)
-        asked = [self.pool.submit(proved_of, loop, part) for part in slices]
+        with main_unnamed():
+            asked = [self.pool.submit(proved_of, loop, part) for part in slices]
         return np.concatenate([one.result() for one in asked])
 
 

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import os
-import sys
 import tempfile
 from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from multiprocessing import get_context
-from types import ModuleType
 
 from lyapcheck.answers.sweep.ask import Batch, ask, failed
 from lyapcheck.answers.sweep.question import Answered
+from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.temporary import temporary_folder
 
 AHEAD = 16
@@ -83,7 +81,7 @@ def _alone(batch: Batch, jobs: int, place: str) -> list[Answered]:
 
 
 def _submitted(pool: ProcessPoolExecutor, batch: Batch, jobs: int) -> Future[list[Answered]]:
-    with _no_main():
+    with main_unnamed():
         try:
             return pool.submit(ask, batch, jobs)
         except BrokenProcessPool as broken:  # since the last look at it
@@ -100,14 +98,3 @@ def _pool(workers: int, place: str) -> ProcessPoolExecutor:
 def _work_in(place: str) -> None:
     """Put the temporary files of a process where who started it can remove them."""
     tempfile.tempdir = place
-
-
-@contextmanager
-def _no_main() -> Iterator[None]:
-    """Processes that are started meanwhile do not run the user's script, which need not guard itself."""
-    main = sys.modules["__main__"]
-    sys.modules["__main__"] = ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
