@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.decay.speeds import slowed
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
@@ -34,11 +35,15 @@ class ControlledArm:
         gains: the controller.
         model: the arm.
         ranges: prove for all values of the uncertain parameters and friction, not only the nominal ones.
+        floors: least values of h(w_i)/w_i where speeds are bounded; none where they are not.
+        within: bounds of |e_i|, rad, where only such states are asked about; none for all.
     """
 
     gains: GainSet
     model: Plant
     ranges: bool = False
+    floors: tuple[Fraction, ...] = ()
+    within: tuple[Fraction, ...] = ()
 
     def __post_init__(self) -> None:
         n = self.model.n
@@ -127,7 +132,9 @@ class ControlledArm:
         """
         if self.family.bounded:
             _ = self.family.checked
-        return closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
+        whole = closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
+        asked = replace(whole, within=self.within)
+        return slowed(asked, self.floors) if self.floors else asked
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0

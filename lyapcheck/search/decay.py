@@ -26,6 +26,7 @@ from lyapcheck.search.decay_levels import Descent, descent
 from lyapcheck.search.decay_rest import resting
 from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Shown, accepted
 from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
+from lyapcheck.search.phases import Phases
 
 COARSE = 0.6
 FINE = 0.93
@@ -43,6 +44,7 @@ def settling_bound(
     w0: Sequence[float] | None = None,
     delta: float = math.radians(1.0),
     *,
+    in_phases: bool = True,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
     on_progress: Progress | None = None,
@@ -56,6 +58,7 @@ def settling_bound(
         e0: (n,) q_d − q at the start, rad; it holds for all starts that are no farther, joint by joint.
         w0: (n,) rates at the start, rad/s, and likewise; rest if missing.
         delta: δ > 0, rad.
+        in_phases: look for ever larger ε₀ as V falls, where the arm has few enough joints.
         max_boxes: the budget of each attempt at a proof.
         jobs: processes for the checker.
         on_progress: told the share done.
@@ -70,8 +73,12 @@ def settling_bound(
     start = start_of(controlled, e0, w0, delta)
     wanted = _Wanted(controlled, Disturbance.none(controlled.n), start, short_below(as_written(delta)))
     shown, reason = None, not_positive(controlled)
-    if not reason:
-        shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
+    progress = on_progress or _silent
+    if not reason and in_phases:
+        claim = Phases(controlled, start, wanted.goal or Fraction(0), max_boxes).found(progress)
+        shown = claim if claim is not None and accepted(claim.statement, claim.proof, jobs) else None
+    if not reason and shown is None:
+        shown, reason = wanted.shown(max_boxes, jobs, progress)
     gains, robot = controlled.gains, controlled.model.name
     exponential = gains.m in (None, 1)
     return SettlingBound(gains.name, gains.m, robot, shown, reason, as_written(delta), exponential)

@@ -64,7 +64,7 @@ def descent(
         return Descent(((Fraction(0), first),), ())
     if last == 0:
         return None
-    result = _descend(estimate, family, first, last, ratio)
+    result = lowered(estimate, family, first, last, ratio)
     return result if result.level == last else None
 
 
@@ -78,16 +78,23 @@ def level_within(estimate: Estimate, e: Fraction) -> Fraction:
 def _lowest(estimate: Estimate, family: Family, first: Fraction, ratio: float) -> Descent | None:
     """From the first level, or a higher one: near the goal a disturbance may make V rise."""
     for power in range(RISES):
-        result = _descend(estimate, family, first * RISE**power, first * DEEPEST, ratio)
+        result = lowered(estimate, family, first * RISE**power, first * DEEPEST, ratio)
         if result.slopes:
             return result
     return None
 
 
-def _descend(estimate: Estimate, family: Family, first: Fraction, last: Fraction, ratio: float) -> Descent:
-    """Down from the first level to the last one, as long as V is shown to fall."""
+def lowered(
+    estimate: Estimate,
+    family: Family,
+    first: Fraction,
+    last: Fraction,
+    ratio: float,
+    begins: Fraction = Fraction(0),
+) -> Descent:
+    """Down from the first level, at time ``begins``, s, to the last one, as long as V is shown to fall."""
     best = Slopes(estimate, family).best
-    envelope, slopes = [(Fraction(0), first)], []
+    envelope, slopes = [(begins, first)], []
     for low in map(short_below, falling(first, last, ratio)):
         time, high = envelope[-1]
         if low >= high:

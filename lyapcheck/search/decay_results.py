@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
 from lyapcheck.check.loop import shared_between
@@ -16,30 +17,49 @@ from lyapcheck.check.verify import verify
 
 @dataclass(frozen=True)
 class Provenance:
-    """What a bound rests on: the accepted proof, ε₀, and the shares of B and K_p that it does without."""
+    """What a bound rests on: the accepted proof, ε₀, and the shares of B and K_p that it does without.
+
+    In several phases ε₀ is the least one, and the shares are the largest.
+    """
 
     by: str
     boxes: int
     eps0: Fraction
     friction: Fraction
     stiffness: Fraction
+    phases: int = 1
 
 
 @dataclass(frozen=True)
 class Shown:
     """A statement and the proof by which the checker has accepted it."""
 
-    statement: Settling
-    proof: FallingLevels
+    statement: Settling | StaysWithin
+    proof: FallingLevels | FallingPhases
 
     @property
     def rests_on(self) -> Provenance:
         """What it rests on."""
-        rate = self.proof.decreasing.rate
-        tree = getattr(rate, "tree", "")
-        by = "branch and bound" if isinstance(rate, BoxTree) else "bounds in ‖e‖ alone"
-        shares = self.proof.friction, self.proof.stiffness
-        return Provenance(by, tree.count("."), self.statement.eps0, *shares)
+        parts = [(part.friction, part.stiffness, rate, eps0) for part, rate, eps0 in self._parts()]
+        frictions, stiffnesses, rates, eps0s = zip(*parts, strict=True)
+        boxes = sum(getattr(rate, "tree", "").count(".") for rate in rates)
+        boxed = all(isinstance(rate, BoxTree) for rate in rates)
+        by = "branch and bound" if boxed else "bounds in ‖e‖ alone"
+        return Provenance(by, boxes, min(eps0s), max(frictions), max(stiffnesses), len(parts))
+
+    def _parts(self) -> list[tuple[Phase | FallingLevels, Proof, Fraction]]:
+        """The phases, with what shows dV/dt < 0 and ε₀."""
+        if isinstance(self.proof, FallingPhases):
+            return [(phase, phase.rate, phase.eps0) for phase in self.proof.phases]
+        eps0 = self.statement.eps0 if isinstance(self.statement, Settling) else Fraction(0)
+        return [(self.proof, self.proof.decreasing.rate, eps0)]
+
+    @property
+    def envelope(self) -> Envelope:
+        """Pairs (s, J): from that time on V is at most that, in several phases at the ε₀ of each."""
+        if isinstance(self.proof, FallingPhases):
+            return tuple(pair for phase in self.proof.phases for pair in phase.envelope)
+        return self.statement.envelope if isinstance(self.statement, Settling) else ()
 
 
 @dataclass(frozen=True)
@@ -63,7 +83,7 @@ class MotionBound:
     @property
     def envelope(self) -> Envelope:
         """Pairs (s, J): from that time on V is at most that."""
-        return () if self.shown is None else self.shown.statement.envelope
+        return () if self.shown is None else self.shown.envelope
 
     @property
     def time(self) -> Fraction | None:

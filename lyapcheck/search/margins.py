@@ -120,6 +120,8 @@ def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
     q = random.uniform(-np.pi, np.pi, (SAMPLES, angles))
     e = random.normal(size=(SAMPLES, controlled.n))
     e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    if controlled.within:
+        e = np.clip(e, *(sign * np.array(controlled.within, dtype=float) for sign in (-1.0, 1.0)))
     points = np.hstack((q, e))
     boxes = np.stack((points, points), axis=1)
 

@@ -74,8 +74,9 @@ class Problem:
 
     def schur(self, sides: Sides) -> Rows:
         """P: the entries on and below the diagonal."""
-        shrink = inverse_one_plus(norm(sides.e))
-        eps = shrink * Interval.of(self.loop.eps0)
+        local = bool(self.loop.within)
+        shrink = Interval.exact(0.0) if local else inverse_one_plus(norm(sides.e))
+        eps = Interval.of(self.loop.eps0) if local else shrink * Interval.of(self.loop.eps0)
         S = self._coupling(sides, shrink)
         X = _plus(sides.viscous, S, eps)
         quarter = eps * 0.25

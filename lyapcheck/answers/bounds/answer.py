@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.bounds.compare import Comparison
 from lyapcheck.answers.bounds.data import comparison_data
 from lyapcheck.answers.bounds.words import (
+    after_text,
     angle_text,
     angle_up,
     provenance_text,
+    ratio_text,
     seconds_up,
     simulated_time,
     title,
@@ -113,9 +115,11 @@ def _times(results: Sequence[Comparison]) -> Table:
     """When the errors are small for good, if nothing acts."""
     angles = ", ".join(dict.fromkeys(angle_text(result.settling.delta) for result in results))
     rows = [
-        (result.settling.name, seconds_up(result.settling.time), simulated_time(result)) for result in results
+        (result.settling.name, seconds_up(result.settling.time), simulated_time(result), ratio_text(result))
+        for result in results
     ]
-    return Table(("gains", "certified", "simulated"), tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
+    heads = ("gains", "certified", "simulated", "ratio")
+    return Table(heads, tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
 
 
 def _behind(result: Comparison) -> list[Table | Bullets]:
@@ -127,6 +131,8 @@ def _behind(result: Comparison) -> list[Table | Bullets]:
             said.append(f"no certified {name}: {bound.reason}.")
         elif bound.rests_on is not None and (bound is settling or _acting(result)):
             said.append(f"{name} proved by {provenance_text(bound.rests_on)}.")
+    if after := after_text(result):
+        said.append(f"{after}.")
     if settling.time is not None and not settling.exponential:
         said.append(f"{FLAT}.")
     return [*_errors(result), Bullets(tuple(said))]

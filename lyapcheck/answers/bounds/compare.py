@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
 
 
+LONGER, LONGEST = 6.0, 200.0
+"""A run that has not settled is made so many times as long, up to so many seconds."""
+
+
 @dataclass(frozen=True)
 class Comparison:
     """Bounds, certified, and what was seen in one run, in floating point.
@@ -32,6 +36,7 @@ class Comparison:
         disturbance: what a disturbance leaves.
         task: the motion that was simulated.
         simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
+        simulated_for: s, how long that run was.
         simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
         assumptions: what is taken for granted about the arm.
     """
@@ -42,6 +47,7 @@ class Comparison:
     disturbance: DisturbanceBound
     task: Task
     simulated_time: float | None
+    simulated_for: float
     simulated_errors: tuple[float, ...]
     assumptions: tuple[str, ...]
 
@@ -99,7 +105,11 @@ def compare(
         on_progress=lambda f, note: progress(0.45 + 0.45 * f, note),
     )
     progress(0.9, "simulation")
-    calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T)
+    duration = task.T
+    calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, duration)
+    while inside_from(calm.t, calm.e, delta) is None and _longer(settling, duration):
+        duration *= LONGER
+        calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, duration)
     pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
     return Comparison(
         gains=gain_set,
@@ -107,10 +117,16 @@ def compare(
         settling=settling,
         disturbance=left,
         task=task,
+        simulated_for=duration,
         simulated_time=inside_from(calm.t, calm.e, delta),
         simulated_errors=last_errors(pushed.e),
         assumptions=model.assumptions,
     )
+
+
+def _longer(settling: SettlingBound, duration: float) -> bool:
+    """Whether a run should be longer, to be compared with the certified time."""
+    return settling.time is not None and duration * LONGER <= min(LONGEST, LONGER * float(settling.time))
 
 
 def coulomb(model: RobotModel) -> tuple[float, ...]:

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
 
@@ -28,6 +29,7 @@ def comparison_data(result: Comparison) -> dict[str, Any]:
         "simulated": {
             "duration": task.T,
             "time": result.simulated_time,
+            "time_limit": result.simulated_for,
             "errors": [_degrees(x) for x in result.simulated_errors],
         },
         "assumptions": list(result.assumptions),
@@ -43,10 +45,20 @@ def _settling(bound: SettlingBound) -> dict[str, Any]:
         "envelope": [{"time": above(t), "level": above(v)} for t, v in bound.envelope],
         "errors": [_degrees_above(x) for x in bound.largest_errors],
         "exponential": bound.exponential,
+        "after": _after(bound),
         "rests_on": _provenance(bound.rests_on),
         "statement": _text(None if bound.shown is None else bound.shown.statement),
         "reason": bound.reason,
     }
+
+
+def _after(bound: SettlingBound) -> dict[str, Any] | None:
+    """How errors die out from the certified time on: sizes in degrees and a scale in s."""
+    statement = None if bound.shown is None else bound.shown.statement
+    if not isinstance(statement, StaysWithin) or statement.after is None:
+        return None
+    sizes = [_degrees_above(x) for x in statement.after.sizes]
+    return {"sizes": sizes, "scale": above(statement.after.scale)}
 
 
 def _disturbance(bound: DisturbanceBound) -> dict[str, Any]:
@@ -76,6 +88,7 @@ def _provenance(result: Provenance | None) -> dict[str, Any] | None:
     numbers = {"eps0": result.eps0, **shares}
     return {
         "by": result.by,
+        "phases": result.phases,
         "boxes": result.boxes,
         **{name: decimal_text(value) for name, value in numbers.items()},
     }

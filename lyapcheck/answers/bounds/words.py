@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.numbers.enclosure import Enclosure
 
 if TYPE_CHECKING:
@@ -42,10 +43,30 @@ def seconds_up(value: Fraction | None) -> str:
     return "—" if value is None else f"{_up(Enclosure(value, value).float_upper)} s"
 
 
+def ratio_text(result: Comparison) -> str:
+    """How many times the certified time is that of the run."""
+    if result.settling.time is None or not result.simulated_time:
+        return "—"
+    return f"{float(result.settling.time) / result.simulated_time:.3g} ×"
+
+
+def after_text(result: Comparison) -> str:
+    """How errors die out, where that is certified; empty where it is not."""
+    shown = result.settling.shown
+    after = shown.statement.after if shown is not None and isinstance(shown.statement, StaysWithin) else None
+    if after is None:
+        return ""
+    m = result.settling.m or 1
+    elapsed = f"(t − T)/({_up(float(after.scale))} s)"
+    falling = f"exp(−{elapsed})" if m == 1 else f"(1 + {elapsed})^(−1/{2 * m - 2})"
+    sizes = ", ".join(map(angle_up, after.sizes))
+    return f"from T = {seconds_up(result.settling.time)} on |e_i| ≤ a_i {falling} is certified, a = ({sizes})"
+
+
 def simulated_time(result: Comparison) -> str:
     """When the run came to stay within δ."""
     if result.simulated_time is None:
-        return f"not within {result.task.T:g} s"
+        return f"not within {result.simulated_for:g} s"
     return f"{result.simulated_time:.3g} s"
 
 
@@ -63,7 +84,10 @@ def provenance_text(result: Provenance) -> str:
     """What a bound rests on."""
     shares = f"{float(result.friction):.0%} of B and {float(result.stiffness):.0%} of K_p"
     boxes = "box" if result.boxes == 1 else "boxes"
-    return f"{result.by} ({result.boxes} {boxes}), ε₀ = {float(result.eps0):g}, doing without {shares}"
+    by = f"{result.by} ({result.boxes} {boxes})"
+    if result.phases > 1:
+        return f"{by} in {result.phases} phases, ε₀ ≥ {float(result.eps0):g}, doing without at most {shares}"
+    return f"{by}, ε₀ = {float(result.eps0):g}, doing without {shares}"
 
 
 def _up(value: float) -> str:

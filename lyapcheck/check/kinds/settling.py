@@ -149,7 +149,7 @@ def by_levels(statement: Settling, proof: FallingLevels) -> Accepted:
     _, first = statement.envelope[0]
     start = estimate.start_level(statement.errors_at_start, statement.rates_at_start)
     require(start <= first, "first level", first, f"must be at least {float(start):.6g} J, where V may start")
-    _require_falling(estimate, statement.envelope, proof.slopes)
+    require_falling(estimate, statement.envelope, proof.slopes)
     for subject, level in (("largest_errors", first), ("errors", statement.envelope[-1][1])):
         errors = getattr(statement, subject)
         kept = estimate.keeps(level, errors)
@@ -157,7 +157,12 @@ def by_levels(statement: Settling, proof: FallingLevels) -> Accepted:
     return Accepted("proved", weakest([grade, "enclosure"]))
 
 
-def _require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fraction, ...]) -> None:
+def require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fraction, ...]) -> None:
+    """V is shown to fall through every band of an envelope in the time that is stated.
+
+    Raises:
+        Refused: in one band it is not.
+    """
     bands = len(envelope) - 1
     require(len(slopes) == bands, "slopes", len(slopes), f"must be {bands}, one a band")
     for ((t, high), (later, low)), slope in zip(pairwise(envelope), slopes, strict=True):

@@ -41,6 +41,8 @@ class ClosedLoop:
         parameters: the range of each parameter in M.
         viscous: the range of each diagonal entry of B, N·m·s/rad; none where B is that of the arm.
         coupling: diagonal of Λ in y = w − εΛh, dimensionless; none for (13), where Λ = I.
+        within: bounds of |e_i|, rad, where only such states are asked about, with ε = ε₀ at each of them;
+            none for all states, with ε = ε₀/(1 + ‖e‖).
     """
 
     arm: Arm
@@ -52,6 +54,7 @@ class ClosedLoop:
     parameters: tuple[Range, ...] = ()
     viscous: tuple[Range, ...] = ()
     coupling: tuple[Fraction, ...] = ()
+    within: tuple[Fraction, ...] = ()
 
     @property
     def n(self) -> int:
@@ -148,13 +151,16 @@ class ClosedLoop:
 
     @cached_property
     def radius(self) -> float:
-        """A double R ≥ 0 beyond which the scalar form is enough.
+        """A double R ≥ 0 beyond which the scalar form is enough, or no state is asked about.
 
         Raises:
             ValueError: the closure is not admissible, or the radius is beyond all angles.
         """
         if not self.admissible:
             raise ValueError("a closure that is not admissible has no radius")
+        if self.within:
+            far = root_above(sum((x * x for x in self.within), Fraction(0)))
+            return math.nextafter(float(far), math.inf)
         radius = Fraction(1, 64)
         while not certifies(self.tail, self.eps0 / (1 + radius)):
             radius = radius * 5 / 4
@@ -167,6 +173,7 @@ class ClosedLoop:
         """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
         ranges = (*self.parameters, *self.friction)
         sizes = {self.n, len(self.kp), len(self.kv), len(self.friction), len(self.Lambda)}
+        sizes |= {len(self.within)} if self.within else set()
         if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
             return False
         if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
@@ -182,7 +189,8 @@ class ClosedLoop:
     @property
     def start(self) -> Box:
         """The box of the angles that matter, the errors, in rad, and what is uncertain."""
-        errors = [(0.0 if i in self.one_sided else -self.radius, self.radius) for i in range(self.n)]
+        far = [math.nextafter(float(x), math.inf) for x in self.within] or [self.radius] * self.n
+        errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(far)]
         uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 
@@ -200,7 +208,10 @@ def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
 
 
 class RateProof(Proof, ABC):
-    """A proof that dV/dt < 0 at every state but the origin of an admissible closed loop with M ≻ 0."""
+    """A proof that dV/dt < 0 at every state asked about, but the origin, of an admissible loop with M ≻ 0.
+
+    It must hold for every diagonal D with entries from 0 to L in place of h(w_i)/w_i, for ``decay.speeds``.
+    """
 
     @abstractmethod
     def require_shown(self, loop: ClosedLoop) -> None:

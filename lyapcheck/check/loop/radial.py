@@ -76,7 +76,7 @@ def proves_radially(loop: ClosedLoop, radial: RadialBounds) -> bool:
     """Whether dV/dt < 0 is shown at every state but the origin.
 
     Args:
-        loop: arm, controller and ε₀, without parameters and with Λ = I.
+        loop: arm, controller and ε₀, for all states, without parameters and with Λ = I.
         radial: untrusted data.
 
     Returns:
@@ -85,7 +85,7 @@ def proves_radially(loop: ClosedLoop, radial: RadialBounds) -> bool:
     Raises:
         BrokenTree: the text is not a tree of the angles.
     """
-    covered = not loop.parameters and not loop.coupling
+    covered = not loop.parameters and not loop.coupling and not loop.within
     if not loop.admissible or not covered or not fits(loop, radial):
         return False
     with precision(BITS):

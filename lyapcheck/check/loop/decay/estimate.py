@@ -89,14 +89,23 @@ class Estimate:
     def start_level(self, errors: Sequence[Fraction], rates: Sequence[Fraction]) -> Fraction:
         """A bound from above of V where |e_i| ≤ errors, rad, and |w_i| ≤ rates, rad/s, for all q: J.
 
-        ½ μ Σ d_i² (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x.
+        ½ μ Σ d_i² (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x, or ε₀ L x
+        where ε = ε₀.
         """
+        return self._at_start(errors, rates, self.margin.loop.eps0)
+
+    def start_energy(self, errors: Sequence[Fraction], rates: Sequence[Fraction]) -> Fraction:
+        """Likewise of ½ wᵀMw + Σ k_pi U(e_i), which is V at ε₀ = 0."""
+        return self._at_start(errors, rates, Fraction(0))
+
+    def _at_start(self, errors: Sequence[Fraction], rates: Sequence[Fraction], eps0: Fraction) -> Fraction:
         loop, inertia = self.margin.loop, self.margin.inertia
         with precision(BITS):
-            steepest = to_arb(loop.eps0 * self.member.L)
+            steepest = to_arb(eps0 * self.member.L)
             moving = stored = arb(0)
             for x, rate, d, k in zip(errors, rates, inertia.weights, loop.kp, strict=True):
-                moving += (to_arb(d) * (to_arb(rate) + steepest * to_arb(x / (1 + x)))) ** 2
+                near = x if loop.within else x / (1 + x)
+                moving += (to_arb(d) * (to_arb(rate) + steepest * to_arb(near))) ** 2
                 stored += to_arb(k) * self.member.potential(to_arb(x))
             return Enclosure.from_arb(to_arb(inertia.inertia) * moving / 2 + stored).upper
 
@@ -131,9 +140,9 @@ class Estimate:
             rows = zip(self.stiffness, self.disturbance.dry, self.margin.loop.kp, ends, strict=True)
             for c, f, k, end in rows:
                 inside += Well(self.member, to_arb(c), to_arb(f), to_arb(slope * k)).least(end)
-            eps = to_arb(self.margin.loop.eps0) / (1 + sum((arb(x) ** 2 for x in ends), arb(0)).sqrt())
-            if not inside > 0:
-                eps = to_arb(self.margin.loop.eps0)
+            eps = to_arb(self.margin.loop.eps0)
+            if inside > 0 and not self.margin.loop.within:
+                eps /= 1 + sum((arb(x) ** 2 for x in ends), arb(0)).sqrt()
             return Enclosure.from_arb(eps * inside - to_arb(self.loss)).lower
 
 

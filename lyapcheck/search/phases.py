@@ -1,0 +1,233 @@
+"""Phases of a motion: as V falls the arm is slower and nearer, so that it is shown to fall faster.
+
+Each phase has the largest ε₀ that is proved for the speeds and errors which the energy still allows. The
+search is in doubles; the checker judges what comes of it (``lyapcheck.check.kinds.phases``).
+
+References: ``reyes2019family`` (11), (13).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from lyapcheck._types import SEED, Progress
+from lyapcheck.check.kinds.inertia import Bisection, Mass, MassAbove
+from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin, lightened
+from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.decay.estimate import reach_of
+from lyapcheck.check.loop.decay.speeds import fastest, regraded
+from lyapcheck.check.loop.decay.tail import covers, degree, shortest
+from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.search.certified import MOST_JOINTS
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay_digits import short_above, short_below
+from lyapcheck.search.decay_input import Start
+from lyapcheck.search.decay_levels import Descent, level_within, lowered
+from lyapcheck.search.decay_results import Shown
+from lyapcheck.search.margins import Attempt, attempts, candidates, margin_at
+from lyapcheck.search.radial import radial_data
+
+COARSE, FINE = 0.6, 0.93
+"""Ratio of neighbouring levels, to compare margins and for the answer."""
+STEP = Fraction(1, 6)
+"""What is left of V after a phase."""
+MOST_PHASES = 24
+SHARES = tuple(Fraction(k, 100) for k in (98, 90, 50))
+"""Of the least inertia that samples show, tried one after the other."""
+SAMPLES = 4_000
+POINTS = 400
+SMALL = Fraction(1, 10**6)
+"""ε₀ of an estimate that is asked for nothing which depends on it."""
+ROOM = Fraction(101, 100)
+"""Above the energy, for what the checker rounds."""
+
+
+class Phases:
+    """What is known when some phases are over.
+
+    Args:
+        controlled: gains and arm, at nominal numbers.
+        start: bounds of |e_i| and |w_i|.
+        goal: rad.
+        max_boxes: the budget of each attempt.
+    """
+
+    def __init__(self, controlled: ControlledArm, start: Start, goal: Fraction, max_boxes: int) -> None:
+        self.controlled, self.start, self.goal, self.max_boxes = controlled, start, goal, max_boxes
+        self.made: list[Phase] = []
+        self.member = member(controlled.gains.family, controlled.gains.m)
+        self.lightest = _lightest(controlled)
+        self.base = self._base()
+        self.last = self.base
+        self.energy = Fraction(0) if self.base is None else self.base.start_energy(*start)
+        self.largest = short_above(self.energy * ROOM)
+        self.level = self.eps0 = self.time = Fraction(0)
+
+    def found(self, on_progress: Progress) -> Shown | None:
+        """A statement by when every |e_i| ≤ goal and its untrusted proof; none where there is none."""
+        if self.base is None or self.controlled.n > MOST_JOINTS:
+            return None
+        first, last = self.energy, short_below(level_within(self.base, self.goal))
+        if not 0 < last < first:
+            return None
+        while not self.made or self.level > last:
+            if len(self.made) == MOST_PHASES or not self._another(last):
+                return None
+            gone = math.log(first / self.level) / math.log(first / last)
+            on_progress(min(max(gone, 0.0), 1.0), f"phase {len(self.made)}")
+        return self._claim()
+
+    def _base(self) -> Estimate | None:
+        """For what does not depend on ε₀, on speeds and errors."""
+        inertia = radial_data(self.controlled)
+        if inertia is None:
+            return None
+        return self._estimate(margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), inertia))
+
+    def _another(self, last: Fraction) -> bool:
+        """One more phase; ``False`` where none is found."""
+        near = self._near()
+        ranked = []
+        for margin in candidates(near, False):
+            found = self._descent(margin, last, COARSE)
+            if found is not None:
+                ranked.append((found.time, margin.friction, margin))
+        for _, _, margin in sorted(ranked, key=lambda row: row[:2]):
+            for attempt in attempts(near, margin, self.max_boxes):
+                found = self._descent(attempt.margin, last, FINE)
+                if found is not None:
+                    self._keep(near, attempt, found)
+                    return True
+        return False
+
+    def _near(self) -> ControlledArm:
+        """The setting with the floors and errors that the energy allows."""
+        energy = self.energy * ROOM
+        floors = tuple(
+            self._floor(float(fastest(energy, inertia))) if inertia else Fraction(0)
+            for inertia in self.lightest
+        )
+        return replace(self.controlled, floors=floors, within=self._kept(energy))
+
+    def _floor(self, speed: float) -> Fraction:
+        """The least h(x)/x up to a speed, nearly."""
+        x = np.linspace(speed / POINTS, speed, POINTS)
+        least = min(
+            float(np.min(self.controlled.family.h(x) / x)), float(self.controlled.family.dh(np.zeros(1))[0])
+        )
+        return short_below(Fraction(least * (1 - 1e-5))) if least > 1e-6 else Fraction(0)
+
+    def _estimate(self, margin: Margin) -> Estimate:
+        return Estimate(margin, Disturbance.none(self.controlled.n))
+
+    def _descent(self, margin: Margin, last: Fraction, ratio: float) -> Descent | None:
+        """From where the last phase ended, or the start, to a share of V."""
+        try:
+            estimate = self._estimate(margin)
+            if self.made:
+                first = regraded(self.level, margin.loop.eps0 - self.eps0, margin.loop, margin.inertia)
+            else:
+                first = estimate.start_level(*self.start)
+            first = short_above(first)
+            low = max(last, short_below(first * STEP))
+            if low >= first or (not self.made and estimate.start_energy(*self.start) > self.largest):
+                return None
+            found = lowered(estimate, self.controlled.family, first, low, ratio, self.time)
+        except ValueError:  # a level of V that allows errors beyond all bounds
+            return None
+        return found if found.level == low else None
+
+    def _keep(self, near: ControlledArm, attempt: Attempt, found: Descent) -> None:
+        margin = attempt.margin
+        inertia = margin.inertia
+        self.made.append(
+            Phase(
+                margin.loop.eps0,
+                near.within,
+                near.floors,
+                margin.friction,
+                margin.stiffness,
+                margin.split,
+                RadialBounds(
+                    inertia.weights, inertia.inertia, inertia.lowest, inertia.angles, inertia.tree, ()
+                ),
+                attempt.by,
+                found.envelope,
+                found.slopes,
+            )
+        )
+        self.last = self._estimate(margin)
+        self.time, self.level, self.eps0 = found.time, found.level, margin.loop.eps0
+        self.energy = min(self.energy, regraded(self.level, self.eps0, margin.loop, inertia))
+
+    def _claim(self) -> Shown:
+        """What there is to be judged."""
+        loop = self.controlled.loop(Fraction(1))
+        n = self.controlled.n
+        ends = [(Fraction(0), self.largest), *(phase.envelope[-1] for phase in self.made[:-1])]
+        within = [(time, self._kept(level)) for time, level in ends]
+        statement = StaysWithin(
+            mass=loop.arm.mass,
+            viscous=loop.arm.viscous,
+            family=loop.family,
+            m=loop.m,
+            kp=loop.kp,
+            kv=loop.kv,
+            dry=(Fraction(0),) * n,
+            errors_at_start=self.start[0],
+            rates_at_start=self.start[1],
+            within=(*within, (self.time, (self.goal,) * n)),
+            after=self._after(),
+        )
+        lightness = tuple(Bisection() for x in self.lightest if x)
+        proof = FallingPhases(self.controlled.inertia_proof, self.lightest, lightness, tuple(self.made))
+        return Shown(statement, proof)
+
+    def _after(self) -> DiesOut | None:
+        """How errors die out after the last phase."""
+        errors = (self.goal,) * self.controlled.n
+        m = degree(self.controlled.gains.family, self.controlled.gains.m)
+        scale = shortest(self.last, self.level, errors)
+        if m is None or scale is None:
+            return None
+        z = 1 + math.sinh(self.goal) ** (2 * m)
+        sizes = tuple(
+            short_above(Fraction((2 * m * z * float(self.level / k)) ** (1 / (2 * m)) * (1 + 1e-12)))
+            for k in self.controlled.gains.kp
+        )
+        return DiesOut(sizes, short_above(scale)) if covers(self.last, self.level, errors, sizes) else None
+
+    def _kept(self, level: Fraction) -> tuple[Fraction, ...]:
+        """Bounds of |e_i| where V is at most that."""
+        return tuple(
+            short_above(Fraction(reach_of(self.member, level / k))) for k in self.controlled.gains.kp
+        )
+
+
+def _lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
+    """For each joint a ν_i with M ⪰ ν_i at place (i, i), near the largest one, or 0 where none is shown."""
+    if controlled.n > MOST_JOINTS:
+        return (Fraction(0),) * controlled.n
+    mass = controlled.arm.mass
+    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, controlled.n))
+    least = 1.0 / np.diagonal(np.linalg.inv(controlled.numeric.mass(q)), axis1=1, axis2=2).max(axis=0)
+    found = []
+    for joint, inertia in enumerate(least.tolist()):
+        tried = (short_below(Fraction(inertia) * share) for share in SHARES)
+        found.append(next((x for x in tried if _shown(lightened(mass, joint, x))), Fraction(0)))
+    return tuple(found)
+
+
+def _shown(mass: Mass) -> bool:
+    """Whether the checker sees at once that a matrix is positive definite throughout."""
+    try:
+        return verify(MassAbove(mass, (), Fraction(0)), Bisection()).verdict == "proved"
+    except Refused:
+        return False
