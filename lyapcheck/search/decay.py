@@ -120,7 +120,7 @@ def disturbance_bound(
     shown, reason, at_rest = None, not_positive(controlled), None
     if not reason:
         shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
-        at_rest = resting(controlled, [a + b for a, b in zip(acting.torque, acting.dry, strict=True)])
+        at_rest = resting(controlled, acting.torque, acting.dry)
     gains, robot = controlled.gains, controlled.model.name
     return DisturbanceBound(gains.name, gains.m, robot, shown, reason, acting.torque, acting.dry, at_rest)
 

@@ -8,25 +8,36 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.resting import AtBounds, Resting
+from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.loop.decay.rest import rests_within
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_above
-from lyapcheck.search.decay_results import AT_REST, accepted
+from lyapcheck.search.decay_results import AtRest, accepted
 
 HALVINGS = 50
 FARTHEST = 2**10
 """rad: larger bounds are as good as none."""
 
 
-def resting(controlled: ControlledArm, torque: Sequence[Fraction]) -> Resting | None:
-    """Bounds of |e_i| at states of rest under torques |d_i| ≤ ``torque``; none where no joint has one."""
+def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence[Fraction]) -> AtRest | None:
+    """Bounds of |e_i| at rest under |d_i| ≤ ``torque`` and dry friction; none where no joint has one.
+
+    With dry friction alone every motion ends there; with a torque of any sign it is about states of rest.
+    """
     gains = controlled.gains
     h, kp = member(gains.family, gains.m), tuple(gains.kp)
-    errors = tuple(_error(h, d / k) for d, k in zip(torque, kp, strict=True))
-    statement = Resting(gains.family, gains.m, kp, tuple(torque), errors)
-    return statement if any(x is not None for x in errors) and accepted(statement, AT_REST) else None
+    held = tuple(a + b for a, b in zip(torque, dry, strict=True))
+    errors = tuple(_error(h, d / k) for d, k in zip(held, kp, strict=True))
+    if all(x is None for x in errors):
+        return None
+    shown = AtRest(Resting(gains.family, gains.m, kp, held, errors), AtBounds())
+    if not any(torque):
+        arm = controlled.arm
+        whole = ComesToRest(arm.mass, arm.viscous, gains.family, gains.m, kp, tuple(gains.kv), held, errors)
+        shown = AtRest(whole, EnergyFalls(controlled.inertia_proof))
+    return shown if accepted(shown.statement, shown.proof) else None
 
 
 def _error(h: Member, ratio: Fraction) -> Fraction | None:

@@ -9,6 +9,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
+from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.loop import shared_between
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
@@ -60,6 +61,14 @@ class Shown:
         if isinstance(self.proof, FallingPhases):
             return tuple(pair for phase in self.proof.phases for pair in phase.envelope)
         return self.statement.envelope if isinstance(self.statement, Settling) else ()
+
+
+@dataclass(frozen=True)
+class AtRest:
+    """A statement about states of rest and the proof by which the checker has accepted it."""
+
+    statement: Resting | ComesToRest
+    proof: AtBounds | EnergyFalls
 
 
 @dataclass(frozen=True)
@@ -136,21 +145,23 @@ class DisturbanceBound(MotionBound):
     Args:
         torque: d̄_i, N·m, of any sign.
         dry: f_i, N·m, against the motion.
-        resting: what the checker accepted of states of rest; none where it accepted nothing.
+        resting: what the checker accepted of states of rest, or where nothing but dry friction acts of how
+            every motion ends; none where it accepted nothing.
     """
 
     torque: tuple[Fraction, ...]
     dry: tuple[Fraction, ...]
-    resting: Resting | None
+    resting: AtRest | None
 
     @property
     def rest(self) -> tuple[Fraction | None, ...]:
         """rad, |e_i| at every state of rest; none for a joint whose k_pi does not exceed the torque."""
-        return (None,) * len(self.torque) if self.resting is None else self.resting.errors
+        return (None,) * len(self.torque) if self.resting is None else self.resting.statement.errors
 
-
-AT_REST = AtBounds()
-"""The proof of every accepted statement about states of rest."""
+    @property
+    def comes_to_rest(self) -> bool:
+        """Whether it is shown that every motion ends at such a state."""
+        return self.resting is not None and isinstance(self.resting.statement, ComesToRest)
 
 
 def accepted(statement: Statement, proof: Proof, jobs: int = 1) -> bool:

@@ -21,7 +21,6 @@ from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.decay.estimate import reach_of
 from lyapcheck.check.loop.decay.speeds import fastest, regraded
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -65,7 +64,7 @@ class Phases:
         self.member = member(controlled.gains.family, controlled.gains.m)
         self.lightest = _lightest(controlled)
         self.base = self._base()
-        self.last = self.base
+        self.last: Estimate | None = self.base
         self.energy = Fraction(0) if self.base is None else self.base.start_energy(*start)
         self.largest = short_above(self.energy * ROOM)
         self.level = self.eps0 = self.time = Fraction(0)
@@ -155,9 +154,7 @@ class Phases:
                 margin.friction,
                 margin.stiffness,
                 margin.split,
-                RadialBounds(
-                    inertia.weights, inertia.inertia, inertia.lowest, inertia.angles, inertia.tree, ()
-                ),
+                replace(inertia, cuts=()),
                 attempt.by,
                 found.envelope,
                 found.slopes,
@@ -180,7 +177,6 @@ class Phases:
             m=loop.m,
             kp=loop.kp,
             kv=loop.kv,
-            dry=(Fraction(0),) * n,
             errors_at_start=self.start[0],
             rates_at_start=self.start[1],
             within=(*within, (self.time, (self.goal,) * n)),
@@ -194,8 +190,8 @@ class Phases:
         """How errors die out after the last phase."""
         errors = (self.goal,) * self.controlled.n
         m = degree(self.controlled.gains.family, self.controlled.gains.m)
-        scale = shortest(self.last, self.level, errors)
-        if m is None or scale is None:
+        scale = None if self.last is None else shortest(self.last, self.level, errors)
+        if m is None or scale is None or self.last is None:
             return None
         z = 1 + math.sinh(self.goal) ** (2 * m)
         sizes = tuple(

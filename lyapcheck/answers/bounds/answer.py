@@ -35,6 +35,10 @@ RULES = {
     "no-rate": "V falls exponentially near the goal",
 }
 FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
+REST = (
+    "Under dry friction every motion ends at rest, by falling energy, (19) or not; |e_i| there, simulated: "
+    "the larger of this motion's and of one let go at 95 % of the bound:"
+)
 NONE, TORQUE = "—", "torque"
 LEGEND = (
     "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
@@ -135,7 +139,7 @@ def _behind(result: Comparison) -> list[Table | Bullets]:
         said.append(f"{after}.")
     if settling.time is not None and not settling.exponential:
         said.append(f"{FLAT}.")
-    return [*_errors(result), Bullets(tuple(said))]
+    return [*_errors(result), *_rest(result), Bullets(tuple(said))]
 
 
 def _errors(result: Comparison) -> list[Table]:
@@ -151,12 +155,24 @@ def _errors(result: Comparison) -> list[Table]:
             ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
             ("disturbed, simulated", list(map(angle_up, result.simulated_errors))),
         ]
-        if left.resting is not None:
+        if left.resting is not None and not left.comes_to_rest:
             columns.append(("at rest, certified", list(map(angle_up, left.rest))))
     if not columns:
         return []
     rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
     return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(result))]
+
+
+def _rest(result: Comparison) -> list[Table]:
+    """Where motions end under dry friction alone; no table where nothing is known."""
+    left = result.disturbance
+    if not left.comes_to_rest or not any(left.dry):
+        return []
+    rows = [
+        (joint, angle_up(bound), angle_up(run), f"{float(bound) / run:.3g} ×" if bound and run else NONE)
+        for joint, bound, run in zip(result.joints, left.rest, result.simulated_rest, strict=True)
+    ]
+    return [Table(("joint", "certified", "simulated", "ratio"), tuple(rows), REST)]
 
 
 def _caption(result: Comparison) -> str:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.files.names import file_stem
-from lyapcheck.search.decay_results import AT_REST
 
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison
@@ -27,7 +26,12 @@ def certificates(result: Comparison) -> dict[str, Certificate]:
         says = "what torques and dry friction within bounds leave of the errors"
         made["disturbed"] = says, left.shown.statement, left.shown.proof
     if left.resting is not None:
-        made["resting"] = "how far from the goal it can rest", left.resting, AT_REST
+        says = (
+            "every motion comes to rest so near"
+            if left.comes_to_rest
+            else "how far from the goal it can rest"
+        )
+        made["resting"] = says, left.resting.statement, left.resting.proof
     return {
         f"{file_stem(settling.name)}.{kind}.json": _certificate(result, kind, *parts)
         for kind, parts in made.items()

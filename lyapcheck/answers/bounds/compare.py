@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
 
 
+JUST_INSIDE = 0.95
+"""Where a run starts, beside the certified bound of rest: simulated friction lets a joint creep."""
 LONGER, LONGEST = 6.0, 200.0
 """A run that has not settled is made so many times as long, up to so many seconds."""
 
@@ -37,6 +39,8 @@ class Comparison:
         task: the motion that was simulated.
         simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
         simulated_for: s, how long that run was.
+        simulated_rest: rad, the largest |e_i| at the end of two runs with dry friction alone, twice as long: of
+            the task, and of one let go just inside the certified bound of rest.
         simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
         assumptions: what is taken for granted about the arm.
     """
@@ -49,6 +53,7 @@ class Comparison:
     simulated_time: float | None
     simulated_for: float
     simulated_errors: tuple[float, ...]
+    simulated_rest: tuple[float, ...]
     assumptions: tuple[str, ...]
 
     @property
@@ -111,6 +116,9 @@ def compare(
         duration *= LONGER
         calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, duration)
     pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
+    let_go = [goal - JUST_INSIDE * float(x or 0) for goal, x in zip(task.q_d, left.rest, strict=True)]
+    runs = [(let_go, None), (task.q0, task.w0)]
+    ends = (disturbed(gain_set, model, task.q_d, *start, T=2 * task.T, dry=friction).e[-1] for start in runs)
     return Comparison(
         gains=gain_set,
         joints=model.joints,
@@ -120,6 +128,7 @@ def compare(
         simulated_for=duration,
         simulated_time=inside_from(calm.t, calm.e, delta),
         simulated_errors=last_errors(pushed.e),
+        simulated_rest=tuple(np.max(np.abs(list(ends)), axis=0).tolist()),
         assumptions=model.assumptions,
     )
 

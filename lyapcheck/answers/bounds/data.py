@@ -31,6 +31,7 @@ def comparison_data(result: Comparison) -> dict[str, Any]:
             "time": result.simulated_time,
             "time_limit": result.simulated_for,
             "errors": [_degrees(x) for x in result.simulated_errors],
+            "rest": [_degrees(x) for x in result.simulated_rest],
         },
         "assumptions": list(result.assumptions),
     }
@@ -68,10 +69,11 @@ def _disturbance(bound: DisturbanceBound) -> dict[str, Any]:
         "time": above(bound.time),
         "level": above(bound.level),
         "errors": [_degrees_above(x) for x in bound.errors],
+        "comes_to_rest": bound.comes_to_rest,
         "rest": [None if x is None else _degrees_above(x) for x in bound.rest],
         "rests_on": _provenance(bound.rests_on),
         "statement": _text(None if bound.shown is None else bound.shown.statement),
-        "rest_statement": _text(bound.resting),
+        "rest_statement": _text(None if bound.resting is None else bound.resting.statement),
         "reason": bound.reason,
     }
 

@@ -4,32 +4,36 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import Settling
+from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.search.inertia import mass_proof
 
 METHOD = "states of rest"
 BEYOND = Fraction(1, 10**6)
 """rad: how far beyond a bound a state against it is looked for."""
 
 
-@procedure(Settling)
-def find_settling(statement: Settling) -> SearchResult:
+@procedure(Settling, StaysWithin)
+def find_settling(statement: Settling | StaysWithin) -> SearchResult:
     """Always open: the levels of V are chosen together with the bounds."""
     advice = "lyapcheck bounds FILE --certificates DIR finds bounds with the levels of V that prove them"
     return still_open(f"times and errors are not searched for here; {advice}", "levels of V")
 
 
-@procedure(Resting)
-def find_resting(statement: Resting) -> SearchResult:
+@procedure(Resting, ComesToRest)
+def find_resting(statement: Resting | ComesToRest) -> SearchResult:
     """By h at the bounds, else by a state of rest just beyond one of them."""
-    if _verdict(statement, AtBounds()) == "proved":
-        return shown(AtBounds(), METHOD)
+    proof = AtBounds() if isinstance(statement, Resting) else EnergyFalls(mass_proof(statement.mass))
+    if _verdict(statement, proof) == "proved":
+        return shown(proof, METHOD)
     for joint, bound in enumerate(statement.errors):
         against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
         if bound is not None and _verdict(statement, against) == "refuted":
@@ -40,7 +44,7 @@ def find_resting(statement: Resting) -> SearchResult:
     return still_open("h at the bounds does not decide it; take larger bounds", METHOD)
 
 
-def _verdict(statement: Resting, proof: Proof) -> str:
+def _verdict(statement: Statement, proof: Proof) -> str:
     try:
         return verify(statement, proof).verdict
     except Refused:

@@ -1,8 +1,8 @@
 """What bounded speeds add to the damping, and how V at one ε₀ bounds V at another.
 
 The energy E = ½ wᵀMw + Σ k_pi U(e_i), which is V of (13) at ε₀ = 0, never rises along (11). Where M ⪰ ν_i at
-place (i, i) and E ≤ E₀, each |w_i| ≤ W_i = √(2E₀/ν_i), so that D = diag(h(w_i)/w_i) is not below δ_i, the least
-h(x)/x up to W_i. Then
+place (i, i) and E ≤ E₀, each |w_i| ≤ W_i = √(2E₀/ν_i), so that D = diag(h(w_i)/w_i) is not below δ_i, the
+least h(x)/x up to W_i. Then
 
     B + K_v D = (B + K_v δ) + (1 − δ/L) K_v D',   0 ≤ D'_i ≤ L:
 

@@ -1,7 +1,7 @@
 """How errors die out near the goal: exponentially for m = 1, like a power of time where h is flat at 0.
 
-With ε = ε₀ and nothing that disturbs, −dV/dt ≥ a T + ε₀ Σ c_i h_i² (see ``lyapcheck.check.loop.decay``), T the kinetic
-part of V. For u = sinh² x and |x| ≤ x̄
+With ε = ε₀ and nothing that disturbs, −dV/dt ≥ a T + ε₀ Σ c_i h_i² (see ``lyapcheck.check.loop.decay``), with
+T the kinetic part of V. For u = sinh² x and |x| ≤ x̄
 
     h_m² = u^(2m−1) (1 + u)/(1 + u^m)²,   u^m/(1 + u^m) ≤ 2m U_m = ln(1 + u^m) ≤ u^m,
 
