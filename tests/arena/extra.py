@@ -56,7 +56,9 @@ from lyapcheck.check.kinds.inertia import (
 from lyapcheck.check.kinds.loop_property import FACTS, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
+from lyapcheck.check.kinds.stopping import ComesToRest
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.radial import RadialBounds
@@ -200,6 +202,41 @@ LEVELS = FallingLevels(
     decreasing=PositiveAndDecreasing(Bisection(), REDUCED),
     slopes=(F(2, 5), F(2, 5)),
 )
+FIRST = Phase(
+    eps0=F(1, 5),
+    within=(F(2),),
+    floors=(F(0),),
+    friction=F(1, 4),
+    stiffness=F(1, 4),
+    split=F(1, 2),
+    inertia=RADIAL,
+    rate=BoxTree("."),
+    envelope=((F(0), F(1, 4)), (F(40), F(1, 8)), (F(80), F(1, 16))),
+    slopes=(F(2, 5), F(2, 5)),
+)
+SECOND = replace(
+    FIRST,
+    eps0=F(1, 4),
+    floors=(F(9, 10),),
+    envelope=((F(80), F(7, 100)), (F(120), F(1, 20))),
+    slopes=(F(2, 5),),
+)
+STAYS_WITHIN = StaysWithin(
+    mass=SETTLING.mass,
+    viscous=SETTLING.viscous,
+    family="tanh",
+    m=None,
+    kp=SETTLING.kp,
+    kv=SETTLING.kv,
+    errors_at_start=(F(1, 2),),
+    rates_at_start=(F(0),),
+    within=((F(0), (F(1),)), (F(120), (F(2, 5),))),
+    after=DiesOut((F(2, 5),), F(40)),
+)
+PHASES = FallingPhases(Bisection(), (F(9, 10),), (Bisection(),), (FIRST, SECOND))
+STOPPING = ComesToRest(
+    SETTLING.mass, SETTLING.viscous, "tanh", None, SETTLING.kp, SETTLING.kv, (F(1, 2),), (F(3, 5),)
+)
 RESTING = Resting("hyperbolic", 2, (F(10), F(5)), (F(2), F(5)), (F(3, 5), None))
 
 
@@ -217,6 +254,9 @@ def of_the_loop() -> Iterator[Row]:
     slower = ((F(0), F(1, 4)), (F(400), F(1, 8)), (F(800), F(1, 16)))
     pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)
     yield "pushed", pushed, replace(LEVELS, slack=F(1, 5))
+    yield "phases", STAYS_WITHIN, PHASES
+    yield "stopping", STOPPING, None
+    yield "not-stopping", replace(STOPPING, errors=(F(1, 2),)), None
     yield "resting", RESTING, None
     yield "not-resting", Resting("tanh", None, (F(2),), (F(1),), (F(1, 2),)), None
 

@@ -42,6 +42,20 @@ def _settling(statement: Document) -> bool:
     return True
 
 
+def _frictionless(statement: Document) -> bool:
+    """No error is left, whatever friction holds."""
+    statement["errors"] = ["0"] * len(statement["errors"])
+    return "0" not in statement["dry"]
+
+
+def _at_once(statement: Document) -> bool:
+    """No error from the first time on, which is 0 as errors are not."""
+    if statement["within"][0][0] != "0" or "0" in statement["errors_at_start"]:
+        return False
+    statement["within"] = [[time, ["0"] * len(errors)] for time, errors in statement["within"]]
+    return True
+
+
 def _swapped(statement: Document) -> bool:
     relation = statement["conclusion"]
     relation["left"], relation["right"] = relation["right"], relation["left"]
@@ -90,6 +104,8 @@ def _leaning(statement: Document) -> bool:
 FALSE: dict[str, Callable[[Document], bool]] = {
     "Resting": _resting,
     "Settling": _settling,
+    "StaysWithin": _at_once,
+    "ComesToRest": _frictionless,
     "ForSmall": _swapped,
     "TrigonometricPositive": _not_positive,
     "LoopProperty": _no_force,
@@ -160,6 +176,7 @@ TRUE: dict[tuple[str, str], Callable[[Document], bool]] = {
     ("MassAbove", "posture"): _unit_mass,
     ("Decreasing", "posture"): _unit_mass,
     ("Resting", "state of rest"): _anything,
+    ("ComesToRest", "state of rest"): _anything,
     ("TrigonometricBound", "witness of an entry"): _loose,
     ("TrigonometricPositive", "witness of an entry"): _far_above,
     ("ForSmall", "failure for small values"): _swapped,
@@ -251,6 +268,43 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("joint",), MANY, "a joint that there is not"),
         (("error",), "0", "an error within its bound"),
         (("error",), LARGE, "a posture that the torque does not hold"),
+    ],
+    ("ComesToRest", "state of rest"): [
+        (("joint",), -1, "a joint counted from the end"),
+        (("error",), "0", "an error within its bound"),
+        (("error",), LARGE, "a posture that the torque does not hold"),
+    ],
+    ("ComesToRest", "falling energy"): [
+        (("inertia",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
+        (("inertia",), {"rule": "h at the bounds"}, "a proof of something else"),
+    ],
+    ("StaysWithin", "falling levels in phases"): [
+        (("phases",), [], "no phase"),
+        (("lightest",), [LARGE], "a least inertia above M"),
+        (("lightest",), ["-1"], "a negative inertia"),
+        (("lightest",), ["0"], "a floor without a least inertia"),
+        (("lightness",), [], "no proof of a least inertia"),
+        (("positive",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
+        (("phases", 0, "friction"), "0", NO_SHARES),
+        (("phases", 0, "friction"), "1", NO_SHARES),
+        (("phases", 0, "stiffness"), "-1", NO_SHARES),
+        (("phases", 0, "split"), "0", NO_SHARES),
+        (("phases", 0, "slopes"), [], "no slope for a band"),
+        (("phases", 0, "slopes", 0), LARGE, "a slope above the steepest"),
+        (("phases", 0, "eps0"), "3", "an ε₀ at which V does not fall"),
+        (("phases", 0, "eps0"), "-1/5", "a negative ε₀"),
+        (("phases", 0, "within"), [], "all states, of which nothing is shown"),
+        (("phases", 0, "within"), ["1/4"], "errors that the start exceeds"),
+        (("phases", 0, "floors"), ["-1"], "a negative floor"),
+        (("phases", 0, "floors"), ["1"], "a floor as high as L"),
+        (("phases", 1, "floors"), ["99/100"], "a floor that the speed undercuts"),
+        (("phases", 1, "envelope", 0, 0), "40", "a phase that begins before the last one ends"),
+        (("phases", 1, "envelope", 0, 1), "1/16", "a level below where V may be at another ε₀"),
+        (("phases", 0, "inertia", "inertia"), "1/1000000007", "μ below what M is"),
+        (("phases", 0, "inertia", "weights"), [LARGE], "weights beyond the friction"),
+        (("phases", 0, "inertia", "tree"), "", "no tree of boxes"),
+        (("phases", 0, "rate", "tree"), "", "no tree of boxes"),
+        (("phases", 0, "rate"), {"rule": "bisection"}, "no proof of dV/dt < 0"),
     ],
     ("Settling", "falling levels"): [
         (("friction",), "0", NO_SHARES),

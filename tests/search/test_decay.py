@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
+from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.kinds.settling import require_margin
 from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
 from lyapcheck.check.loop.decay.least import Well
@@ -127,6 +128,31 @@ def test_V_of_a_run_stays_under_the_envelope(robot: str, index: int) -> None:
     assert np.all(np.abs(motion.e) <= reach)
 
 
+def local_level_along(at: ControlledArm, eps0: float, motion: DisturbedRun) -> np.ndarray:
+    """V with ε = ε₀ at every state."""
+    y = motion.w - eps0 * at.family.h(motion.e)
+    kinetic = 0.5 * np.einsum("ki,kij,kj->k", y, at.numeric.mass(motion.q), y)
+    return np.asarray(kinetic + at.family.potential(motion.e) @ at.kp)
+
+
+def test_errors_die_out_as_the_statement_says() -> None:
+    """Exponentially for m = 1, and like a power of time where h is flat."""
+    for m in (1, 2):
+        at = single("pendulum1", m)
+        result = settling_bound(at, (0.3,), delta=0.1)
+        assert result.shown is not None
+        statement = result.shown.statement
+        assert isinstance(statement, StaysWithin)
+        assert statement.after is not None
+        motion = disturbed(at.gains, at.model, (0.3,), T=float(result.time or 0) + 40.0, points=801)
+        late = motion.t >= float(statement.within[-1][0])
+        elapsed = (motion.t[late] - float(statement.within[-1][0])) / float(statement.after.scale)
+        falling = np.exp(-elapsed) if m == 1 else (1 + elapsed) ** -0.5
+        allowed = np.outer(falling, np.array(statement.after.sizes, dtype=float))
+        assert late.any()
+        assert np.all(np.abs(motion.e[late]) <= allowed + 1e-9)
+
+
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 1), ("buap3", 0)]))
 def test_the_time_bound_is_kept_by_the_run(robot: str, index: int) -> None:
     at = controlled(robot, index)
@@ -137,12 +163,22 @@ def test_the_time_bound_is_kept_by_the_run(robot: str, index: int) -> None:
     outside = np.abs(motion.e).max(axis=1) > DELTA
     late = motion.t[outside]
     assert late.size == 0 or late[-1] <= result.time
-    V = level_along(at, result.rests_on.eps0, motion)
-    times, levels = (np.array([float(x[k]) for x in result.envelope]) for k in (0, 1))
-    assert np.all(np.diff(times) > 0)
-    assert np.all(np.diff(levels) < 0)
-    allowed = levels[np.searchsorted(times, motion.t, side="right") - 1]
-    assert np.all(allowed * (1 + 1e-9) >= V)
+    assert result.shown is not None
+    statement, proof = result.shown.statement, result.shown.proof
+    assert isinstance(statement, StaysWithin)
+    assert isinstance(proof, FallingPhases)
+    for time, errors in statement.within:
+        assert np.all(np.abs(motion.e[motion.t >= time]) <= np.array(errors, dtype=float))
+    for phase in proof.phases:
+        V = local_level_along(at, float(phase.eps0), motion)
+        times, levels = (np.array([float(x[k]) for x in phase.envelope]) for k in (0, 1))
+        assert np.all(np.diff(times) > 0)
+        assert np.all(np.diff(levels) < 0)
+        late = motion.t >= times[0]
+        allowed = levels[np.searchsorted(times, motion.t[late], side="right") - 1]
+        assert np.all(allowed * (1 + 1e-9) >= V[late])
+        speeds = np.abs(motion.w[late]) + 1e-12
+        assert np.all(at.family.h(speeds) >= np.array(phase.floors, dtype=float) * speeds)
     assert result.exponential == (at.gains.m == 1)
 
 

@@ -39,8 +39,8 @@ class Comparison:
         task: the motion that was simulated.
         simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
         simulated_for: s, how long that run was.
-        simulated_rest: rad, the largest |e_i| at the end of two runs with dry friction alone, twice as long: of
-            the task, and of one let go just inside the certified bound of rest.
+        simulated_rest: rad, the largest |e_i| at the end of two runs with dry friction alone, twice as long:
+            of the task, and of one let go just inside the certified bound of rest.
         simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
         assumptions: what is taken for granted about the arm.
     """
