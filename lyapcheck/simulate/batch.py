@@ -77,7 +77,8 @@ def simulate_many(
         InputError: a task the arm cannot be given.
 
     Soundness: floating point throughout: evidence, never a proof, and never part of a verdict. The error
-    of a path is estimated by running again at a smaller tolerance; extremes between samples are not seen.
+    of a path is estimated by running again at a smaller tolerance; peaks between samples are those of
+    parabolas, and a rise of V between samples is not seen.
 
     References: (6), (11), (12), (20) of ``reyes2019family``; ``hairer1993solving``.
     """

@@ -30,7 +30,7 @@ class Runs:
     overshoot: Array
     """(R, n) per cent of the step."""
     peak_torque: Array
-    """(R, n) N·m, of the samples."""
+    """(R, n) N·m, between samples too: see `tops`."""
     final_error: Array
     """(R, n) degrees."""
     energy_balance: Array
@@ -94,7 +94,7 @@ class Part:
             "L2": np.degrees(np.sqrt(np.maximum(squares, 0.0) / self.t[-1])),
             "settling": settling_times(self.t, e),
             "overshoot": overshoots(e),
-            "peak_torque": np.max(np.abs(self.signals[:, :, : self.n]), axis=1),
+            "peak_torque": tops(np.abs(self.signals[:, :, : self.n])),
             "final_error": np.degrees(e[:, -1]),
             "energy_balance": self._imbalance(),
             "V_rise": np.max(np.diff(self.V, axis=1), axis=1),
@@ -129,11 +129,25 @@ def settling_times(t: Array, e: Array, band: float = SETTLING_BAND) -> Array:
 def overshoots(e: Array) -> Array:
     """`indices.overshoots` of many runs: (R, n) per cent from errors (R, points, n) in rad."""
     start = e[:, 0]
-    beyond = np.maximum(np.max(-np.sign(start)[:, None] * e, axis=1), 0.0)
+    beyond = np.maximum(tops(-np.sign(start)[:, None] * e), 0.0)
     size = np.abs(start)
     return np.asarray(
         100.0 * np.divide(beyond, size, out=np.full_like(size, np.nan), where=size > LEAST_STEP)
     )
+
+
+def tops(values: Array) -> Array:
+    """(R, n) the largest of (R, points, n) smooth values, between samples too.
+
+    It is the vertex of the parabola through the largest sample and its neighbours: of third order in the
+    distance of samples, and never below the largest sample.
+    """
+    middle = np.clip(np.argmax(values, axis=1), 1, values.shape[1] - 2)
+    before, top, after = (np.take_along_axis(values, (middle + k)[:, None], axis=1)[:, 0] for k in (-1, 0, 1))
+    bend, slope = before - 2 * top + after, (after - before) / 2
+    inside = (bend < 0) & (np.abs(slope) <= -bend)
+    vertex = top - slope**2 / (2 * np.where(inside, bend, -1.0))
+    return np.asarray(np.fmax(np.max(values, axis=1), np.where(inside, vertex, -np.inf)))
 
 
 def runs_of(t: Array, rows: dict[str, Any], engine: str) -> Runs:

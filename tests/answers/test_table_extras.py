@@ -172,3 +172,15 @@ def test_a_folder_that_cannot_be_is_refused(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(InputError, match="--plot"):
         raise run("--plot", str(tmp_path / "file")).exception
+
+
+def test_certificates_bound_gamma_and_rho_as_they_are_shown(tmp_path):
+    found = run("--m", "1:2", "--digits", "12", "--certificates", str(tmp_path), "--format", "json")
+    assert found.exit_code == 0
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"m{m}.{name}.json" for m in (1, 2) for name in ("gamma", "rho")
+    }
+    upper = json.loads(found.stdout)["rows"][1]["gamma"]["upper"]
+    statement = json.loads((tmp_path / "m2.gamma.json").read_text(encoding="utf-8"))["statement"]
+    assert statement["bound"] == ["num", str(Fraction(upper))]
+    assert "4 accepted (4 proved" in invoke("recheck", str(tmp_path)).stdout

@@ -55,8 +55,8 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.loop_property import FACTS, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
+from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive

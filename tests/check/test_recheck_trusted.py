@@ -39,6 +39,12 @@ HEADLINES = {
         "links",
         "bounds in ‖e‖",
     ),
+    "when errors are small, in phases": (
+        "StaysWithin",
+        "falling levels in phases",
+        "bisection",
+        "tree of boxes",
+    ),
     "a property of the closed loop": (
         "LoopProperty",
         "facts in one variable",

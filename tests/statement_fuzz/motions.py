@@ -78,7 +78,7 @@ def found(index: int) -> tuple[Settling, Any]:
     if any(torque) or any(dry):
         shown = disturbance_bound(controlled, *start, torque, dry, max_boxes=MAX_BOXES).shown
     else:
-        shown = settling_bound(controlled, *start, 0.1, max_boxes=MAX_BOXES).shown
+        shown = settling_bound(controlled, *start, 0.1, in_phases=False, max_boxes=MAX_BOXES).shown
     if shown is None:
         raise LookupError(f"the search finds no bound for {asked}")
     return shown.statement, shown.proof

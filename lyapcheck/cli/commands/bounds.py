@@ -62,7 +62,8 @@ def run(
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
 
     From V and a margin of dV/dt < 0: a time after which every error stays below --delta, for all postures,
-    and the errors that bounded torques and dry friction can leave.
+    how errors die out from then on, the errors that bounded torques and dry friction can leave, and where
+    every motion comes to rest under dry friction alone.
 
     Exit code 0: all bounds are certified, 2: unusable input, 3: one is not.
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.m_range import parse_m
-from lyapcheck.cli.options import add_format, add_members
+from lyapcheck.cli.options import add_certificates, add_format, add_members
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
@@ -32,6 +32,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--asymptotics", action="store_true", help=about)
     about = "Draw them against m into this folder, as SVG and PNG."
     parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
+    add_certificates(parser, "Write the certificates of γ and ρ there")
     add_format(parser, Format)
 
 
@@ -41,6 +42,7 @@ def run(
     robot: str | None,
     asymptotics: bool,
     plot: Path | None,
+    certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
     """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
@@ -58,6 +60,7 @@ def run(
     from lyapcheck.answers.table import build_table
 
     folder = None if plot is None else open_folder("--plot", plot)
+    proofs = None if certificates is None else open_folder("--certificates", certificates)
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
         table = build_table(members, digits, advance, with_asymptotes=asymptotics)
     if robot is not None:
@@ -68,6 +71,11 @@ def run(
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         _draw(table, folder)
+    if proofs is not None:
+        from lyapcheck.answers.table_certificates import certificates as certificates_of
+
+        for name, certificate in certificates_of(table).items():
+            write_whole(proofs / name, certificate.text())
     show(table, format)
     return Exit.PROVED
 

@@ -1,0 +1,39 @@
+"""Certificates of a table of constants: each γ_m and ρ_m, rounded up as in JSON, bounds its function."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures import propose
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.table import Table
+
+PROOF = "table"
+FUNCTIONS = {"gamma": "h", "rho": "dh"}
+
+
+def certificates(table: Table) -> dict[str, Certificate]:
+    """Certificates by file name; none of a bound that the checker does not accept."""
+    made = {}
+    for row in table.rows:
+        for name, function in FUNCTIONS.items():
+            _, upper = getattr(row, name).decimals(table.digits)
+            x: Tree = ("var", "x")
+            statement = NormBound((function, row.m, x), 1, ("num", str(Fraction(upper))))
+            proof = propose(statement).proof
+            if proof is None:
+                continue
+            accepted = verify(statement, proof)
+            about = About(f"m{row.m}.{name}", f"{name} of m = {row.m} is at most {upper}", row.m, 1, PROOF)
+            used = {package: version(package) for package in ("lyapcheck", "python-flint")}
+            made[f"m{row.m}.{name}.json"] = Certificate(
+                about, statement, accepted.verdict, accepted.grade, proof, {}, used
+            )
+    return made
