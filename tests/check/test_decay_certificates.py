@@ -16,8 +16,10 @@ from lyapcheck.answers.bounds.certificates import certificates
 from lyapcheck.answers.bounds.compare import compare
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
+from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.trusted import modules
 from lyapcheck.check.verify import verify
@@ -25,6 +27,8 @@ from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay import settling_bound
 from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict
 from tests.helpers.command import invoke
@@ -38,11 +42,19 @@ Document = dict[str, Any]
 
 @pytest.fixture(scope="module")
 def made() -> dict[str, Certificate]:
-    """All three certificates of one gain set on the two-joint arm."""
+    """All certificates of one gain set on the two-joint arm, a settling time in phases and at one ε₀."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
     task = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
-    result = compare(gains, load("reyes-kelly2"), task, math.radians(10), (0.1, 0.05), max_boxes=4_000)
-    return {name.split(".")[1]: certificate for name, certificate in certificates(result).items()}
+    arm, delta = load("reyes-kelly2"), math.radians(10)
+    found = compare(gains, arm, task, delta, (0.1, 0.05), max_boxes=4_000)
+    at_one = settling_bound(
+        ControlledArm(gains, arm), task.step, task.w0, delta, in_phases=False, max_boxes=4_000
+    )
+    kinds = {
+        name.split(".")[1]: certificate
+        for name, certificate in certificates(replace(found, settling=at_one)).items()
+    }
+    return kinds | {"phases": certificates(found)["tau_m1.settling.json"]}
 
 
 def reread(certificate: Certificate, change: Callable[[Document], None] = lambda data: None) -> Certificate:
@@ -65,7 +77,7 @@ def put(value: Any, *path: Any) -> Callable[[Document], None]:
 
 
 def test_all_are_accepted_from_their_text(made: dict[str, Certificate]) -> None:
-    assert set(made) == {"settling", "disturbed", "resting"}
+    assert set(made) == {"settling", "disturbed", "resting", "phases"}
     for certificate in made.values():
         accepted = judge(reread(certificate))
         assert (accepted.verdict, accepted.grade) == ("proved", "enclosure")
@@ -125,6 +137,51 @@ def test_altered_bounds_are_refused(
 ) -> None:
     with pytest.raises(Refused, match=says):
         judge(reread(made[kind], change))
+
+
+PHASE_FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
+    ("an earlier time", put("1", "statement", "within", -1, 0), "allows at most|after"),
+    ("smaller errors", put(["1/10", "1/10"], "statement", "within", -1, 1), "allows at most"),
+    (
+        "a farther start",
+        put(["1", "8/5"], "statement", "errors_at_start"),
+        "at least|floor|kept by the energy",
+    ),
+    ("a faster start", put(["1", "1"], "statement", "rates_at_start"), "at least|floor|kept by the energy"),
+    ("less damping", put(["1/1000", "1/1000"], "statement", "kv"), "."),
+    ("a stiffer loop", put(["90", "9"], "statement", "kp"), "."),
+    ("errors that die out sooner", put("1/10", "statement", "after", "scale"), "shorter"),
+    ("smaller errors that die out", put(["1/100"] * 2, "statement", "after", "sizes"), "allows at most"),
+    ("a higher floor", put(["9/10", "9/10"], "proof", "phases", 0, "floors"), "floor"),
+    ("no bound of the errors", put([], "proof", "phases", 0, "within"), "must bound|is not shown"),
+    ("tighter errors", put(["1/2", "1/2"], "proof", "phases", 0, "within"), "kept by the energy"),
+    ("a heavier least inertia", put(["100", "100"], "proof", "lightest"), "must be proved|M −|bound"),
+    ("a larger ε₀", put("50", "proof", "phases", 0, "eps0"), "."),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "says"), PHASE_FAULTS, ids=[name for name, *_ in PHASE_FAULTS])
+def test_altered_phases_are_refused(
+    made: dict[str, Certificate], name: str, change: Callable[[Document], None], says: str
+) -> None:
+    with pytest.raises(Refused, match=says):
+        judge(reread(made["phases"], change))
+
+
+def test_coming_to_rest_is_decided() -> None:
+    """Whatever the gains, on an arm that is one; (19) is not asked."""
+    one = (((0, 0), F(1)),)
+    statement = ComesToRest(((one,),), (F(1),), "hyperbolic", 1, (F(2),), (F(50),), (F(1),), (F(11, 20),))
+    assert propose(statement).verdict is Verdict.PROVED
+    assert "w → 0" in statement.text()
+    near = replace(statement, errors=(F(1, 2),))
+    assert propose(near).verdict is Verdict.REFUTED
+    assert propose(replace(statement, dry=(F(3),), errors=(None,))).verdict is Verdict.PROVED
+    assert propose(replace(statement, dry=(F(2),))).verdict is Verdict.REFUTED
+    with pytest.raises(Refused):
+        verify(replace(statement, mass=(((((0, 0), F(-1)),),),)), EnergyFalls(Bisection()))
+    with pytest.raises(Refused, match="must be positive"):
+        verify(replace(statement, viscous=(F(0),)), EnergyFalls(Bisection()))
 
 
 def test_another_arm_is_refused(made: dict[str, Certificate]) -> None:

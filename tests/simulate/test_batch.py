@@ -71,7 +71,7 @@ def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
     np.testing.assert_allclose(many.L2[0], single.L2, rtol=1e-7)
     for name in ("settling", "overshoot", "peak_torque"):  # by parabolas here, of the dense output there
         np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-4, atol=1e-6)
-    np.testing.assert_allclose(many.peak_torque[0], single.peak_torque, rtol=1e-6)
+    np.testing.assert_allclose(many.peak_torque[0], single.peak_torque, rtol=1e-5)
     np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
     assert many.energy_balance[0] < 1e-9
     assert many.complete.all()
