@@ -36,7 +36,7 @@ RULES = {
 }
 FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
 REST = (
-    "Under dry friction every motion ends at rest, by falling energy, (19) or not; |e_i| there, simulated: "
+    "Under dry friction every motion ends at rest, certified by falling energy, (19) or not; |e_i|, simulated: "
     "the larger of this motion's and of one let go at 95 % of the bound:"
 )
 NONE, TORQUE = "—", "torque"
@@ -172,7 +172,7 @@ def _rest(result: Comparison) -> list[Table]:
         (joint, angle_up(bound), angle_up(run), f"{float(bound) / run:.3g} ×" if bound and run else NONE)
         for joint, bound, run in zip(result.joints, left.rest, result.simulated_rest, strict=True)
     ]
-    return [Table(("joint", "certified", "simulated", "ratio"), tuple(rows), REST)]
+    return [Table(("joint", "at most", "simulated", "ratio"), tuple(rows), REST)]
 
 
 def _caption(result: Comparison) -> str:
