@@ -36,7 +36,7 @@ RULES = {
 }
 FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
 REST = (
-    "Under dry friction every motion ends at rest, certified by falling energy, (19) or not; |e_i|, simulated: "
+    "Under dry friction every motion ends at rest, certified by falling energy; |e_i|, simulated: "
     "the larger of this motion's and of one let go at 95 % of the bound:"
 )
 NONE, TORQUE = "—", "torque"
