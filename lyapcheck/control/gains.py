@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from lyapcheck.errors import InputError
+from lyapcheck.errors import InputError, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.place import KeyPath, Place
@@ -79,6 +79,22 @@ class GainFile:
 def gain_file_of(file: GainFile | str | Path) -> GainFile:
     """A gain file as read, or the one at a path."""
     return file if isinstance(file, GainFile) else read_gain_file(file)
+
+
+def one_gain_set(gains: GainSet | str | Path) -> GainSet:
+    """A gain set as it is, or the only one of the gain file at a path.
+
+    Raises:
+        InputError: the file cannot be used, or has several gain sets.
+    """
+    if isinstance(gains, GainSet):
+        return gains
+    file = read_gain_file(gains)
+    if len(file.gains) > 1:
+        names = ", ".join(one.name for one in file.gains)
+        rule, repair = f"has several gain sets: {names}", "take one of read_gain_file(path).gains"
+        raise argument_error("gain file", str(gains), rule, repair)
+    return file.gains[0]
 
 
 def read_gain_file(path: str | Path) -> GainFile:

@@ -18,6 +18,11 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(_arms()))
 
 
+def arm_of(model: RobotModel | str | Path) -> RobotModel:
+    """An arm as it is, or the one of that name or file, as `load` finds it."""
+    return model if isinstance(model, RobotModel) else load(model)
+
+
 def load(
     name_or_path: str | Path,
     tip: str | None = None,

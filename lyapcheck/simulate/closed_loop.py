@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.breach import (
     Breach,
     Watched,
@@ -41,8 +44,8 @@ POINTS = 2001
 
 
 def simulate(
-    gain_set: GainSet,
-    model: RobotModel,
+    gain_set: GainSet | str | Path,
+    model: RobotModel | str | Path,
     q_d: Sequence[float],
     q0: Sequence[float] | None = None,
     w0: Sequence[float] | None = None,
@@ -61,8 +64,8 @@ def simulate(
     time ten times tighter; the second is handed back and their difference is its ``accuracy``.
 
     Args:
-        gain_set: the controller, of any family.
-        model: the arm; uncertain parameters are at their nominal values.
+        gain_set: the controller, of any family, or the path of a gain file with one gain set.
+        model: the arm, its name or its file; uncertain parameters are at their nominal values.
         q_d: (n,) goal in rad.
         q0: (n,) start in rad; home if missing.
         w0: (n,) initial rates in rad/s; rest if missing.
@@ -85,6 +88,7 @@ def simulate(
 
     References: (6), (11), (12), (20) of ``reyes2019family``.
     """
+    gain_set, model = one_gain_set(gain_set), arm_of(model)
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
     loop = closed_loop(setup.gains, model)
     rough, fine = _twice(

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
+from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.bench import Bench, dry_friction, enough_substeps, period_map
 from lyapcheck.simulate.indices import l2_index
 from lyapcheck.simulate.results import Motion, run_of
@@ -37,8 +40,8 @@ RUNAWAY = 1e6
 
 
 def experiment(
-    gain_set: GainSet,
-    model: RobotModel,
+    gain_set: GainSet | str | Path,
+    model: RobotModel | str | Path,
     q_d: Sequence[float],
     q0: Sequence[float] | None = None,
     w0: Sequence[float] | None = None,
@@ -54,8 +57,8 @@ def experiment(
     at the motors' limits, hold it. The arm is (1) with dry friction f_c tanh(w/creep) added.
 
     Args:
-        gain_set: the controller, of any family.
-        model: the arm; uncertain parameters, friction among them, are at their nominal values.
+        gain_set: the controller, of any family, or the path of a gain file with one gain set.
+        model: the arm, its name or its file; uncertain parameters and friction at nominal values.
         q_d: (n,) goal in rad.
         q0: (n,) start in rad; home if missing.
         w0: (n,) initial rates in rad/s; rest if missing.
@@ -77,6 +80,7 @@ def experiment(
 
     References: ``reyes2019family``, Section 4 and Table 1.
     """
+    gain_set, model = one_gain_set(gain_set), arm_of(model)
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0)
     periods = math.floor(T / bench.period * (1 + 1e-12))
     if periods < 1:

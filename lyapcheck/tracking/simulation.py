@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck._types import Progress
+from lyapcheck.control.gains import one_gain_set
+from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.extremes import with_extremes
 from lyapcheck.simulate.integrate import MAX_STEPS
 from lyapcheck.tracking.prepared import Prepared
@@ -27,8 +30,8 @@ TOLERANCE = 1e-10
 
 
 def track(
-    gain_set: GainSet,
-    model: RobotModel,
+    gain_set: GainSet | str | Path,
+    model: RobotModel | str | Path,
     reference: Reference,
     q0: Sequence[float] | None = None,
     velocity: Sequence[float] | None = None,
@@ -49,8 +52,8 @@ def track(
     difference is its ``accuracy``.
 
     Args:
-        gain_set: the controller, of any family.
-        model: the arm; uncertain parameters are at their nominal values.
+        gain_set: the controller, of any family, or the path of a gain file with one gain set.
+        model: the arm, its name or its file; uncertain parameters are at their nominal values.
         reference: q_d(t).
         q0: (n,) start in rad; home if missing.
         velocity: (n,) initial q̇ in rad/s; rest if missing.
@@ -83,6 +86,7 @@ def track(
 
     References: (13), (20), (21) of ``reyes2019family``; ``proofs/tracking.py``.
     """
+    gain_set, model = one_gain_set(gain_set), arm_of(model)
     asked = request_for(model.n, reference, q0, velocity, T, eps0=eps0, band=band, points=points)
     return track_as_asked(
         gain_set,

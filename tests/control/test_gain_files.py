@@ -10,10 +10,12 @@ import sys
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lyapcheck import load_robot, run_simulation
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import GainFile, read_gain_file
 from lyapcheck.control.limits import limits_for
@@ -568,3 +570,13 @@ def test_printable_text_is_one_line(text: str) -> None:
     shown = printable(text)
     assert shown.isprintable()
     assert printable(shown) == shown
+
+
+def test_python_functions_take_paths(tmp_path: Path) -> None:
+    path = tmp_path / "one.toml"
+    path.write_text('robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [10]\nkv = [1]\n')
+    by_path = run_simulation(path, "pendulum1", [0.5], T=0.1)
+    as_read = run_simulation(read_gain_file(path).gains[0], load_robot("pendulum1"), [0.5], T=0.1)
+    assert np.array_equal(by_path.q, as_read.q)
+    with pytest.raises(InputError, match="several gain sets: tau_m1, tau_m2, tau_m3"):
+        run_simulation(paper_gain_file("table2"), "buap3", [0.1, 0.1, 0.1])

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
@@ -21,7 +22,9 @@ from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
+from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
+from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.certified import MAX_BOXES, MOST_JOINTS, Certified, certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
@@ -44,8 +47,8 @@ _DIGITS = 9
 
 
 def epsilon(
-    gain_set: GainSet,
-    model: RobotModel,
+    gain_set: GainSet | str | Path,
+    model: RobotModel | str | Path,
     *,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
@@ -59,8 +62,8 @@ def epsilon(
     """All four ε₀ of a gain set.
 
     Args:
-        gain_set: the controller.
-        model: the arm.
+        gain_set: the controller, or the path of a gain file with one gain set.
+        model: the arm, its name or its file.
         max_boxes: budget of branch and bound.
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
@@ -77,6 +80,7 @@ def epsilon(
     Soundness: ``certified`` rests on ``proof``, which ``lyapcheck.check.verify`` accepted, ``falsified`` on
         the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
+    gain_set, model = one_gain_set(gain_set), arm_of(model)
     progress = on_progress or (lambda fraction, note: None)
     controlled, reasons = ControlledArm(gain_set, model, ranges), {}
     progress(0.0, "scalar form")
