@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections import Counter
 from collections.abc import Callable
-from contextlib import ExitStack
 from pathlib import Path
 
 from lyapcheck.answers.recheck import Recheck
@@ -30,7 +30,8 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
     Args:
         name: of the format.
         seconds: the most that one theorem may take.
-        folder: where the files for Coq stay; ``None``: nowhere.
+        folder: where the files for Coq are copied to in the end; ``None``: nowhere. Nothing is read there: a
+            compiled file may be of other definitions than its source.
         progress: is told what is going on.
 
     Raises:
@@ -39,9 +40,10 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
     require_coq()
 
     def written(outcome: Outcome, trusted: bool) -> str:
-        with ExitStack() as stack:
-            place = Path(stack.enter_context(temporary_folder())) if folder is None else folder
-            result = judged(outcome, place.absolute(), seconds, progress)
+        with temporary_folder() as place:
+            result = judged(outcome, Path(place), seconds, progress)
+            if folder is not None:
+                shutil.copytree(place, folder, dirs_exist_ok=True)
         both = graded(outcome, result)
         if name == "text":
             return text(both, trusted) + kernel_text(result)

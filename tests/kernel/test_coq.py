@@ -199,7 +199,12 @@ def test_an_axiom_of_its_own_is_no_proof(folder: Path) -> None:
 
 @needs_coq
 @pytest.mark.slow
-def test_the_command_shows_it(tmp_path: Path) -> None:
+def test_the_command_shows_it_and_believes_no_file_that_is_there(tmp_path: Path) -> None:
+    library = tmp_path / "library"
+    library.mkdir()
+    for name in sources():
+        shutil.copy(formal() / name, library)
+        (library / name).with_suffix(".vo").write_bytes(b"compiled from something else")
     command = ["lyapcheck", "recheck", "--kernel", "--kernel-files", str(tmp_path), "--format", "json"]
     done = subprocess.run(
         [sys.executable, "-m", *command, str(GOOD / "ext.V-is-positive-definite.json")],
@@ -212,3 +217,4 @@ def test_the_command_shows_it(tmp_path: Path) -> None:
     assert row["grade"] == "kernel"
     assert row["kernel"]["theorem"] == "V_positive_definite 1"
     assert list((tmp_path / "printed").glob("c_*.v"))
+    assert (library / "Definitions.vo").stat().st_size > 1000
