@@ -53,7 +53,7 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         progress: told the fraction done and a few words.
     """
     asked = question(subject)
-    result = read(store.take(asked))
+    result = read(store.take(asked), subject)
     if result is None:
         result = _afresh(subject, notes, gate, progress)
         store.put(asked, written(result))

@@ -13,13 +13,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
+from lyapcheck.answers.check.claim import statement_text
+from lyapcheck.check.codec import to_json
 from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.python_process import command, environment
+from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
 from lyapcheck.report.model import Witness
 from lyapcheck.robots import load
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.temporary import temporary_folder
 
 if TYPE_CHECKING:
@@ -28,6 +33,8 @@ if TYPE_CHECKING:
 FIRST = "epsilon"
 """The certificates that take longest for their size."""
 PROCESSES = 2
+JUDGED = ("verdict", "id", "m", "rules", "granted")
+"""What a row has from the checker."""
 
 
 def question(subject: Subject) -> dict[str, Any]:
@@ -48,8 +55,11 @@ def written(result: Computed) -> dict[str, Any]:
     return {**vars(result), "figures": figures, "small": small}
 
 
-def read(kept: Any) -> Computed | None:
-    """What was written, if every verdict in it is what the checker says of its certificate now."""
+def read(kept: Any, subject: Subject) -> Computed | None:
+    """What was written, if every verdict in it is what the checker says of its certificate now.
+
+    The certificates must also be of the statements that are shown, and of the arm and gains of the report.
+    """
     if kept is None:
         return None
     try:
@@ -63,9 +73,20 @@ def read(kept: Any) -> Computed | None:
         }
         lists = {name: tuple(kept[name]) for name in ("claims", "others", "epsilon", "runs")}
         result = Computed(**{**kept, **lists, "figures": figures, "small": small})
-        return result if _holds(result) else None
-    except (KeyError, TypeError, ValueError):
+        return result if _of(subject, result) and _holds(result) else None
+    except (InputError, KeyError, TypeError, ValueError):
         return None
+
+
+def _of(subject: Subject, result: Computed) -> bool:
+    """Whether each ε₀ has certificates of the arm and gains that it is shown for."""
+    arm = load(subject.robot)
+    arms = {one.name: ControlledArm(one, arm) for file in subject.gain_files for one in file.gains}
+    of = ((row, result.certificates[path]) for row in result.epsilon for path in row["certificates"].values())
+    stated = ((row, json.loads(text)["statement"]) for row, text in of)
+    return all(
+        one == to_json(statement_of(arms[row["name"]].loop(Fraction(one["eps0"])))) for row, one in stated
+    )
 
 
 def _holds(result: Computed) -> bool:
@@ -82,12 +103,14 @@ def _holds(result: Computed) -> bool:
         if row["verdict"] not in ("proved", "refuted"):
             continue
         answer = judged.get(row["digest"], {})
-        said = [answer.get(key) for key in ("verdict", "id", "m", "rules")]
-        if said != [row[key] for key in ("verdict", "id", "m", "rules")]:
+        said = [answer.get(key) for key in JUDGED]
+        if said != [row[key] for key in JUDGED]:
             return False
         certificate, _ = certificate_of(texts[row["digest"]].encode())
         by_coq = accepted_before(certificate.statement, certificate.proof, certificate.verdict)
         if row["grade"] != (GRADE if by_coq else answer["grade"]):
+            return False
+        if row["statement"] != statement_text(certificate.statement):
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False

@@ -78,7 +78,8 @@ def test_epsilon_is_found_again(monkeypatch: pytest.MonkeyPatch, asked: Any) -> 
         lambda answer: answer["witness"].update(eps0="1/1000"),
         lambda answer: answer["witness"]["state"].update(w=["0"]),
         lambda answer: answer["witness"]["arm"].update(viscous=["1000"]),
-        lambda answer: answer.update(scalar="1000", scalar_proof=True),
+        lambda answer: answer.update(scalar="1000", published="1000"),
+        lambda answer: answer["reasons"].update(scalar="there is none", published="(19) fails"),
         lambda answer: answer.pop("reasons"),
     ],
 )
@@ -91,8 +92,7 @@ def test_an_epsilon_that_was_exchanged_is_asked_again(
     assert kept_epsilon(GAINS, model, ranges=ranges, **BUDGET) is not first
     rewritten(place, change)
     result = kept_epsilon(GAINS, model, ranges=ranges, **BUDGET)
-    # the arm at which a witness holds is of no interest where nothing is uncertain
-    assert result is first or (not ranges and result.data() == first.data())
+    assert result.data() == first.data()
 
 
 def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) -> None:

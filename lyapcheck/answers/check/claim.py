@@ -25,6 +25,13 @@ SIDES = ("point", "left", "operator", "right")
 RELATIONS = {"<=": "≤"}
 
 
+def statement_text(stated: Statement) -> str:
+    """A statement rendered from its data; cut where it is long, with a digest."""
+    text = stated.text()
+    short = shortened(text, full=False)
+    return short if short == text else f"{short} [statement {digest_of(to_json(stated))[:12]}]"
+
+
 @dataclass(frozen=True)
 class ClaimResult:
     """What was found out about one claim for one m (``None``: the claim does not depend on m).
@@ -49,12 +56,7 @@ class ClaimResult:
     @cached_property
     def statement(self) -> str:
         """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
-        if not isinstance(self.stated, Statement):
-            return "no statement"
-        text = self.stated.text()
-        short = shortened(text, full=False)
-        digest = "" if short == text else f" [statement {digest_of(to_json(self.stated))[:12]}]"
-        return short + digest
+        return statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
 
     @property
     def verdict(self) -> Verdict:

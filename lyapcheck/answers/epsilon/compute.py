@@ -82,14 +82,9 @@ def epsilon(
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
     progress = on_progress or (lambda fraction, note: None)
-    controlled, reasons = ControlledArm(gain_set, model, ranges), {}
+    controlled = ControlledArm(gain_set, model, ranges)
     progress(0.0, "scalar form")
-    bounds, constants = robot_bounds(model), controlled.family.constants()
-    published, reasons["published"] = _published(gain_set, constants, bounds)
-    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
-    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
-    scalar = _scalar(controlled, bounds) or sharp
-    reasons["scalar"] = scalar.reason
+    published, scalar, reasons = by_forms(controlled)
     by = ""
     proof: Proof | None = None
     scalar_proof: Proof | None = None
@@ -242,6 +237,17 @@ def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, s
     if radial is not None and radial.loop.eps0 > norm.loop.eps0:
         return radial, "bounds in ‖e‖ alone", result.reason
     return norm, "norms alone", result.reason
+
+
+def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, dict[str, str]]:
+    """The published ε₀, the scalar one, and why one of them is missing; no search."""
+    gain_set, constants = controlled.gains, controlled.family.constants()
+    bounds = robot_bounds(controlled.model)
+    published, reason = _published(gain_set, constants, bounds)
+    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
+    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
+    scalar = _scalar(controlled, bounds) or sharp
+    return published, scalar, {"published": reason, "scalar": scalar.reason}
 
 
 def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> Proof | None:

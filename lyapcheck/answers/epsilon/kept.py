@@ -1,7 +1,7 @@
 """Four ε₀ computed before: taken from the store only if the checker accepts all their proofs again.
 
 Closed loops are built anew from gains and arm, the proofs and the witness are judged on them, and what
-follows from these is derived again. Numbers that no certificate shows, and words, are taken as they were.
+follows from these is derived again, as are the ε₀ that no search finds. Words are taken as they were.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
-from lyapcheck.answers.epsilon.compute import epsilon, proof_of, put_together
+from lyapcheck.answers.epsilon.compute import by_forms, epsilon, proof_of, put_together
 from lyapcheck.answers.epsilon.consistency import Contradiction
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
@@ -85,8 +85,6 @@ def written(result: EpsilonResult) -> dict[str, Any]:
     """What cannot be derived again, as plain data."""
     witness, weighted = result.witness, result.weighted
     return {
-        "published": to_json(result.published),
-        "scalar": to_json(result.scalar),
         "boxes": result.boxes,
         "certified_by": result.certified_by,
         "reasons": dict(result.reasons),
@@ -120,8 +118,8 @@ def _read(
     kept: Mapping[str, Any], controlled: ControlledArm, assumptions: tuple[str, ...], jobs: int
 ) -> EpsilonResult | None:
     proof, told = _proof(kept["proof"], controlled), kept["weighted"]
-    weighted, scalar = _proof(told, controlled), _fraction(kept["scalar"])
-    scalar_proof = proof_of(controlled, scalar) if kept["scalar_proof"] else None
+    weighted, (published, scalar, reasons) = _proof(told, controlled), by_forms(controlled)
+    scalar_proof = proof_of(controlled, scalar.eps0) if kept["scalar_proof"] else None
     at, seen = controlled, kept["witness"]
     witness = None
     if seen is not None:
@@ -137,8 +135,8 @@ def _read(
         controlled,
         at,
         witness,
-        published=_fraction(kept["published"]),
-        scalar=scalar,
+        published=published,
+        scalar=scalar.eps0,
         proof=proof,
         scalar_proof=scalar_proof,
         weighted=None
@@ -146,14 +144,10 @@ def _read(
         else Weighted(weighted, int(told["states"]), int(told["looked_at"])),
         boxes=int(kept["boxes"]),
         certified_by=str(kept["certified_by"]),
-        reasons={str(name): str(text) for name, text in kept["reasons"].items()},
+        reasons={name: str(text) for name, text in (kept["reasons"] | reasons).items() if text},
         assumptions=assumptions,
         seed=int(kept["seed"]),
     )
-
-
-def _fraction(told: Any) -> Fraction | None:
-    return None if told is None else from_json(Fraction, told, "number")
 
 
 def _written_arm(against: Refutation) -> dict[str, Any]:
