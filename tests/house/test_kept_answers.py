@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import gzip
 import json
 from collections.abc import Callable
@@ -17,9 +18,14 @@ from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.report import kept as kept_report
+from lyapcheck.report.build import Subject
+from lyapcheck.report.jobs import rounded
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
+from tests.arena.attacks import encoded, sealed
+from tests.arena.run import ARENA
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
 BUDGET: dict[str, Any] = {"max_boxes": 300, "starts": 2}
@@ -93,6 +99,62 @@ def test_an_epsilon_that_was_exchanged_is_asked_again(
     rewritten(place, change)
     result = kept_epsilon(GAINS, model, ranges=ranges, **BUDGET)
     assert result.data() == first.data()
+
+
+PATH = "certificates/published/one.json"
+
+
+@pytest.fixture(scope="module")
+def reported(asked: Any) -> tuple[Subject, dict[str, Any]]:
+    """A report of one claim and one ε₀ as it is kept."""
+    if asked[1]:
+        pytest.skip("reports have no ranges")
+    result = asked[2]
+    paths = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
+    files = {path: text for path, text in paths.items() if ".scalar." not in path}
+    files[PATH] = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
+    answer = kept_report._judged({PATH: files[PATH]})[json.loads(files[PATH])["digest"]]
+    row = {
+        key: answer[key] for key in ("verdict", "grade", "id", "m", "rules", "granted", "statement", "digest")
+    }
+    ends = {
+        kind: rounded(getattr(result, kind), up=kind == "falsified") for kind in ("certified", "falsified")
+    }
+    own = {path.split(".")[-2]: path for path in files if path != PATH}
+    rest: dict[str, Any] = dict.fromkeys(("others", "runs", "cells"), ())
+    rest |= {"small": {}, "figures": {}, "sensitivity": None}
+    kept = {**rest, "claims": [row], "epsilon": [{"name": "one", "certificates": own, **ends}]}
+    gains = GainFile("gains.toml", "pendulum1", (GAINS,))
+    return Subject("pendulum1", (1,), (gains,), own=True), {**kept, "certificates": files}
+
+
+def of_another_statement(kept: dict[str, Any]) -> None:
+    """Another true one, x·y = x·y, under the id and by the rule of the claim."""
+    other = json.loads(kept["certificates"][PATH])
+    product = ["dot", ["vec", "x"], ["vec", "y"]]
+    other["statement"] |= {"left": product, "right": product, "rates": [], "given": [], "symmetric": []}
+    kept["certificates"][PATH] = encoded(sealed(other)).decode()
+    kept["claims"][0]["digest"] = sealed(other)["digest"]
+
+
+def of_other_gains(kept: dict[str, Any]) -> None:
+    kept["epsilon"][0]["name"] = "two"
+
+
+def of_less_granted(kept: dict[str, Any]) -> None:
+    kept["claims"][0]["granted"] = ["nothing"]
+
+
+def test_a_report_is_found_again(reported: Any) -> None:
+    subject, kept = reported
+    assert kept_report.read(copy.deepcopy(kept), subject) is not None
+
+
+@pytest.mark.parametrize("change", [of_another_statement, of_other_gains, of_less_granted])
+def test_a_report_that_was_exchanged_is_made_anew(reported: Any, change: Callable[[Any], None]) -> None:
+    subject, kept = reported
+    change(changed := copy.deepcopy(kept))
+    assert kept_report.read(changed, subject) is None
 
 
 def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
