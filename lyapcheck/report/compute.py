@@ -76,19 +76,18 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     certificates: dict[str, str] = {}
     for part in (*proofs.proofs, *parts):
         certificates |= part.certificates
-    small = {} if subject.own else proofs.small
-    certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
+    certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
         unwanted = {row["certificate"] for row in rows if row["id"] not in needed[row["proof"]]}
         rows = tuple(row for row in rows if row["id"] in notes.own.get(row["proof"], ()))
         certificates = {path: text for path, text in certificates.items() if path not in unwanted}
-    figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
+    figures |= draw_sides(proofs.small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
         claims=tuple(row for row in rows if row["proof"] == "published"),
         others=tuple(row for row in rows if row["proof"] != "published"),
-        small={name: light(one) for name, one in small.items()},
+        small={name: light(one) for name, one in proofs.small.items()},
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
@@ -138,7 +137,7 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
         return job
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
-    proofs = start("claims", proofs_job, *about, notes)
+    proofs = start("claims", proofs_job, *about, notes, subject.own)
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
     cells = start("map", map_job, subject.robot, subject.of_family) if subject.map else None

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,8 +24,12 @@ many boxes, here and whenever the certificate is checked again; ``epsilon`` goes
 DIGITS = 4
 """Significant digits of ε₀ in a report, rounded to the safe side: more would differ between machines."""
 PROOF = "published.py"
-OTHERS = ("scalar.py", "tracking.py")
-"""Proofs of what the paper concludes, that do not rest on what is refuted."""
+CLASS = "every_function.py"
+"""The proof for every number of joints and every function of a class."""
+BOUNDS = ("F.h.square", "F.h.bounded", "F.h.slope", "F.h.endless")
+"""Its claims that put h_m into the class for every real m ≥ 1."""
+OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: ("F.arms", "F.family", *BOUNDS)}
+"""Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
 BOTH_ENDS = ("certified", "falsified")
@@ -62,12 +67,12 @@ class GainData:
     certificates: Mapping[str, str]
 
 
-def _claims(proof: str, ms: Sequence[int], robot: str, gains: str) -> ProofData:
-    """Every claim of a proof, with what its verdicts rest on."""
+def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequence[str] = ()) -> ProofData:
+    """The claims of a proof, with what their verdicts rest on."""
     from lyapcheck.claims import run_proof
     from lyapcheck.claims.certificates import file_name
 
-    result = run_proof(proof, ms, robot, None, gains)
+    result = run_proof(proof, ms, robot, None, gains, only)
     rows = []
     for row in result.claims:
         own = file_name(row.id, row.m)
@@ -96,8 +101,10 @@ class ProofsData:
     small: Mapping[str, SmallWitness]
 
 
-def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes) -> ProofsData:
+def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> ProofsData:
     """Every claim; what is refuted in the paper again with few joints and numbers of the arm at hand.
+
+    About an arm of one's own: only proofs that say something about it, and nothing about the paper.
 
     One proof after the other: what several of them state is searched for once, and then in the store.
     """
@@ -105,9 +112,13 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes) -> Proof
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
-    result, *others = [_claims(proof, ms, robot, gains) for proof in (PROOF, *OTHERS)]
+    wanted_of = {PROOF: (), **OTHERS}
+    chosen = [proof for proof in wanted_of if not own or Path(proof).stem in notes.own]
+    proofs = tuple(_claims(proof, ms, robot, gains, wanted_of[proof]) for proof in chosen)
+    if own:
+        return ProofsData(proofs, {})
     wanted: dict[str, list[int]] = {}
-    for row in result.rows:
+    for row in proofs[0].rows:
         if row["verdict"] == "refuted" and row["section"].startswith(CHAIN):
             wanted.setdefault(row["id"], []).extend([] if row["m"] is None else [row["m"]])
     sets = {one.m: one for one in read_gain_file(gains).gains if one.m is not None and one.m in ms}
@@ -115,7 +126,7 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes) -> Proof
         if note.ask and sets and not wanted.keys() & set(note.claims):
             wanted |= {name: [note.ask["m"]] for name in note.claims}
             sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return ProofsData((result, *others), smallest_witnesses(PROOF, wanted, load(robot), sets))
+    return ProofsData(proofs, smallest_witnesses(PROOF, wanted, load(robot), sets))
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:

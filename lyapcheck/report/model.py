@@ -123,12 +123,6 @@ class Report:
         """Those of the paper, then those of the other proofs."""
         return (*self.claims, *self.others)
 
-    @property
-    def instead(self) -> tuple[Data, ...]:
-        """The conclusions of the other proofs: claims that no other claim of theirs uses."""
-        used = {(row["proof"], name) for row in self.others for name in row["uses"]}
-        return tuple(row for row in self.others if (row["proof"], row["id"]) not in used)
-
     def counts(self) -> dict[str, int]:
         """How many claims of the paper have each verdict."""
         order = ("proved", "refuted", "undecided", "error")

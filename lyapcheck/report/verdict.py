@@ -7,10 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
+from lyapcheck.report.jobs import BOUNDS, CLASS
 from lyapcheck.report.model import Data, Report, applies, behind
 from lyapcheck.report.notes import Box
 from lyapcheck.report.text import and_list
+
+THIS_ARM = "arm.stable"
+"""The claim that says the same of the arm and the gains at hand."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +48,8 @@ def badges(report: Report) -> tuple[Badge, ...]:
     if report.own:
         return tuple(_of_gains(row, report) for row in report.gate)
     true, broken = _is_true(report), break_places(report)
-    theorem = Badge("theorem", "proved", "good") if true else Badge("theorem", "not decided", "open")
+    every = " for every n" if {row["n"] for row in _concluding(report)} == {None} else ""
+    theorem = Badge("theorem", f"proved{every}", "good") if true else Badge("theorem", "not decided", "open")
     if broken:
         proof = Badge("printed proof", f"breaks at {broken[0]}", "bad")
     else:
@@ -104,20 +110,33 @@ def _is_true(report: Report) -> bool:
     }
 
 
+def _concluding(report: Report) -> list[Data]:
+    """The claims that say the theorem, on the way round if there is one."""
+    last = report.notes.route[-1] if route(report) else report.notes.chain[-1]
+    return [r for r in report.every_claim if r["proof"] == last.proof and r["id"] in last.claims]
+
+
 def _theorem(report: Report) -> str:
     if not _is_true(report):
         return "Whether the proposition is true was not decided here."
-    last = report.notes.route[-1] if route(report) else report.notes.chain[-1]
-    rows = [r for r in report.every_claim if r["proof"] == last.proof and r["id"] in last.claims]
+    rows = _concluding(report)
     joints = {row["n"] for row in rows}
     size = (
         "every number of joints n" if joints == {None} else f"n = {and_list(sorted(map(str, joints)))} joints"
     )
-    members = "every m" if {r["m"] for r in rows} == {None} else f"m = {and_list(list(map(str, report.ms)))}"
-    return (
-        f"The proposition is true: proved, with certificates, for every arm with Properties 2.1 to 2.7 and "
-        f"all positive gains, {size}, {members}."
+    members = f"for h_m with m = {and_list(list(map(str, report.ms)))}"
+    if any(row["m"] is None for row in rows):
+        members += ", and for every odd bounded function of its class"
+        if set(report.verdicts(BOUNDS, Path(CLASS).stem)) == {"proved"}:
+            members += ", whose bounds h_m keeps for every real m ≥ 1"
+    sentence = (
+        f"The proposition is true: proved, with certificates, for every arm with Properties 2.1 to 2.7, "
+        f"{size} and all positive gains: {members}."
     )
+    if set(report.verdicts((THIS_ARM,), "scalar")) != {"proved"}:
+        return sentence
+    arm = f"{report.robot['name']} (n = {len(report.robot['joints'])})"
+    return f"{sentence} For {arm} with the gains of Table 2 it is proved with an explicit ε₀ as well."
 
 
 def _proof(report: Report) -> str:

@@ -19,10 +19,11 @@ from websockets.sync.client import ClientConnection, connect
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
-    "--hide-scrollbars", "--remote-debugging-port=0", "--remote-allow-origins=*",
+    "--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-port=0", "--remote-allow-origins=*",
 )  # fmt: skip
-PATIENCE = 60.0
-"""Seconds until a browser that does not answer is given up."""
+PATIENCE = 240.0
+"""Seconds until a browser that does not answer is given up: a slow machine is no failure."""
+PAUSE = 0.05
 
 
 class Tab:
@@ -35,9 +36,12 @@ class Tab:
         self._socket = socket
         self._number = 0
         self.errors: list[str] = []
-        self._loaded = False
+        self._loaded: set[str] = set()
+        self._address = ""
         for domain in ("Page", "Runtime", "Log", "DOM"):
             self.send(f"{domain}.enable")
+        self.send("Page.setLifecycleEventsEnabled", enabled=True)
+        self.send("Emulation.setFocusEmulationEnabled", enabled=True)
 
     def send(self, method: str, **params: Any) -> dict[str, Any]:
         """The result of a command of the protocol."""
@@ -52,7 +56,10 @@ class Tab:
 
     def _event(self, message: dict[str, Any]) -> None:
         method, params = message["method"], message["params"]
-        self._loaded |= method == "Page.loadEventFired"
+        if method == "Page.lifecycleEvent" and params["name"] == "load":
+            self._loaded.add(params["loaderId"])
+        if method == "Page.frameNavigated" and "parentId" not in params["frame"]:
+            self._address = params["frame"]["url"] + params["frame"].get("urlFragment", "")
         if method == "Runtime.exceptionThrown":
             self.errors.append(json.dumps(params["exceptionDetails"]))
         if method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
@@ -61,23 +68,20 @@ class Tab:
             self.errors.append(params["entry"]["text"])
 
     def open(self, page: Path, place: str = "") -> None:
-        """Load a page and wait until it is there."""
+        """Load a page and wait until it is there, it and not the one before."""
         for address in ("about:blank", page.as_uri() + (f"#{place}" if place else "")):
-            self._loaded = False
             self.errors.clear()
-            self.send("Page.navigate", url=address)
-            while not self._loaded:
+            loader = self.send("Page.navigate", url=address)["loaderId"]
+            while loader not in self._loaded:
                 self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
 
-    def arrives(self, ending: str) -> bool:
-        """Whether the tab comes to an address with an ending; without a script, which leaving would end."""
-        until = time.monotonic() + PATIENCE
-        while time.monotonic() < until:
-            history = self.send("Page.getNavigationHistory")
-            if history["entries"][history["currentIndex"]]["url"].endswith(ending):
-                return True
-            time.sleep(0.05)
-        return False
+    def arrives(self, page: Path, ending: str) -> bool:
+        """Whether a page leads on to an address with an ending."""
+        self.send("Page.navigate", url=page.as_uri())
+        end = time.monotonic() + PATIENCE
+        while not self._address.endswith(ending) and time.monotonic() < end:
+            self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
+        return self._address.endswith(ending)
 
     def run(self, script: str) -> Any:
         """The value of an expression, or of what it promises."""
@@ -92,12 +96,15 @@ class Tab:
         result = f"document.querySelector({json.dumps(selector)})"
         self.run(f"{result}.value = {json.dumps(value)}; {result}.dispatchEvent(new Event('input'))")
 
-    def later(self, script: str, milliseconds: int = 100) -> Any:
-        """The value of an expression after a while."""
-        return self.run(f"new Promise(done => setTimeout(() => done({script}), {milliseconds}))")
+    def until(self, script: str) -> Any:
+        """The value of an expression as soon as it counts as true; its last value if it never does."""
+        end = time.monotonic() + PATIENCE
+        while not (value := self.run(script)) and time.monotonic() < end:
+            time.sleep(PAUSE)
+        return value
 
     def size(self, width: int, height: int = 900) -> None:
-        """The size of the window in pixels."""
+        """The size of the window in pixels, of a page that is open."""
         mobile = width < 500
         self.send(
             "Emulation.setDeviceMetricsOverride",
@@ -106,6 +113,7 @@ class Tab:
             deviceScaleFactor=1,
             mobile=mobile,
         )
+        self.until(f"matchMedia('(width: {width}px) and (height: {height}px)').matches")
 
     def media(self, kind: str = "", scheme: str = "light") -> None:
         """Screen or paper, and light or dark."""
@@ -141,10 +149,11 @@ def browser() -> Iterator[Tab]:
             stderr=subprocess.DEVNULL,
         )
         try:
-            with connect(_new_tab(Path(home, "DevToolsActivePort")), max_size=None) as socket:
+            address = _new_tab(Path(home, "DevToolsActivePort"))
+            with connect(address, max_size=None, open_timeout=PATIENCE, ping_interval=None) as socket:
                 yield Tab(socket)
         finally:
-            process.terminate()
+            process.kill()
             process.wait()
 
 
@@ -153,7 +162,7 @@ def _new_tab(file: Path) -> str:
     end = time.monotonic() + PATIENCE
     while not (file.is_file() and file.read_text()):
         assert time.monotonic() < end, "the browser did not start"
-        time.sleep(0.05)
+        time.sleep(PAUSE)
     port = file.read_text().splitlines()[0]
     with urlopen(Request(f"http://127.0.0.1:{port}/json/new?about:blank", method="PUT")) as answer:
         return str(json.load(answer)["webSocketDebuggerUrl"])

@@ -111,9 +111,12 @@ def test_the_page_is_one_file_and_asks_for_nothing(files: dict[str, str]) -> Non
 def test_the_first_screen_answers(report: Report, files: dict[str, str]) -> None:
     first = files["index.html"].split('id="findings"')[0]
     assert report.notes.paper.title in first
-    assert [badge.word for badge in badges(report)][:2] == ["proved", "breaks at (16), term 6"]
+    assert [badge.word for badge in badges(report)][:2] == ["proved for every n", "breaks at (16), term 6"]
     said = sentences(report)
     assert said[0].startswith("The proposition is true: proved")
+    for words in ("every number of joints n", "every odd bounded function", "every real m ≥ 1", "(n = 2)"):
+        assert words in said[0]
+    assert "every number of joints" in first
     assert "breaks at (16), term 6" in said[1]
     assert [step.tone for step in chain(report)] == ["good", "good", "bad", "warn", "warn", "good", "open"]
     assert [step.tone for step in route(report)] == ["good"] * 3

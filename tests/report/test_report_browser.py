@@ -27,10 +27,10 @@ def chromium() -> Iterator[Tab]:
 @pytest.fixture
 def page(chromium: Tab, folder: Path) -> Iterator[Tab]:
     """The page, freshly loaded at a desk."""
-    chromium.size(DESK)
-    chromium.media()
     chromium.send("Emulation.setScriptExecutionDisabled", value=False)
+    chromium.media()
     chromium.open(folder / "index.html")
+    chromium.size(DESK)
     yield chromium
     assert chromium.errors == []
 
@@ -56,9 +56,9 @@ def test_the_first_screen_answers(page: Tab) -> None:
 
 def test_a_claim_that_is_followed_is_open(page: Tab, folder: Path) -> None:
     page.open(folder / "index.html", "16.6")
-    assert page.run("document.getElementById('16.6').querySelector('.member').checkVisibility()")
+    assert page.until("document.getElementById('16.6').querySelector('.member').checkVisibility()")
     page.run("location.hash = '#equation-16'")
-    assert page.later("document.getElementById('equation-16').checkVisibility()")
+    assert page.until("document.getElementById('equation-16').checkVisibility()")
 
 
 def test_filters_leave_what_was_asked_for(page: Tab, report: Report) -> None:
@@ -106,7 +106,7 @@ def test_sliders_move_curves_and_the_gain_file_can_be_read(page: Tab, tmp_path: 
     page.enter("#sliders label:nth-of-type(3) input", 900)
     assert page.run(curve) != before
     page.run("document.getElementById('copy-gains').click()")
-    text = page.later("document.getElementById('gain-file').textContent")
+    text = page.until("document.getElementById('gain-file').textContent")
     path = tmp_path / "mine.toml"
     path.write_text(text, encoding="utf-8")
     (gains,) = read_gain_file(path).gains
@@ -179,5 +179,4 @@ def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Repor
 
 
 def test_the_old_page_of_a_member_leads_to_the_new(page: Tab, folder: Path) -> None:
-    page.open(folder / "m1.html")
-    assert page.arrives("index.html#m1")
+    assert page.arrives(folder / "m1.html", "index.html#m1")

@@ -54,9 +54,9 @@
   Object.assign(copy, { type: "button", className: "act", id: "copy-gains", textContent: "Copy the gain file" });
   copy.addEventListener("click", async () => {
     const text = gainFile();
-    try { await navigator.clipboard.writeText(text); copy.textContent = "Copied"; } catch { copy.textContent = "Select and copy below"; }
     file.textContent = text;
     file.hidden = false;
+    try { await navigator.clipboard.writeText(text); copy.textContent = "Copied"; } catch { copy.textContent = "Select and copy below"; }
   });
   const file = document.createElement("pre");
   file.id = "gain-file";

@@ -35,7 +35,7 @@ def _title(report: Report) -> list[Markup]:
         link = element("p", "Controller and conditions: ", paper.citation, ".", class_="cite")
         return [element("h1", f"Gains on {report.robot['name']}"), about, link]
     cite = element("p", paper.authors, ", ", paper.source, class_="cite")
-    formula = element("div", latex(paper.controller), class_="controller")
+    formula = element("div", [latex(part) for part in paper.controller.split(r"\qquad")], class_="controller")
     return [element("p", "Proof check of", class_="eyebrow"), element("h1", paper.title), cite, formula]
 
 
