@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ import numpy as np
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
@@ -64,19 +65,39 @@ def bench(
     }
 
 
-def gain_map(model: RobotModel, sets: Mapping[int, GainSet], goal: Sequence[float]) -> list[dict[str, Any]]:
+@dataclass(frozen=True)
+class Cell:
+    """A place of the map: what the page shows, and the certificate of its ε₀ where one is proved."""
+
+    data: dict[str, Any]
+    certificate: Certificate | None
+
+
+def gain_map(
+    model: RobotModel,
+    sets: Mapping[int, GainSet],
+    goal: Sequence[float],
+    scales: Sequence[str] = SCALES,
+) -> list[Cell]:
     """For each m and k_v the ε₀ that is proved, and what the reference simulation does.
 
     Args:
         model: the arm.
         sets: a gain set for each m, whose K_p is kept.
         goal: (n,) the step of each joint from rest at home, rad.
+        scales: k_v, N·m, the same in every joint.
     """
-    return [_cell(model, one, Fraction(kv), goal) for _, one in sorted(sets.items()) for kv in SCALES]
+    return [_cell(model, one, Fraction(kv), goal) for _, one in sorted(sets.items()) for kv in scales]
 
 
-def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) -> dict[str, Any]:
+def map_path(cell: Data) -> str:
+    """Where the certificate of a place stands in a report."""
+    return f"certificates/map/m{cell['m']}.kv{cell['kv']}.json"
+
+
+def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) -> Cell:
     from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.simulate.closed_loop import simulate
 
     gains = replace(one, kv=(kv,) * model.n)
@@ -86,17 +107,19 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
     settling = max(times) if all(map(math.isfinite, times)) else None
     peaks = zip(run.peak_torque, model.torque_limit, strict=True)
     shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
-    return {
+    data = {
         "m": one.m,
         "kv": f"{float(kv):g}",
-        "eps0": None if result.certified is None else _down(result.certified),
+        "eps0": None if result.certified is None else map_eps0(result.certified),
         "settling": None if settling is None else float(f"{settling:.{DIGITS}g}"),
         "share": float(f"{max(shares):.{DIGITS}g}") if shares else None,
         "within_19": result.published is not None,
     }
+    made = certificates(result).items()
+    return Cell(data, next((one for name, one in made if name.endswith(".certified.json")), None))
 
 
-def _down(value: Fraction) -> str:
+def map_eps0(value: Fraction) -> str:
     """The largest decimal of three digits that is not above it."""
     from lyapcheck.answers.epsilon.compute import round_down
 

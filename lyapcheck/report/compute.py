@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.proof import main_unnamed
-from lyapcheck.report.bench import kept_map
+from lyapcheck.report.bench import Cell, kept_map, map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -77,6 +77,8 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     for part in (*proofs.proofs, *parts):
         certificates |= part.certificates
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
+    places: list[Cell] = jobs.map.result() if jobs.map else []
+    certificates |= {map_path(one.data): one.certificate.text() for one in places if one.certificate}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
@@ -91,7 +93,7 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        cells=jobs.map.result() if jobs.map else kept_map(load(subject.robot)),
+        cells=[one.data for one in places] or kept_map(load(subject.robot)),
         figures=figures,
         certificates=certificates,
     )

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.report.bench import Cell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -26,9 +27,10 @@ DIGITS = 4
 PROOF = "published.py"
 CLASS = "every_function.py"
 """The proof for every number of joints and every function of a class."""
+ARGUMENT = ("F.arms.origin", "F.arms.above", "F.arms.rate")
 BOUNDS = ("F.h.square", "F.h.bounded", "F.h.slope", "F.h.endless")
 """Its claims that put h_m into the class for every real m ≥ 1."""
-OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: ("F.arms", "F.family", *BOUNDS)}
+OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS)}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
@@ -189,7 +191,7 @@ def goal_of(model: RobotModel) -> list[float]:
     return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
 
 
-def map_job(robot: str, sets: Mapping[int, GainSet]) -> list[dict[str, Any]]:
+def map_job(robot: str, sets: Mapping[int, GainSet]) -> list[Cell]:
     """The map over m and k_v."""
     from lyapcheck.report.bench import gain_map
     from lyapcheck.robots import load

@@ -20,6 +20,7 @@ from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
+from lyapcheck.report.bench import map_eps0, map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
 from lyapcheck.report.model import Witness
@@ -115,6 +116,12 @@ def _holds(result: Computed) -> bool:
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
+    for cell in result.cells:
+        path = map_path(cell)
+        if path in digests and verdict(path) != "proved":
+            return False
+        if path in digests and map_eps0(_eps0(result.certificates[path])) != cell["eps0"]:
+            return False
     return all(
         verdict(path) == ("refuted" if kind == "falsified" else "proved")
         and rounded(_eps0(result.certificates[path]), up=kind == "falsified") == row[kind]

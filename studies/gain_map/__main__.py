@@ -20,7 +20,8 @@ def main() -> None:
     """A few minutes."""
     model = load(PAPER_ARM)
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
-    result = {"arm": arm_digest(model), "boxes": BOXES, "map": gain_map(model, sets, PAPER_TASK.q_d)}
+    cells = [cell.data for cell in gain_map(model, sets, PAPER_TASK.q_d)]
+    result = {"arm": arm_digest(model), "boxes": BOXES, "map": cells}
     RESULTS.write_text(laid_out(result) + "\n", encoding="utf-8")
 
 

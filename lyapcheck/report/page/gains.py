@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from lyapcheck.output.elements import Markup, element
+from lyapcheck.report.bench import map_path
 from lyapcheck.report.model import Data, Report
 
 DRAWN = {
@@ -69,7 +70,9 @@ def _map(report: Report) -> Markup | None:
     largest = max((float(cell["eps0"] or 0) for cell in cells), default=0.0) or 1.0
     heads = [element("th", f"k_v = {kv}", scope="col") for kv in scales]
     rows = [
-        element("tr", element("th", f"m = {m}", scope="row"), [_cell(at[m, kv], largest) for kv in scales])
+        element(
+            "tr", element("th", f"m = {m}", scope="row"), [_cell(report, at[m, kv], largest) for kv in scales]
+        )
         for m in ms
     ]
     caption = (
@@ -87,8 +90,10 @@ def _map(report: Report) -> Markup | None:
     return element("div", element("h3", "The map of m and k_v"), element("div", table, class_="scroll"))
 
 
-def _cell(cell: Data, largest: float) -> Markup:
+def _cell(report: Report, cell: Data, largest: float) -> Markup:
     eps0 = element("b", f"{float(cell['eps0']):.3g}") if cell["eps0"] else element("b", "none proved")
+    if map_path(cell) in report.certificates:
+        eps0 = element("a", eps0, href=map_path(cell))
     settling = "not settled" if cell["settling"] is None else f"{cell['settling']:.2f} s"
     share = "" if cell["share"] is None else f", {100 * cell['share']:.0f} %"
     shade = round(60 * float(cell["eps0"] or 0) / largest)

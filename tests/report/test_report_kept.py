@@ -1,0 +1,62 @@
+"""A report from the store and a map of one's own rest on certificates that are judged again."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.check.files import gather
+from lyapcheck.check.recheck import recheck
+from lyapcheck.control.gains import GainSet
+from lyapcheck.report import kept
+from lyapcheck.report.bench import gain_map, map_eps0, map_path
+from lyapcheck.report.computed import Computed
+from lyapcheck.report.model import Report
+from lyapcheck.robots import load
+
+
+def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> None:
+    """Each place that names an ε₀: the checker proves it, for that m and that k_v."""
+    model, gains = load("pendulum1"), {1: GainSet("g", 1, (Fraction(4),), (Fraction(1),))}
+    cells = gain_map(model, gains, [0.5], scales=("0.2", "1"))
+    assert [(cell.data["m"], cell.data["kv"], cell.data["within_19"]) for cell in cells] == [
+        (1, "0.2", True), (1, "1", False)
+    ]  # fmt: skip
+    for cell in cells:
+        assert cell.certificate is not None
+        (tmp_path / Path(map_path(cell.data)).name).write_text(cell.certificate.text(), encoding="utf-8")
+        statement = json.loads(cell.certificate.text())["statement"]
+        assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(cell.data["kv"])]
+        assert map_eps0(Fraction(statement["eps0"])) == cell.data["eps0"]
+    outcome = recheck(gather([str(tmp_path)]))
+    assert [one.verdict for one in outcome.checked] == ["proved", "proved"]
+
+
+@pytest.mark.slow
+def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
+    report: Report, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
+    computed = Computed(
+        report.claims, report.others, small, report.epsilon, report.runs, report.sensitivity,
+        report.bench["map"], report.figures, report.certificates,
+    )  # fmt: skip
+    text = json.dumps(kept.written(computed))
+    found = kept.read(json.loads(text))
+    assert found is not None
+    assert found.figures == computed.figures
+    judged = kept._judged(report.certificates)
+    monkeypatch.setattr(kept, "_judged", lambda certificates: judged)
+    for change in (
+        lambda data: data["claims"][0].update(verdict="refuted"),
+        lambda data: data["others"][-1].update(grade="none"),
+        lambda data: data["epsilon"][0].update(certified="0.5"),
+        lambda data: data["certificates"].popitem(),
+        lambda data: data.pop("runs"),
+    ):
+        data = json.loads(text)
+        change(data)
+        assert kept.read(data) is None
