@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
 BOXES = 30_000
-"""Budget of branch and bound for one gain set, in every report: the last percent of ε₀ takes three times as
-many boxes, here and whenever the certificate is checked again; ``epsilon`` goes further on request."""
+"""Budget of branch and bound for one gain set, in every report; ``epsilon`` goes further on request."""
 DIGITS = 4
 """Significant digits of ε₀ in a report, rounded to the safe side: more would differ between machines."""
 PROOF = "published.py"
