@@ -116,12 +116,12 @@ def _holds(result: Computed) -> bool:
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
-    for cell in result.cells:
-        path = map_path(cell)
-        if path in digests and verdict(path) != "proved":
-            return False
-        if path in digests and map_eps0(_eps0(result.certificates[path])) != cell["eps0"]:
-            return False
+    places = [(path, cell["eps0"]) for cell in result.cells if (path := map_path(cell)) in digests]
+    if any(
+        verdict(path) != "proved" or map_eps0(_eps0(result.certificates[path])) != eps0
+        for path, eps0 in places
+    ):
+        return False
     return all(
         verdict(path) == ("refuted" if kind == "falsified" else "proved")
         and rounded(_eps0(result.certificates[path]), up=kind == "falsified") == row[kind]
