@@ -7,6 +7,7 @@ not needed before it either. f and k are any odd functions of the class; h_m is 
 from lyapcheck.claims import (
     Proof,
     along,
+    at_arm,
     constant_goal,
     cosh,
     gamma,
@@ -22,6 +23,7 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.bounds import above as at_least
+from lyapcheck.robots import load
 
 proof = Proof(
     "kelly_santibanez",
@@ -32,9 +34,9 @@ proof = Proof(
 x = var("x")
 
 
-def regulator(functions, damping=1):
+def regulator(functions, damping=1, friction="none"):
     """The goal, the loop, V and the theorem, with functions for q̃ and q̇."""
-    goal = constant_goal("none")
+    goal = constant_goal(friction)
     w, M = goal.w, goal.M
     K_p, K_v = goal.gains("Kp Kv")
     f, k = functions(goal)
@@ -78,6 +80,11 @@ proof.add_theorem(
     "P", "for all positive gains the goal is globally asymptotically stable, without friction", theorem
 )
 proof.add("P.tanh", "so with tanh for both", regulator(tanh_of)[2])
+proof.add(
+    "P.pelican",
+    "so it is, with tanh, for the Pelican arm with these gains, whose friction only helps",
+    at_arm(regulator(tanh_of, friction="any")[2], load("pelican2"), Kp="30 30", Kv="7 3"),
+)
 
 
 @proof.claim(

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from fractions import Fraction
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
@@ -24,7 +23,7 @@ from lyapcheck.check.expressions.expression import Tree, derivative, substitute,
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import Stable
-from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian
+from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian, slopes_of_mass, slopes_of_symbols
 from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
@@ -172,7 +171,13 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:
     arm = Arm(bounds.mass, bounds.viscous, energy)
     known = {name: exact_value(value) for name, value in gains.items() if name not in rows}
     known |= {"mu": bounds.guessed_floor(), "beta": bounds.beta, "kc": bounds.kc}
-    known["kg"] = above(sqrt(total(expr(size) ** 2 for size in _slopes(energy, robot.n))))
+    for name, slopes in (
+        ("kg", hessian(energy, robot.n)),
+        ("km", slopes_of_mass(bounds.mass)),
+        ("kc2", slopes_of_symbols(bounds.mass)),
+    ):
+        sizes = (size_of(by_parameters(slope, robot.n), ()) for slope in slopes)
+        known[name] = above(sqrt(total(expr(size) ** 2 for size in sizes)))
     for name, values in (rows | {"B": bounds.viscous}).items():
         squares = total(expr(value) ** 2 for value in values)
         known |= {
@@ -189,11 +194,6 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:
     if lost := [name for name in wanted if name not in known]:
         raise ValueError(f"at_arm: the conditions need numbers for {', '.join(lost)}")
     return StableArm(stable.argument, arm, tuple(rows.items()), tuple((name, known[name]) for name in wanted))
-
-
-def _slopes(energy: Monomials, n: int) -> list[Fraction]:
-    """For each entry of ∂g/∂q a number above its size."""
-    return [size_of(by_parameters(entry, n), ()) for entry in hessian(energy, n)]
 
 
 def form_of(value: Expr) -> Form:

@@ -174,7 +174,7 @@ def _group(obligation: str) -> str:
     name = obligation.split(",", maxsplit=1)[0].split(":", maxsplit=1)[0]
     if name.startswith(("origin", "V at")):
         return "origin"
-    return "arm" if name in ("M", "beta", "kc", "kg") or name.startswith("condition") else name
+    return "arm" if name in ("M", "beta", "kc", "kg", "km", "kc2") or name.startswith("condition") else name
 
 
 def _all(parts: list[tuple[str, Statement]]) -> Statement:

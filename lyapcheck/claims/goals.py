@@ -105,6 +105,8 @@ class Goal:
     M = any_matrix("M")
     mu, beta, kc, kg, vd, R, eps0, s = map(var, ("mu", "beta", "kc", "kg", "vd", "R", "eps0", "s"))
     """λmin(M), ‖M‖, the Coriolis bound, ‖∂g/∂q‖, ‖q̇_d‖, the radius of a local bound; ε = ε₀ s."""
+    km, kc2, ad = map(var, ("km", "kc2", "ad"))
+    """‖M(q) − M(q_d)‖ ≤ km ‖e‖, ‖C(q, x) − C(q_d, x)‖ ≤ kc2 ‖x‖ ‖e‖, ‖q̈_d‖ ≤ ad, for a goal that moves."""
 
     @property
     def C(self) -> AnyMatrix:
@@ -123,8 +125,18 @@ class Goal:
 
     @property
     def gravity_at_goal(self) -> AnyVector:
-        """g(q_d), for a constant q_d."""
-        return any_vector("gd")
+        """g(q_d)."""
+        return self.gravity - any_vector("dg") if self.desired else any_vector("gd")
+
+    @property
+    def M_at_goal(self) -> AnyMatrix:
+        """M(q_d), for a goal that moves."""
+        return self.M - any_matrix("dM")
+
+    @property
+    def C_at_goal(self) -> AnyMatrix:
+        """C(q_d, q̇_d), for a goal that moves."""
+        return any_matrix("D") - any_matrix("dD")
 
     @property
     def velocity(self) -> AnyVector:

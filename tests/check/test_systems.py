@@ -281,7 +281,7 @@ def test_exponential_needs_norms():
 def test_a_bound_that_holds_nearby_concludes_nothing_far_away():
     pd = PD()
     below = pd.goal.beta / 2 * pd.b**2 + pd.K.max / 2 * pd.r**2
-    assert "is for constant q_d" in why(pd.argued(uniform, below=below, rate=pd.rate + pd.r**2, local=True))
+    assert "rate: it is refuted" in why(pd.argued(uniform, below=below, rate=pd.rate + pd.r**2, local=True))
     assert "attracts where ‖e‖ ≤ R and V is below" in pd.argued(local=True).text()
     assert "globally" not in pd.argued(local=True).text()
 
@@ -396,6 +396,52 @@ def test_parts_of_a_cascade_belong_to_it():
     assert "has its own data" in why(Stable(replace(argument, cascade=None)))
     assert "has its own data" in why(Stable(replace(argument, theorem="uniform", upper=argument.lower)))
     assert "is for LaSalle" in why(Stable(replace(argument, rest=Rest(any_vector("e"), argument.rate))))
+
+
+def ahead(goal=None, e_share=1, **numbers):
+    """M(q_d)q̈_d in the torque of a computed torque: what it lacks is at most km ad ‖e‖."""
+    goal = goal or moving_goal()
+    e, w, M = goal.e, goal.w, goal.M
+    K, D = goal.gains("Kp Kv")
+    (a,) = goal.constants("a")
+    r, b, k_h = norm(e), norm(w), e_share * goal.km * goal.ad
+    rest = goal.C @ goal.velocity + goal.gravity + goal.B @ goal.velocity
+    loop = goal.under(K @ e - D @ w + goal.M_at_goal @ goal.acceleration + rest)
+    cross = k_h + a * (D.max + goal.B.max + goal.kc * goal.vd)
+    low = D.min - a * (goal.beta + goal.kc * goal.R)
+    above = goal.mu / 2 * b**2 + K.min / 2 * r**2 - a * goal.beta * r * b
+    statement = exponential(
+        loop,
+        w @ M @ w / 2 + e @ K @ e / 2 - a * e @ M @ w,
+        above=above,
+        below=goal.beta / 2 * b**2 + K.max / 2 * r**2 + a * goal.beta * r * b,
+        rate=a * (K.min - k_h) * r**2 - cross * r * b + low * b**2,
+        where=[
+            a**2 * goal.beta**2 < goal.mu * K.min,
+            k_h < K.min,
+            a * (goal.beta + goal.kc * goal.R) < D.min,
+            cross**2 / 4 < a * (K.min - k_h) * low,
+        ],
+        local=True,
+    )
+    given = {"Kp": "90 90", "Kv": "30 30", "a": "1", "R": "1/4", "vd": "0.1", "ad": "0.1"}
+    return statement, at_arm(statement, load("pelican2"), **(given | numbers))
+
+
+def test_what_differs_between_the_arm_and_its_goal():
+    """It is granted in proportion to the error, and shown for an arm by the slopes of M."""
+    statement, arm = ahead()
+    assert propose(statement).verdict.value == propose(arm).verdict.value == "proved"
+    said = " ".join(statement.granted)
+    assert "‖M(q) − M(p)‖ ≤ km" in said
+    assert "‖q̈_d‖ ≤ ad" in said
+    assert "kc2" not in said
+    assert "exponentially stable, and attracts where ‖e‖ ≤ R and Φ is below" in statement.text()
+    small = tuple((name, value / 100 if name == "km" else value) for name, value in arm.numbers)
+    assert "km:" in why(replace(arm, numbers=small))
+    assert "rate: no choice" in why(ahead(e_share=expr("1/2"))[0])
+    assert "dM: has no meaning" in why(PD().argued(torque=any_matrix("dM") @ any_vector("e")))
+    assert "is no theorem with a region" in why(Stable(replace(shaken().argument, local=True)))
 
 
 def test_a_theorem_that_the_checker_does_not_know():

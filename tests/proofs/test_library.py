@@ -20,6 +20,7 @@ REFUSED = {
     "pd_plus": {"LaSalle": "undecided", "feedforward": "undecided", "rest": "refuted"},
     "slotine_li": {"printed": "undecided", "printed.form": "undecided"},
     "pid": {"global": "undecided", "damping": "undecided"},
+    "feedforward": {"global": "undecided", "soft.pelican": "undecided"},
 }
 """Claims that are there to be refused; all others are proved."""
 REASONS = {
@@ -28,6 +29,7 @@ REASONS = {
     ("kelly_gravity", "corner"): "V is not C¹",
     ("kelly_tanh", "exponential"): "must be quadratic in the norms of all states",
     ("tomei", "soft.pelican"): "condition 1: it is refuted",
+    ("feedforward", "soft.pelican"): "condition 2: it is refuted",
 }
 
 
@@ -152,6 +154,14 @@ FAULTS = {
         ("        gravity=True,\n        local", "        local"),
         ("rest=(z, K_i.min * norm(z) ** 2)", "rest=(e, K_p.min * r**2)"),
         ("k, d = K_p.min - K_i.max - k_g", "k, d = K_p.min - K_i.max"),
+    ],
+    "feedforward": [
+        TURNED[0],
+        ("goal.M_at_goal @ goal.acceleration +", "2 * goal.M_at_goal @ goal.acceleration +"),
+        ("+ goal.gravity_at_goal\n", "\n"),
+        ("k_h = goal.km * goal.ad + goal.kc2 * v_d**2 + goal.kg", "k_h = goal.kc2 * v_d**2 + goal.kg"),
+        ("def theorem(where=WHERE, ", "def theorem(where=WHERE[1:], "),
+        ("below=β / 2 * b**2", "below=β / 4 * b**2"),
     ],
 }
 

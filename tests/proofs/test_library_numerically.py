@@ -10,6 +10,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from lyapcheck.check.kinds.stable_arm import slopes_of_mass, slopes_of_symbols
+from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.claims import ArmBounds
 from lyapcheck.claims.script import find_script
 from lyapcheck.robots import load
@@ -31,6 +34,12 @@ def gravity_bound():
     return 1.01 * np.linalg.norm(np.stack(columns, axis=2), 2, axis=(1, 2)).max()
 
 
+def size_of_slopes(slopes):
+    """What ``at_arm`` takes for ‖M(q) − M(p)‖ and ‖C(q, x) − C(p, x)‖, up to rounding."""
+    sizes = (float(size_of(by_parameters(slope, 2), ())) for slope in slopes(BOUNDS.mass))
+    return np.sqrt(sum(size**2 for size in sizes))
+
+
 CONSTANTS = {
     "mu": float(BOUNDS.guessed_floor()),
     "beta": float(BOUNDS.beta),
@@ -39,6 +48,9 @@ CONSTANTS = {
     "vd": 3.0,
     "alpha": 0.1,
     "R": 0.5,
+    "km": size_of_slopes(slopes_of_mass),
+    "kc2": size_of_slopes(slopes_of_symbols),
+    "ad": 6.0,
     "eps0": 0.05,
     "B_min": B.min(),
     "B_max": B.max(),
@@ -74,8 +86,7 @@ class Moment:
             **GAINS,
         }
         if kind == "mat":
-            x = self.goal_speed if name == "D" else self.w
-            return MODEL.mass(self.q[None])[0] if name == "M" else MODEL.coriolis(self.q[None], x[None])[0]
+            return self.matrix(name)
         if kind == "diag":
             return np.diag(self.letter("vec", name))
         if kind == "var":
@@ -86,8 +97,17 @@ class Moment:
         if name in heavy:
             return MODEL.gravity(heavy[name][None])[0]
         if name == "dg":
-            return self.letter("vec", "g") - self.letter("vec", "gd")
+            return self.letter("vec", "g") - MODEL.gravity(self.goal[None])[0]
         return {"h": np.tanh(self.e), "Uh": np.log(np.cosh(self.e))}.get(name, np.array(at.get(name, 0.0)))
+
+    def matrix(self, name):
+        """M, C(q, w), D = C(q, q̇_d), and what M and D differ by from where q is q_d."""
+        if name[0] == "d":
+            goal = (self.goal, self.goal_speed, self.goal_push)
+            there = Moment(self.system, self.goal, self.speed, goal, self.own)
+            return self.matrix(name[1]) - there.matrix(name[1])
+        x = self.goal_speed if name == "D" else self.w
+        return MODEL.mass(self.q[None])[0] if name == "M" else MODEL.coriolis(self.q[None], x[None])[0]
 
     def value(self, tree):
         """An expression in numbers, vectors and matrices."""
@@ -136,7 +156,16 @@ class Moment:
         return energy
 
 
-LIBRARY = ("takegaki_arimoto", "tomei", "kelly_gravity", "kelly_tanh", "pd_plus", "slotine_li", "pid")
+LIBRARY = (
+    "takegaki_arimoto",
+    "tomei",
+    "kelly_gravity",
+    "kelly_tanh",
+    "pd_plus",
+    "slotine_li",
+    "pid",
+    "feedforward",
+)
 
 
 def argument_of(name):
@@ -158,6 +187,24 @@ def moments(argument, count=150):
             argument.system, goal[0] - e, goal[1] + w, goal, {s.name: z for s in argument.system.states}
         )
         yield now, (now.moved(step).V(argument) - now.moved(-step).V(argument)) / (2 * step)
+
+
+def test_differences_of_the_arm_are_within_their_slopes():
+    """M and C at pairs of postures, near and far."""
+    rng, largest = np.random.default_rng(2), {"km": 0.0, "kc2": 0.0}
+    for _ in range(400):
+        q, x = rng.uniform(-4, 4, 2), rng.normal(size=2)
+        p = q + 10 ** rng.uniform(-3, 0) * rng.normal(size=2)
+        M = np.subtract(*(MODEL.mass(at[None])[0] for at in (q, p)))
+        C = np.subtract(*(MODEL.coriolis(at[None], x[None])[0] for at in (q, p)))
+        apart = np.linalg.norm(q - p)
+        found = {
+            "km": np.linalg.norm(M, 2) / apart,
+            "kc2": np.linalg.norm(C, 2) / np.linalg.norm(x) / apart,
+        }
+        largest = {name: max(value, found[name]) for name, value in largest.items()}
+    for name, value in largest.items():
+        assert CONSTANTS[name] / 4 < value <= CONSTANTS[name]
 
 
 @pytest.mark.parametrize("name", LIBRARY)

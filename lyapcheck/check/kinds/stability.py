@@ -14,7 +14,7 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.obligations import obligations
-from lyapcheck.check.systems.system import Entrywise, System
+from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
@@ -48,7 +48,7 @@ class Stable(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         """What holds of the arm and of the letters."""
-        return tuple(_granted(self.argument.system))
+        return tuple(_granted(self.argument))
 
     def text(self) -> str:
         """The theorem in one sentence."""
@@ -61,9 +61,9 @@ class Stable(Total):
         origin = ", ".join(f"{name} = 0" for name in moving)
         conclusion = known.conclusion
         if argument.local:
-            conclusion = (
-                "asymptotically stable, and attracts where ‖e‖ ≤ R and V is below the least φ on ‖e‖ = R,"
-            )
+            least = "Φ" if argument.upper is not None else "V"
+            conclusion = known.conclusion.removeprefix("globally ")
+            conclusion += f", and attracts where ‖e‖ ≤ R and {least} is below the least φ on ‖e‖ = R,"
         energy = expression_text(argument.energy)
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
         under = "; ".join([expression_text(system.torque), *about])
@@ -77,14 +77,15 @@ class Stable(Total):
                 f"eᵀw ≥ {contraction}"
             )
         return (
-            f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(system))}"
+            f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(argument))}"
             f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
             f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
         )
 
 
-def _over(system: System) -> Iterator[str]:
+def _over(argument: Argument) -> Iterator[str]:
     """Over what a conclusion runs."""
+    system = argument.system
     yield "every n"
     yield f"every arm {FRICTION[system.friction]}"
     if system.gains:
@@ -92,7 +93,7 @@ def _over(system: System) -> Iterator[str]:
     if system.constants:
         yield f"all {', '.join(system.constants)} > 0"
     if system.desired:
-        yield "every q_d(t) with bounded dq_d/dt"
+        yield "every q_d(t) with bounded dq_d/dt" + (" and d²q_d/dt²" if "ad" in argument.constants else "")
 
 
 def _function_text(f: Entrywise) -> str:
@@ -103,8 +104,18 @@ def _function_text(f: Entrywise) -> str:
     return f"{by}, {bounded}odd and C¹, positive for x > 0, of bounded slope, its integral without end"
 
 
-def _granted(system: System) -> Iterator[str]:
+DIFFERENCES = {
+    "km": "‖M(q) − M(p)‖ ≤ km ‖q − p‖ for all q and p",
+    "kc2": "‖C(q,x) − C(p,x)‖ ≤ kc2 ‖x‖ ‖q − p‖ for all q and p",
+    "kg": "‖g(q) − g(p)‖ ≤ kg ‖q − p‖ for all q and p",
+    "ad": "‖q̈_d‖ ≤ ad",
+}
+"""What is granted where a bound has the constant, for q_d(t)."""
+
+
+def _granted(argument: Argument) -> Iterator[str]:
     """The properties of the arm that the letters have."""
+    system, used = argument.system, argument.constants
     yield (
         "the robot is (1): 0 < mu ≤ λmin(M(q)), ‖M(q)‖ ≤ beta and ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with "
         "Ṁ = C + Cᵀ; the torque is applied as it is, and all in it is known exactly"
@@ -113,6 +124,7 @@ def _granted(system: System) -> Iterator[str]:
         yield f"B is diagonal with λmin(B) = B_min {'>' if system.friction == 'positive' else '≥'} 0"
     if system.desired:
         yield "q_d(t) is twice continuously differentiable with ‖q̇_d‖ ≤ vd"
+        yield from (says for name, says in DIFFERENCES.items() if name in used)
     else:
         yield "g is the gradient of U_g, and ‖∂g/∂q‖ ≤ kg for all q"
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.text import diagonal_text, number_text
@@ -34,6 +35,7 @@ from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Numbers = tuple[Fraction, ...]
+Mass = tuple[tuple[Monomials, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -96,8 +98,9 @@ class StableArm(Total):
                     "secant": value >= f.member.secant,
                     "sector": 0 < value * f.member.secant <= 1,
                 }[end]
-        known = {"mu", "beta", "kc", "kg", "vd", "R", "eps0", *self.argument.system.constants}
-        return name in known and value >= 0 and (value > 0 or name in ("kc", "kg", "vd"))
+        upper = {"kc", "kg", "km", "kc2", "vd", "ad"}
+        known = {"mu", "beta", "R", "eps0", *upper, *self.argument.system.constants}
+        return name in known and value >= 0 and (value > 0 or name in upper)
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
@@ -134,6 +137,9 @@ class StableArm(Total):
             yield "kc", CoriolisBelow(mass, (), numbers["kc"])
         if "kg" in numbers:
             yield "kg", GravityBelow(len(mass), hessian(self.arm.potential, len(mass)), (), numbers["kg"])
+        for name, found in (("km", slopes_of_mass), ("kc2", slopes_of_symbols)):
+            if name in numbers:
+                yield name, GravityBelow(len(mass), found(mass), (), numbers[name])
         by: dict[str, Tree] = {name: ("num", str(value)) for name, value in numbers.items()}
         for k, one in enumerate(self.argument.where, 1):
             here = Relation(substitute(one.left, by), one.operator, substitute(one.right, by))
@@ -143,6 +149,28 @@ class StableArm(Total):
 def hessian(energy: Monomials, n: int) -> tuple[Monomials, ...]:
     """∂g/∂q row by row, g the gradient of the energy; its norm is at most the root of the sum of squares."""
     return tuple(slope(slope(energy, i, n), j, n) for i in range(n) for j in range(n))
+
+
+def slopes_of_mass(mass: Mass) -> tuple[Monomials, ...]:
+    """All ∂M_ij/∂q_k; ‖M(q) − M(p)‖ is at most the root of the sum of their squares, times ‖q − p‖."""
+    n = len(mass)
+    return tuple(slope(entry, k, n) for row in mass for entry in row for k in range(n))
+
+
+def slopes_of_symbols(mass: Mass) -> tuple[Monomials, ...]:
+    """All ∂c_ijk/∂q_l, C(q, x)_ij = Σ c_ijk x_k; likewise for ‖C(q, x) − C(p, x)‖, times ‖x‖ ‖q − p‖."""
+    n, half = len(mass), Fraction(1, 2)
+
+    def symbol(i: int, j: int, k: int) -> Monomials:
+        turned = ((mass[i][j], k, half), (mass[i][k], j, half), (mass[j][k], i, -half))
+        found: dict[tuple[int, ...], Fraction] = {}
+        for entry, angle, share in turned:
+            for powers, c in slope(entry, angle, n):
+                found[powers] = found.get(powers, Fraction(0)) + share * c
+        return tuple((powers, c) for powers, c in sorted(found.items()) if c)
+
+    each = product(range(n), repeat=3)
+    return tuple(slope(symbol(*of), at, n) for of in each for at in range(n))
 
 
 def slope(polynomial: Monomials, i: int, n: int) -> Monomials:

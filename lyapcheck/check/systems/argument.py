@@ -96,7 +96,8 @@ class Argument:
         disturbed = system.disturbed == known.disturbed == (self.gain is not None)
         require(disturbed, "disturbance", "", "must be in the system, the theorem and its gain, or in none")
         require(not (self.gravity and system.desired), "gravity", "", "has no energy where q_d(t) moves")
-        require(not self.local or self.theorem in ("strict", "LaSalle"), "local", "", "is for constant q_d")
+        local = self.theorem in ("strict", "LaSalle", "uniform", "exponential")
+        require(not self.local or local, "local", self.theorem, "is no theorem with a region")
         allowed = set(constants_of(system))
         for relation in self.where:
             used = variables(relation.gap)
@@ -133,6 +134,14 @@ class Argument:
         for f in system.functions:
             result |= {f"norm_{f.name}": (f.of, False), f"sum_U{f.name}": (f.of, True)}
         return result | {f"norm_{change.letter}": (change.state, True) for change in self.changes}
+
+    @property
+    def constants(self) -> set[str]:
+        """The names in its bounds and conditions."""
+        trees = [tree for form in self._forms() for tree in form.coefficients]
+        trees += [relation.gap for relation in self.where]
+        trees += [self.cascade.motion] if self.cascade is not None else []
+        return set().union(*map(variables, trees))
 
     @property
     def changed(self) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """How large the letters of a system are, from the properties of the arm, of gains and of functions.
 
-For a letter x, norm_x is its size. M has mu <= λmin(M), ‖M‖ <= beta; ‖C(q,x)y‖ <= kc ‖x‖ ‖y‖ and ‖q̇_d‖ <= vd;
+For a letter x, norm_x is its size. M has mu <= λmin(M), ‖M‖ <= beta; ‖C(q,x)y‖ <= kc ‖x‖ ‖y‖, ‖q̇_d‖ <= vd and
+‖q̈_d‖ <= ad; ‖M(q) − M(q_d)‖ <= km ‖e‖ and ‖C(q,x) − C(q_d,x)‖ <= kc2 ‖x‖ ‖e‖;
 a gain K has K_min, K_max and the norm K_norm of its diagonal; ‖∂g/∂q‖ <= kg, so ‖dg‖ <= kg ‖e‖, and the
 energy of gravity U_g(q) − U_g(q_d) + g(q_d)ᵀe is eᵀP with ‖P‖ <= ½kg ‖e‖ (Taylor). A function f has
 |f(x)| <= f_secant |x|, |f'| <= f_slope, ‖f(x)‖ <= f_reach if it is bounded, and x f(x) >= f_sector f(x)² with
@@ -17,7 +18,21 @@ from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, terms_of
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Variable
-from lyapcheck.check.systems.system import DG, DISTURBANCE, DQD, C, D, E, M, S, System, U
+from lyapcheck.check.systems.system import (
+    DD,
+    DDQD,
+    DG,
+    DISTURBANCE,
+    DM,
+    DQD,
+    C,
+    D,
+    E,
+    M,
+    S,
+    System,
+    U,
+)
 
 Norm = tuple[tuple[Tree, ...], Tree]
 Least = tuple[Tree, Tree]
@@ -68,6 +83,9 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
     yield (C,), product(kc, size("w"))
     yield (D,), product(kc, constant("vd"))
     yield (DQD,), constant("vd")
+    yield (DDQD,), constant("ad")
+    yield (DM,), product(constant("km"), size("e"))
+    yield (DD,), product(constant("kc2"), constant("vd"), size("e"))
     yield (DISTURBANCE,), constant("delta")
     yield (DG,), product(constant("kg"), size("e"))
     yield (P,), product(("num", "1/2"), constant("kg"), size("e"))
@@ -176,7 +194,10 @@ def constants_of(system: System) -> dict[str, Variable]:
     upper = [
         "kc",
         "kg",
+        "km",
+        "kc2",
         "vd",
+        "ad",
         "delta",
         *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")),
     ]

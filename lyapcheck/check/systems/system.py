@@ -5,7 +5,8 @@
 M ẇ is derived from the torque. The letters: vectors e, w and further states; f, df and Uf for the values of
 an entrywise function, its slopes and its potential; gains, whose diagonal matrices multiply; s = 1/(1 + ‖e‖)
 and u = e/‖e‖. For a constant q_d, g(q) = gd + dg with gd = g(q_d). For q_d(t), dqd and ddqd are its
-derivatives, and C(q, q̇) = C + D with C = C(q, w), D = C(q, q̇_d).
+derivatives, C(q, q̇) = C + D with C = C(q, w), D = C(q, q̇_d), and what differs between q and q_d is
+dM = M(q) − M(q_d), dD = C(q, q̇_d) − C(q_d, q̇_d) and dg = g(q) − g(q_d).
 
 References: ``reyes2019family`` (1), (11), Properties 2.1 to 2.8.
 """
@@ -24,13 +25,13 @@ from lyapcheck.check.refusal import require
 E, W, DW, G, GD, DG, U = (("vec", name) for name in ("e", "w", "dw", "g", "gd", "dg", "u"))
 DISTURBANCE: Tree = ("vec", "d")
 DQD, DDQD = ("vec", "dqd"), ("vec", "ddqd")
-M, C, D = (("mat", name) for name in "MCD")
+M, C, D, DM, DD = (("mat", name) for name in ("M", "C", "D", "dM", "dD"))
 S: Tree = ("var", "s")
 B: Tree = ("diag", "B")
 NOTHING: Tree = ("sum",)
 OWN_NAMES = frozenset(
     {"e", "w", "dw", "g", "gd", "dg", "u", "x", "d", "dqd", "ddqd", "P", "M", "C", "D", "B", "s", "n", "R"}
-) | {"eps0", "mu", "beta", "kc", "kg", "vd", "delta", "norm", "sum"}
+) | {"eps0", "mu", "beta", "kc", "kg", "vd", "delta", "norm", "sum", "dM", "dD", "km", "kc2", "ad"}
 """What an author can name nothing else; norm_min is the size of a state min, and no gain norm has it."""
 FRICTION = ("none", "any", "positive")
 
@@ -138,8 +139,8 @@ class System:
     def known(self) -> frozenset[Tree]:
         """The letters that a controller may have."""
         vectors = {*self.moving, *self.diagonal, *(f.name for f in self.functions)}
-        vectors |= {"g", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
-        matrices = {"M", "C", "D"} if self.desired else {"M", "C"}
+        vectors |= {"g", "dg", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
+        matrices = {"M", "C", "D", "dM", "dD"} if self.desired else {"M", "C"}
         result = {("vec", name) for name in vectors} | {("mat", name) for name in matrices}
         return frozenset(result | {("var", name) for name in self.constants})
 
@@ -198,10 +199,10 @@ class System:
         return result
 
     def at_zero(self, tree: Tree, states: Collection[str]) -> Tree:
-        """An expression where some states are 0: functions of them are, C(q, w) is with w, dg with e."""
+        """An expression where some states are 0: functions of them are, C with w, differences with e."""
         gone = {("vec", name) for name in states}
         gone |= {("vec", n) for f in self.functions if f.of in states for n in (f.name, f"U{f.name}")}
-        gone |= ({C} if "w" in states else set()) | ({DG} if "e" in states else set())
+        gone |= ({C} if "w" in states else set()) | ({DG, DM, DD} if "e" in states else set())
         return replaced(tree, dict.fromkeys(gone, NOTHING))
 
 

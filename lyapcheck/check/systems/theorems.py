@@ -16,7 +16,8 @@ constants); V is C¹. Then
   polynomial in sizes, is bounded: y is uniformly continuous. ψ is positive definite with constants and sees
   y, so ‖y‖² has a finite integral. By Barbalat's lemma y → 0; then e → 0 and w → 0. Stability is not said.
 
-``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so.
+``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so;
+with time in V, where Φ is below it, whatever the initial time.
 
 A size sees a state if it is 0 only where the state is: norm_x of the state x, norm_f and sum_Uf of a
 function f of it. norm_x and sum_Uf grow with it without end, norm_f perhaps not. Letters may be changed in φ:

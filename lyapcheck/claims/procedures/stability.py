@@ -12,12 +12,13 @@ METHOD = "obligations of a theorem"
 
 @procedure(Stable, StableArm)
 def find_stable(statement: Stable | StableArm) -> SearchResult:
-    """Decide every obligation; one that fails leaves the conclusion open, as it is only sufficient."""
-    result = [(name, find(one)) for name, one in statement.obligations()]
-    rows = [{"part": name, "verdict": one.verdict.value, "method": one.method} for name, one in result]
-    for name, one in result:
-        if not one.is_proof:
+    """Decide the obligations up to one that fails: the conclusion is open then, as it is sufficient only."""
+    proofs, rows = [], []
+    for name, obligation in statement.obligations():
+        one = find(obligation)
+        rows.append({"part": name, "verdict": one.verdict.value, "method": one.method})
+        if not one.is_proof or one.proof is None:
             why = one.reason or f"it is {one.verdict.value}, {one.method}"
             return still_open(f"{name}: {why}", METHOD, parts=rows)
-    proofs = tuple(one.proof for _, one in result if one.proof is not None)
-    return shown(ByObligations(proofs), METHOD, parts=rows)
+        proofs.append(one.proof)
+    return shown(ByObligations(tuple(proofs)), METHOD, parts=rows)
