@@ -52,7 +52,8 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     if certifies(loop.tail, loop.eps0):
         return by_norms(loop)
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
-        raise NotPrinted("a proof by bounds in ‖e‖")
+        rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
+        raise NotPrinted(f"a proof by {rule}")
     return _script(loop, proof.rate.tree)
 
 

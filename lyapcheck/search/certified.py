@@ -13,6 +13,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
+from lyapcheck.search.link_bounds import linked_epsilon
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.shared import boxes_shared
@@ -27,8 +28,7 @@ _CHECKING = 0.8
 DIGITS = 7
 MAX_BOXES = 400_000
 MOST_JOINTS = 3
-"""Boxes of (q, e) have 2n − 1 sides: with more joints the bounds in ‖e‖ alone are what can be had."""
-_MANY_JOINTS = f"boxes of (q, e) are looked at up to {MOST_JOINTS} joints only"
+"""Boxes of (q, e) have 2n − 1 sides: with more joints q is left to bounds along the links."""
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
 
 
@@ -71,9 +71,10 @@ def certified_epsilon(
     """
     if not controlled.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
-    if controlled.n > MOST_JOINTS:
-        return Certified(None, 0, _MANY_JOINTS)
     progress = on_progress or (lambda fraction, note: None)
+    if controlled.n > MOST_JOINTS:
+        deadline = monotonic() + (math.inf if seconds is None else seconds)
+        return Certified(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
     search = _Search(controlled, ceiling, progress)
     began, seconds = monotonic(), math.inf if seconds is None else seconds
     with boxes_shared(jobs):

@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.inertia import Bisection, Links
+from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
 from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.decay.speeds import slowed
+from lyapcheck.check.loop.links import corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
@@ -25,6 +27,9 @@ from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
+
+FEW_ANGLES = 3
+"""Joints up to which boxes of angles show M ≻ 0 over ranges."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,10 +122,22 @@ class ControlledArm:
         return self.model if self.ranges else self.fixed
 
     @cached_property
-    def inertia_proof(self) -> Bisection | Links:
+    def chains(self) -> tuple[Chain, ...]:
+        """The links at each corner of the ranges of M's parameters; empty where they are not known."""
+        plant = self.ranged
+        if not isinstance(plant.dynamics, Chain):
+            return ()
+        corners = corners_of(self.loop(Fraction(1)).parameters)
+        arms = (plant.fixed(**dict(zip(plant.parameters, corner, strict=True))).chain for corner in corners)
+        return tuple(chain for chain in arms if chain is not None)
+
+    @cached_property
+    def inertia_proof(self) -> Bisection | Links | LinksAtCorners:
         """What shows M ≻ 0."""
         if self.ranges:
-            return Bisection()
+            # boxes of many angles are too many
+            known = self.n > FEW_ANGLES and self.chains
+            return LinksAtCorners(tuple(chain.links for chain in self.chains)) if known else Bisection()
         remember(self.fixed)
         return mass_proof(mass_of(self.fixed))
 

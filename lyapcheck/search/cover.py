@@ -94,7 +94,7 @@ def cover(
                 return Outcome(False, seen, RESISTS, point)
             sides = choose(rest)
             stack.append((halve(rest, sides), nodes.cut(names[~proved], sides)))
-    return Outcome(True, seen, tree=nodes.preorder())
+    return Outcome(True, seen, tree=nodes.preorder()[0])
 
 
 class Nodes:
@@ -115,22 +115,23 @@ class Nodes:
         self.parts.append((names, sides, halves))
         return halves
 
-    def preorder(self) -> str:
-        """The tree as text."""
+    def preorder(self) -> tuple[str, list[int]]:
+        """The tree as text, and the names of its leaves in their order."""
         side = np.full(self.count, -1, dtype=np.intp)
         left, right = np.zeros((2, self.count), dtype=np.intp)
         for names, sides, halves in self.parts:
             side[names], left[names], right[names] = sides, halves[: len(names)], halves[len(names) :]
         sides_of, lefts, rights = side.tolist(), left.tolist(), right.tolist()
-        text, stack = [], [0]
+        text, leaves, stack = [], [], [0]
         while stack:
             node = stack.pop()
             if sides_of[node] < 0:
                 text.append(".")
+                leaves.append(node)
             else:
                 text.append(chr(ord("0") + sides_of[node]))
                 stack += (rights[node], lefts[node])
-        return "".join(text)
+        return "".join(text), leaves
 
 
 def _volumes(boxes: Boxes) -> Array:

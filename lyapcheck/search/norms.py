@@ -11,7 +11,7 @@ from lyapcheck.search.proof import Proof
 from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.inertia import Bisection, Links
+    from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
     from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.check.statement import Ends
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -38,7 +38,7 @@ def norm_epsilon(
 
 
 def norm_proof(
-    loop: ClosedLoop, inertia: Bisection | Links, *, conic: bool = True
+    loop: ClosedLoop, inertia: Bisection | Links | LinksAtCorners, *, conic: bool = True
 ) -> tuple[Proof | None, str]:
     """The same for a closed loop whose ε₀ is to be found.
 

@@ -10,8 +10,9 @@ from lyapcheck.check.kinds.decreasing import (
     PositiveAndDecreasing,
     statement_of,
 )
-from lyapcheck.check.kinds.inertia import Bisection, Links
+from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
 from lyapcheck.check.loop import ClosedLoop, shared_between
+from lyapcheck.check.loop.link_bounds import LinkBounds
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -22,8 +23,8 @@ class Proof:
     """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it."""
 
     loop: ClosedLoop
-    by: BoxTree | RadialBounds
-    inertia: Bisection | Links
+    by: BoxTree | RadialBounds | LinkBounds
+    inertia: Bisection | Links | LinksAtCorners
 
     @property
     def boxes(self) -> int:

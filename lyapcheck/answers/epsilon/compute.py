@@ -229,7 +229,8 @@ class _Search:
 def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, str, str]:
     """The proof of the larger ε₀, what it is called, and what more could be tried."""
     if result.proof is not None:
-        return result.proof, "branch and bound", result.reason
+        boxes = isinstance(result.proof.by, BoxTree)
+        return result.proof, "branch and bound" if boxes else "bounds along the links", result.reason
     norm, reason = norm_epsilon(controlled)
     if norm is None:
         return None, "", reason

@@ -222,7 +222,8 @@ def _forms(proof: StorageForms, statement: OfChain, vectors: int) -> list[fmpq_m
 
 
 def _require_shown(stages: Sequence[storage.Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -> None:
-    require(storage.shows(stages, forms, kappa), "forms", "", "do not show the bound at every joint")
+    prices = [kappa] * len(stages)
+    require(storage.shows(stages, forms, prices), "forms", "", "do not show the bound at every joint")
 
 
 def _numbers(link: RigidLink) -> list[Fraction]:

@@ -19,7 +19,7 @@ from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
-from lyapcheck.check.loop.links import makes
+from lyapcheck.check.loop.links import makes, makes_at_corners
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
@@ -331,6 +331,25 @@ def by_links(statement: MassAbove, proof: Links) -> Accepted:
     require(same, "links", len(proof.links), "must be one joint and real body for each row")
     require(makes(proof.links, statement.mass), "links", "", "do not make this M(q)")
     moves = all(link.about_axis > 0 for link in proof.links)
+    require(moves, "links", "", "have one without energy about its own axis")
+    return Accepted("proved", "exact")
+
+
+@dataclass(frozen=True)
+class LinksAtCorners(Proof):
+    """The links of the arm at each corner of the ranges of its parameters, in the order of ``corners_of``."""
+
+    rule = "links at corners"
+    arms: tuple[tuple[RigidLink, ...], ...]
+
+
+@rule(MassAbove, LinksAtCorners)
+def by_links_at_corners(statement: MassAbove, proof: LinksAtCorners) -> Accepted:
+    """Soundness: M is a mean of its values at the corners, each positive definite as by `by_links`."""
+    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
+    made = makes_at_corners(proof.arms, statement.mass, statement.parameters)
+    require(made, "links", len(proof.arms), "do not make M(q) at the corners of its ranges")
+    moves = all(link.about_axis > 0 for links in proof.arms for link in links)
     require(moves, "links", "", "have one without energy about its own axis")
     return Accepted("proved", "exact")
 

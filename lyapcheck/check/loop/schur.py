@@ -56,7 +56,7 @@ class Evaluator:
         self.radius_squared = arb(loop.radius) ** 2
         self.h = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.h(ball(side))))
         self.dh = lru_cache(maxsize=_KEPT)(lambda side: of.value(loop.member.dh(ball(side))))
-        self.square = lru_cache(maxsize=_KEPT)(_square)
+        self.square = lru_cache(maxsize=_KEPT)(square)
         self.errors = lru_cache(maxsize=_KEPT // 4)(self._errors)
         self.arms: dict[Box, tuple[Rows, Symbols]] = {}
 
@@ -100,7 +100,7 @@ class Evaluator:
         r_squared = sum((self.square(side) for side in errors), arb(0))
         # where ε = ε₀ nothing is along ê: dε/dt = 0
         local = bool(self.loop.within)
-        shrink = self.zero if local else self.of.value(_inverse_one_plus_root(r_squared))
+        shrink = self.zero if local else self.of.value(inverse_one_plus_root(r_squared))
         eps = self.eps0 if local else self.eps0 * shrink
         return Errors(
             r_squared,
@@ -108,7 +108,7 @@ class Evaluator:
             [eps * c for c in self.compliance],
             self._coupled(self.h, errors),
             self._coupled(self.dh, errors),
-            [self.of.value(unit) * shrink for unit in _unit_vector(errors, self.square)],
+            [self.of.value(unit) * shrink for unit in unit_vector(errors, self.square)],
         )
 
     def _coupling(self, M: Rows, symbols: Symbols, errors: Errors) -> Rows:
@@ -146,20 +146,20 @@ class Evaluator:
         return M, dict(zip(self.loop.symbols, result, strict=True))
 
 
-def _square(side: Side) -> arb:
+def square(side: Side) -> arb:
     """x² over a side: never below 0."""
     low, high = arb(side[0]) ** 2, arb(side[1]) ** 2
     return arb(0).union(low).union(high) if side[0] < 0 < side[1] else low.union(high)
 
 
-def _inverse_one_plus_root(r_squared: arb) -> arb:
+def inverse_one_plus_root(r_squared: arb) -> arb:
     """1/(1 + r), which falls with r."""
     low, high = r_squared.lower(), r_squared.upper()
     near = 1 + (low.sqrt() if low > 0 else arb(0))
     return (1 / near).union(1 / (1 + high.sqrt()))
 
 
-def _unit_vector(errors: Sequence[Side], square: Callable[[Side], arb]) -> list[arb]:
+def unit_vector(errors: Sequence[Side], square: Callable[[Side], arb]) -> list[arb]:
     """e/‖e‖, and all of [−1, 1] where the box touches the origin."""
     squares = [square(side) for side in errors]
     result = []

@@ -3,14 +3,17 @@
 Let w be what link k − 1 hands on in the frame of joint k (its twist, and for gravity the free fall), u the
 rate that joint k adds about its axis e_z, and s_k quadratic forms that turns about e_z leave as they are. If
 
-    s_k(w) + κ u² > cost_k(w + e_z u) + s_{k+1}(X_{k+1}(w + e_z u)),      s_{n+1} = 0,
+    s_k(w) + κ_k u² > cost_k(w') + s_{k+1}(X_{k+1} w'),      w' = E_k(w + e_z u),      s_{n+1} = 0,
 
-for each k and all (w, u) ≠ 0 that can occur, where X_k moves w to the frame of joint k at q_k = 0, then for
-all angles Σ cost_k < s_1(X_1 w_0) + κ Σ u_k²: a turn by q_k changes nothing in s_k, and the sum telescopes.
+for each k and all (w, u) ≠ 0 that can occur, where X_k moves w to the frame of joint k at q_k = 0 and E_k = I
+but for rates, then for all angles Σ cost_k < s_1(X_1 w_0) + Σ κ_k u_k²: a turn by q_k changes nothing in s_k,
+and the sum telescopes.
 
 - Energies: cost_k(V) = ± VᵀG_kV for the twist V of link k sum up to ± q̇ᵀMq̇, and w_0 = 0.
 - Gravity: cost_k = −2 γᵀ(m v + ω × m c) for the free fall γ sum up to 2 zᵀg for rates z, and w_0 = (0, γ).
   With s_1(X_1 w_0) ≤ κ that is 2 zᵀg ≤ κ(1 + ‖z‖²) for all z, and so ‖g‖ ≤ κ.
+- Rates of M: w has V and ∂V/∂q_j. Joint j turns V by −q_j, so that E_j appends −e_z × V; from it on
+  cost_k = ± V'ᵀG_kV for both parts V, V' sum up to ± ½ q̇ᵀ(∂M/∂q_j)q̇, and w_0 = 0.
 
 References: dissipation inequalities and storage functions, ``willems1972dissipative``.
 """
@@ -91,11 +94,13 @@ def hinges(links: Sequence[RigidLink]) -> list[Hinge]:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One joint: X, the cost of w', and whether its rate u counts."""
+    """One joint: X, the cost of w', the components of w that can occur, whether u counts, and E if not I."""
 
     carry: fmpq_mat
     cost: fmpq_mat
+    met: range
     moves: bool = True
+    entry: fmpq_mat | None = None
 
     @property
     def size(self) -> int:
@@ -106,9 +111,27 @@ class Stage:
 def energy(links: Sequence[RigidLink], sign: int) -> list[Stage]:
     """Costs that sum up to sign · q̇ᵀM(q)q̇."""
     return [
-        Stage(_matrix(hinge.carry), _matrix([[sign * x for x in row] for row in hinge.body]))
-        for hinge in hinges(links)
+        Stage(_matrix(hinge.carry), _matrix(_scaled(sign, hinge.body)), range(TWIST if k else 0))
+        for k, hinge in enumerate(hinges(links))
     ]
+
+
+def rate_of_mass(links: Sequence[RigidLink], joint: int, sign: int) -> list[Stage]:
+    """Costs that sum up to sign · ½ q̇ᵀ(∂M/∂q_j)q̇ for a joint j, counted from 0."""
+    result, nothing = [], _zeros(TWIST)
+    turned = _scaled(-1, _cross([ZERO, ZERO, Fraction(1)]))
+    appended = _blocks(_identity(TWIST), nothing, _blocks(turned, _zeros(3), _zeros(3), turned), nothing)
+    for k, hinge in enumerate(hinges(links)):
+        half = _scaled(Fraction(sign, 2) if k >= joint else ZERO, hinge.body)
+        result.append(
+            Stage(
+                _matrix(_blocks(hinge.carry, nothing, nothing, hinge.carry)),
+                _matrix(_blocks(nothing, half, half, nothing)),
+                range(0 if k == 0 else TWIST if k <= joint else 2 * TWIST),
+                entry=_matrix(appended) if k == joint else None,
+            )
+        )
+    return result
 
 
 def weight(links: Sequence[RigidLink], joints: Collection[int]) -> list[Stage]:
@@ -120,7 +143,8 @@ def weight(links: Sequence[RigidLink], joints: Collection[int]) -> list[Stage]:
         above += [[-hinge.mass * x for x in row] for row in UNIT]
         cost = _blocks(_zeros(TWIST), above, transposed(above), _zeros(FALL))
         carry = _blocks(hinge.carry, [[ZERO] * FALL] * TWIST, [[ZERO] * TWIST] * FALL, hinge.turn)
-        result.append(Stage(_matrix(carry), _matrix(cost), k in joints))
+        met = range(0 if k else TWIST, TWIST + FALL)
+        result.append(Stage(_matrix(carry), _matrix(cost), met, k in joints))
     return result
 
 
@@ -150,7 +174,7 @@ def invariant_form(coefficients: Sequence[Fraction], vectors: int) -> fmpq_mat:
 
 
 def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None, kappa: fmpq) -> fmpq_mat:
-    """s_k(w) + κ u² − cost_k(w') − s_{k+1}(X_{k+1} w') as a form of what can occur of (w, u)."""
+    """s_k(w) + κ_k u² − cost_k(w') − s_{k+1}(X_{k+1} w') as a form of what can occur of (w, u)."""
     stage, d = stages[k], stages[k].size
     charged = stage.cost
     if after is not None:
@@ -161,22 +185,22 @@ def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None
         step[i, i] = fmpq(1)
     if stage.moves:
         step[2, d] = fmpq(1)
+    if stage.entry is not None:
+        step = stage.entry * step
     total = -(step.transpose() * charged * step)
     for i in range(d):
         for j in range(d):
             total[i, j] += own[i, j]
     if stage.moves:
         total[d, d] += kappa
-    # before the first joint nothing turns
-    met = range(0 if k else TWIST, d + stage.moves)
+    met = [*stage.met, *range(d, d + stage.moves)]
     return fmpq_mat([[total[i, j] for j in met] for i in met])
 
 
-def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -> bool:
-    """Whether the condition at each joint is a positive definite form: then it holds."""
-    following = [*forms[1:], None]
-    rows = zip(forms, following, strict=True)
-    slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after) in enumerate(rows)]
+def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], prices: Sequence[Fraction]) -> bool:
+    """Whether the condition at each joint, of price κ_k, is a positive definite form: then it holds."""
+    rows = zip(forms, [*forms[1:], None], prices, strict=True)
+    slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in enumerate(rows)]
     with ctx.workprec(BITS):
         return all(BALLS.positive_definite(_balls(form)) for form in slacks)
 
@@ -216,6 +240,14 @@ def _blocks(a: Matrix, b: Matrix, c: Matrix, d: Matrix) -> list[list[Fraction]]:
 
 def _zeros(n: int) -> list[list[Fraction]]:
     return [[ZERO] * n for _ in range(n)]
+
+
+def _scaled(factor: Fraction | int, rows: Matrix) -> list[list[Fraction]]:
+    return [[factor * x for x in row] for row in rows]
+
+
+def _identity(n: int) -> list[list[Fraction]]:
+    return [[Fraction(int(i == k)) for k in range(n)] for i in range(n)]
 
 
 def _matrix(rows: Matrix) -> fmpq_mat:

@@ -67,14 +67,13 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
     if still:
         return _accepted(Shown(statement, NoTorque()))
     for margin in _MARGINS:
-        result = propose(problem, margin)
+        result = propose([problem], margin)
         if result is None:
             continue
         # a little to the safe side, so that rounding takes nothing from what was proposed
-        kappa = _above(
-            Fraction(result.kappa) * (1 + Fraction(problem.sign if result.kappa > 0 else -1, 10**8))
-        )
-        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients)
+        found = Fraction(float(result.prices[0]))
+        kappa = _above(found * (1 + Fraction(problem.sign if found > 0 else -1, 10**8)))
+        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients[0])
         shown = _accepted(Shown(with_end(statement, problem.sign * kappa), StorageForms(forms)))
         if shown is not None:
             return shown

@@ -10,7 +10,7 @@ import numpy as np
 from flint import fmpq_mat
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop.storage import FALL, Stage, energy, weight
+from lyapcheck.check.loop.storage import FALL, Stage, energy, rate_of_mass, weight
 from lyapcheck.robots.dynamics import Chain
 
 
@@ -44,6 +44,11 @@ def energy_problem(chain: Chain, sign: int) -> Problem:
 def weight_problem(chain: Chain, joints: Collection[int]) -> Problem:
     """sup (Σ g_i²)^½ over some joints, counted from 0."""
     return Problem(weight(chain.links, joints), 3, chain.fall)
+
+
+def rate_problem(chain: Chain, joint: int, sign: int) -> Problem:
+    """The form ± ½ ∂M/∂q_j from above, joints counted from 0."""
+    return Problem(rate_of_mass(chain.links, joint, sign), 4)
 
 
 def unit_rows(count: int) -> list[list[Fraction]]:

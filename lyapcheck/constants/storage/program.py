@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -29,32 +30,49 @@ class Blocks:
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """κ and for each joint the coefficients of its form, (n, forms)."""
+    """The κ_k of the joints, (n,), and of each problem the coefficients of its forms, (n, forms)."""
 
-    kappa: float
-    coefficients: Array
+    prices: Array
+    coefficients: list[Array]
 
 
-def propose(problem: Problem, margin: float) -> Proposal | None:
+def propose(
+    problems: Sequence[Problem], margin: float, prices: Array | None = None, most: float | None = None
+) -> Proposal | None:
     """The least κ for which every slack is at least ``margin`` times the size of the costs; ``None`` without.
 
-    The first unknown is κ, then come the coefficients of each s_k.
+    Args:
+        problems: costs along chains of n links, all with the same κ_k.
+        margin: share of the largest cost.
+        prices: κ_k = Σ_i prices_ki x_i of unknowns x with the least Σ x_i, (n, x); one κ for all without.
+        most: what no x_i is to exceed.
     """
-    count = problem.count
-    unknowns = 1 + count * len(problem.stages)
-    least = margin * max(float(np.abs(doubles(stage.cost)).max()) for stage in problem.stages)
-    x = solve(_blocks(problem, least), unknowns)
-    return None if x is None else Proposal(float(x[0]), x[1:].reshape(-1, count))
+    n = len(problems[0].stages)
+    prices = np.ones((n, 1)) if prices is None else prices
+    free = end = prices.shape[1]
+    blocks, ends = Blocks(), []
+    for problem in problems:
+        least = margin * max(float(np.abs(doubles(stage.cost)).max()) for stage in problem.stages)
+        _add_blocks(blocks, problem, least, prices, end)
+        ends.append(end := end + n * problem.count)
+    if most is not None:
+        for i in range(free):
+            blocks.add(np.array([[most]]), {i: np.array([[-1.0]])})
+    x = solve(blocks, end, first=free)
+    if x is None:
+        return None
+    parts = np.split(x, [free, *ends])[1:-1]
+    return Proposal(prices @ x[:free], [part.reshape(n, -1) for part in parts])
 
 
-def _blocks(problem: Problem, least: float) -> Blocks:
-    """The conditions of `lyapcheck.check.loop.storage`, which are affine in the unknowns."""
-    blocks, count, stages = Blocks(), problem.count, problem.stages
+def _add_blocks(blocks: Blocks, problem: Problem, least: float, prices: Array, first: int) -> None:
+    """The conditions of `lyapcheck.check.loop.storage`: affine in x, and from ``first`` on in the forms."""
+    count, stages = problem.count, problem.stages
     units = [invariant_form(row, problem.vectors) for row in unit_rows(count)]
     nothing = units[0] * fmpq(0)
     if any(problem.fall):
         at_base = [float(stored_at_base(stages, [form], problem.fall)) for form in units]
-        slopes = {0: np.eye(1)} | {1 + i: np.array([[-x]]) for i, x in enumerate(at_base)}
+        slopes = {0: np.eye(1)} | {first + i: np.array([[-x]]) for i, x in enumerate(at_base)}
         blocks.add(np.array([[-least]]), slopes)
     for k in range(len(stages)):
 
@@ -63,13 +81,13 @@ def _blocks(problem: Problem, least: float) -> Blocks:
             return doubles(slack(stages, k, own, following, fmpq(kappa)))
 
         constant = part(nothing, nothing, 0)
-        slopes = {0: part(nothing, nothing, 1) - constant}
+        price = part(nothing, nothing, 1) - constant
+        slopes = {i: share * price for i, share in enumerate(prices[k]) if share}
         for i, form in enumerate(units):
-            slopes[1 + k * count + i] = part(form, nothing, 0) - constant
+            slopes[first + k * count + i] = part(form, nothing, 0) - constant
             if k + 1 < len(stages):
-                slopes[1 + (k + 1) * count + i] = part(nothing, form, 0) - constant
+                slopes[first + (k + 1) * count + i] = part(nothing, form, 0) - constant
         blocks.add(constant - least * np.eye(len(constant)), slopes)
-    return blocks
 
 
 def _stacked(matrix: Array) -> Array:
@@ -78,8 +96,8 @@ def _stacked(matrix: Array) -> Array:
     return np.asarray(matrix[rows, columns] * np.where(rows == columns, 1.0, np.sqrt(2.0)))
 
 
-def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8) -> Array | None:
-    """The x with the least x_0, as far as the solver comes; ``None`` where it comes to nothing."""
+def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8, first: int = 1) -> Array | None:
+    """The x with the least sum of its first entries, as far as the solver comes; ``None`` without."""
     import clarabel
     from scipy import sparse
 
@@ -96,7 +114,7 @@ def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8) -> Array | Non
     settings.direct_solve_method, settings.max_threads = "faer", 1
     settings.tol_gap_rel = settings.tol_gap_abs = settings.tol_feas = tolerance
     aim = np.zeros(unknowns)
-    aim[0] = 1.0
+    aim[:first] = 1.0
     cones = [clarabel.PSDTriangleConeT(size) for size in blocks.sizes]
     nothing = sparse.csc_matrix((unknowns, unknowns))
     rows = sparse.vstack(parts, format="csc")

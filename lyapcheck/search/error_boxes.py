@@ -1,0 +1,206 @@
+"""Boxes of |e| on which the form of `lyapcheck.check.loop.link_bounds` is positive definite, by NumPy.
+
+Each box is judged at several multipliers l. The sizes of w and p that weigh what is uncertain about N are
+those of the eigenvector of the smallest eigenvalue, again and again: there they cost least.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck._types import Array
+from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
+from lyapcheck.check.numbers.balls import precision
+from lyapcheck.family import named
+from lyapcheck.intervals import Interval
+from lyapcheck.intervals.family import dh_range, h_range
+from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, Nodes, halve
+
+MULTIPLIERS = (-2, 0)
+"""Of l, as powers of √2."""
+ROUNDS = 6
+LEAST = 1e-7
+"""What the smallest eigenvalue has to exceed, w in units of b^−½: doubles are not balls."""
+
+
+@dataclass(frozen=True)
+class Covered:
+    """A tree of boxes with their scales; without them why not."""
+
+    boxes: int
+    tree: str = ""
+    scales: str = ""
+    reason: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """Whether all boxes were shown."""
+        return bool(self.tree)
+
+
+class ErrorBoxes:
+    """The form for one closed loop.
+
+    Args:
+        loop: at the ε₀ that is tried.
+        bounds: U and Q_j.
+    """
+
+    def __init__(self, loop: ClosedLoop, bounds: LinkBounds) -> None:
+        self.loop, self.n = loop, loop.n
+        with precision(BITS):
+            self.form = BoxForm(loop, bounds.inertia.prices, [bound.prices for bound in bounds.rising])
+        self.family = named(loop.family, loop.m)
+        self.U = np.array([float(x) for x in bounds.inertia.prices])
+        Q = [[0.0] * loop.n, *([float(x) for x in bound.prices] for bound in bounds.rising)]
+        self.Q = np.array(Q)
+        self.b = np.array([float(low) for low, _ in loop.friction])
+        self.fast = np.array([float(x) for x in self.form.fast])
+        self.kp = np.array([float(k) for k in loop.kp])
+
+    def covered(self, max_boxes: int) -> Covered:
+        """A tree of boxes from 0 to R within a budget."""
+        nodes = Nodes()
+        start = np.stack([np.zeros(self.n), np.full(self.n, self.loop.radius)])[None]
+        stack, seen = [(start, nodes.add(1))], 0
+        scales: dict[int, str] = {}
+        while stack:
+            boxes, names = stack.pop()
+            if len(boxes) > CHUNK // 4:
+                stack.append((boxes[CHUNK // 4 :], names[CHUNK // 4 :]))
+                boxes, names = boxes[: CHUNK // 4], names[: CHUNK // 4]
+            seen += len(boxes)
+            if seen > max_boxes:
+                return Covered(seen, reason=f"{EXHAUSTED}; allow more boxes")
+            proved, signs = self.judged(boxes)
+            for k in np.flatnonzero(proved):
+                scales[int(names[k])] = "".join(map(chr, signs[k]))
+            rest = boxes[~proved]
+            if len(rest):
+                if np.max(rest[:, 1] - rest[:, 0], axis=1).min() < 2 * SMALLEST or self._resists(rest):
+                    return Covered(seen, reason=RESISTS)
+                sides = self.sides(rest)
+                stack.append((halve(rest, sides), nodes.cut(names[~proved], sides)))
+        tree, order = nodes.preorder()
+        return Covered(seen, tree, "".join(scales[name] for name in order))
+
+    def _resists(self, boxes: Array) -> bool:
+        """Whether the middle of one of some boxes cannot be shown alone."""
+        middles = boxes[:: max(1, len(boxes) // 64)].mean(axis=1)
+        points = np.stack([middles, middles], axis=1)
+        return not bool(self.judged(points, False)[0].all())
+
+    def judged(self, boxes: Array, surely: bool = True) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+        """Which boxes are shown, and with which scales; in balls as well where it is to be sure."""
+        count, size = len(boxes), 1 + 2 * self.n
+        proved = np.zeros(count, dtype=bool)
+        signs = np.full((count, size), FIRST + SCALES // 2, dtype=np.intp)
+        at = _At(self, boxes)
+        beyond = np.sum(boxes[:, 0] ** 2, axis=1) >= (1 + 1e-12) * self.loop.radius**2
+        proved[beyond] = True
+        for power in MULTIPLIERS:
+            left = np.flatnonzero(~proved)
+            if not len(left):
+                break
+            shown, sizes = at.tried(left, power)
+            rows = left[shown]
+            signs[rows, 0] += power
+            signs[rows, 1:] += sizes[shown]
+            proved[rows] = True
+        with precision(BITS):
+            for k in np.flatnonzero(proved & ~beyond & surely):
+                box: Box = tuple(zip(boxes[k, 0].tolist(), boxes[k, 1].tolist(), strict=True))
+                proved[k] = self.form.proves(box, "".join(map(chr, signs[k])))
+        return proved, signs
+
+    def sides(self, boxes: Array) -> NDArray[np.intp]:
+        """The sides over which N changes most, in rough measure."""
+        low, high = boxes[:, 0], boxes[:, 1]
+        middle = (low + high) / 2
+        r = np.linalg.norm(middle, axis=1)[:, None]
+        slopes = dh_range(self.family, Interval(low, high))
+        rise = self.family.h(high) - self.family.h(low)
+        root = np.sqrt(self.U / self.b)
+        weight = np.sqrt(self.b)
+        size = np.linalg.norm(self.family.h(high) * weight, axis=1)[:, None]
+        turned = size / weight * np.minimum((high - low) / r, 1.0)
+        score = (slopes.hi - slopes.lo) * root + 0.5 * (rise * weight / weight.min() + turned) / (1 + r)
+        return np.asarray(np.argmax(score, axis=1))
+
+
+class _At:
+    """What the form needs on some boxes, w and p in units of b^∓½."""
+
+    def __init__(self, of: ErrorBoxes, boxes: Array) -> None:
+        low, high = boxes[:, 0], boxes[:, 1]
+        n, b, root = of.n, of.b, np.sqrt(of.b)
+        near, far = np.linalg.norm(low, axis=1), np.linalg.norm(high, axis=1)
+        self.eps = eps = (float(of.loop.eps0) / (1 + near))[:, None]
+        x = Interval(low, high)
+        h, dh = h_range(of.family, x), dh_range(of.family, x)
+        unit = _units(low, high)
+        pull = unit[0] / (1 + far[:, None]), unit[1] / (1 + near[:, None])
+        products = [h.lo[:, :, None] * pull[0][:, None, :], h.hi[:, :, None] * pull[1][:, None, :]]
+        diagonal = np.eye(n)
+        lower = -products[1] + dh.lo[:, :, None] * diagonal
+        upper = -products[0] + dh.hi[:, :, None] * diagonal
+        scale = root[:, None] / root
+        self.N, self.spread = 0.5 * (lower + upper) * scale, 0.5 * (upper - lower) * scale
+        H = np.maximum(np.abs(h.lo), np.abs(h.hi))
+        k = np.maximum(of.kp - eps * of.fast, 1e-12)
+        t = np.sqrt(b / (eps * k)[:, :, None])
+        R = of.Q.T * H[:, :, None]
+        self.kappa = np.maximum(k - eps / 2 * np.sum(R * t, axis=2), 1e-12)
+        lost = eps * (H @ of.Q) + eps**2 / 2 * np.sum(R / t, axis=1) + eps * b**2 / (4 * self.kappa)
+        self.W = 1 - lost / b
+        self.compliance = b / self.kappa
+        self.U, self.b, self.n = of.U / b, b, n
+
+    def tried(self, some: NDArray[np.intp], power: int) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+        """Which of some boxes seem to be shown at one l, and the sizes of w and p as powers of √2."""
+        n, count, l = self.n, len(some), np.sqrt(2.0) ** power
+        eps, spread = self.eps[some], self.spread[some]
+        diagonal = np.eye(n)
+        shift = 0.25 * eps * self.compliance[some]
+        G = 0.5 * (diagonal + l * self.N[some]) - shift[:, :, None] * diagonal
+        big = np.zeros((count, 2 * n, 2 * n))
+        big[:, n:, :n] = -np.sqrt(eps)[:, :, None] * G
+        places = np.arange(n)
+        steady = self.W[some], l / self.U - eps * shift
+        # in units of w; p as a plain number
+        sizes = np.zeros((count, 2 * n))
+        sizes[:, n:] = np.log2(self.U)
+        shown, best = np.zeros(count, dtype=bool), np.zeros((count, 2 * n), dtype=np.intp)
+        offset = np.concatenate([-np.log2(self.b), np.log2(self.b)])
+        for _ in range(ROUNDS):
+            powers = np.clip(np.rint(sizes + offset), 1 - SCALES // 2, SCALES // 2 - 1)
+            w, p = np.split(np.sqrt(2.0) ** (powers - offset), 2, axis=1)
+            big[:, places, places] = steady[0] - eps * l / 2 * np.einsum("bij,bi->bj", spread, p) / w
+            big[:, n + places, n + places] = steady[1] - l / 2 * np.einsum("bij,bj->bi", spread, w) / p
+            values, vectors = np.linalg.eigh(big)
+            now = (values[:, 0] > LEAST) & ~shown
+            best[now] = powers[now]
+            shown |= now
+            if shown.all():
+                break
+            found = np.abs(vectors[:, :, 0])
+            found[:, n:] /= np.sqrt(eps)
+            w, p = np.split(found, 2, axis=1)
+            w, p = w + 0.03 * w.max(axis=1, keepdims=True), p + 0.03 * p.max(axis=1, keepdims=True)
+            wanted = 2 * np.log2(np.concatenate([w, p], axis=1))
+            wanted -= wanted.mean(axis=1, keepdims=True) - sizes.mean(axis=1, keepdims=True)
+            sizes = 0.5 * (sizes + wanted)
+        return shown, best
+
+
+def _units(low: Array, high: Array) -> tuple[Array, Array]:
+    """The range of e/‖e‖ over boxes of e ≥ 0."""
+    near, far = low**2, high**2
+    rest = np.sum(far, axis=1, keepdims=True) - far, np.sum(near, axis=1, keepdims=True) - near
+    ends = [np.sqrt(x / np.maximum(x + y, 1e-300)) for x, y in zip((near, far), rest, strict=True)]
+    return ends[0], ends[1]

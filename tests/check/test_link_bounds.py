@@ -1,0 +1,185 @@
+"""Proofs by bounds along the links and boxes of e: what they bound, and what they must refuse."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.inertia import LinksAtCorners
+from lyapcheck.check.loop.boxes import BrokenTree
+from lyapcheck.check.loop.link_bounds import BITS, BoxForm, LinkBounds
+from lyapcheck.check.loop.schur import inverse_one_plus_root
+from lyapcheck.check.loop.states import State, rate
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary, varied
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.link_bounds import link_bounds
+from lyapcheck.search.proof import Proof
+
+F = Fraction
+EXAMPLES = Path(__file__).parents[2] / "examples"
+FALSIFIED = {1: F("1.250004"), 2: F("1.607161"), 3: F("1.063894")}
+"""What an explicit state refutes on the UR5, see the falsifier."""
+SHARE = F(1, 2)
+RANGES = [Vary.parsed("viscous=-30%..+30%"), Vary.parsed("payload=0..3")]
+
+
+@cache
+def ur5(m: int, ranges: bool = False) -> ControlledArm:
+    gains = next(item for item in read_gain_file(EXAMPLES / "ur5_gains.toml").gains if item.m == m)
+    model = load(str(EXAMPLES / "ur5.toml"))
+    return ControlledArm(gains, varied(model, RANGES) if ranges else model, ranges)
+
+
+@cache
+def proof(m: int, ranges: bool = False, share: Fraction = SHARE) -> Proof:
+    controlled = ur5(m, ranges)
+    bounds = link_bounds(controlled)
+    assert bounds is not None
+    loop = controlled.loop(F(f"{float(share * FALSIFIED[m]):.6g}"))
+    result = ErrorBoxes(loop, bounds).covered(30_000)
+    assert result.proved
+    return Proof(loop, replace(bounds, tree=result.tree, scales=result.scales), controlled.inertia_proof)
+
+
+def data_of(of: Proof) -> LinkBounds:
+    assert isinstance(of.by, LinkBounds)
+    return of.by
+
+
+def judged(statement: Decreasing, of: Proof, by: LinkBounds) -> str:
+    return verify(statement, PositiveAndDecreasing(of.inertia, by)).verdict
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+def test_it_proves_half_of_what_is_refuted_with_few_boxes(m: int) -> None:
+    assert judged(proof(m).statement, proof(m), data_of(proof(m))) == "proved"
+    assert proof(m).boxes < 1_000
+
+
+def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
+    controlled, data = ur5(1), data_of(proof(1))
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2_000, 6))
+    q[:500] = np.pi / 2 * np.round(q[:500] / (np.pi / 2))
+    U = np.diag([float(x) for x in data.inertia.prices])
+    tightest = np.linalg.eigvalsh(U - controlled.numeric.mass(q))[:, 0].min()
+    assert 0 < tightest < 0.01
+    for joint, bound in enumerate(data.rising, start=1):
+        C = controlled.numeric.coriolis(q, np.tile(np.eye(6)[joint], (len(q), 1)))
+        half = (C + np.swapaxes(C, 1, 2)) / 2
+        Q = np.diag([float(x) for x in bound.prices])
+        room = [np.linalg.eigvalsh(Q - sign * half)[:, 0].min() for sign in (1, -1)]
+        assert min(room) > 0
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from([1, 2, 3]), st.integers(-4, 4))
+def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> None:
+    """By the chain rule in balls at exact states, whatever the multiplier; the form need not be positive."""
+    random, found = np.random.default_rng(seed), proof(m)
+    controlled, loop, data = ur5(m), found.loop, data_of(found)
+    q, sign = random.uniform(-np.pi, np.pi, 6), random.choice([-1.0, 1.0], 6)
+    size = np.abs(random.normal(size=6)) * 10 ** random.uniform(-2, 0.7)
+    w = random.normal(size=6) * 10 ** random.uniform(-2, 1.5)
+    state = State(*(tuple(F(float(x)) for x in part) for part in (q, sign * size, w)))
+    dV = float(rate(controlled.arm, controlled.controller, loop.eps0, state))
+    with precision(BITS):
+        form = BoxForm(loop, data.inertia.prices, [bound.prices for bound in data.rising])
+        ones = [to_arb(F(1))] * 6
+        box = tuple((float(x), float(x)) for x in size)
+        r_squared = sum((to_arb(F(float(x))) ** 2 for x in size), to_arb(F(0)))
+        rows = form.rows(box, inverse_one_plus_root(r_squared), to_arb(F(2) ** power), ones, ones)
+    if rows is None:
+        return
+    P = np.zeros((6, 6))
+    for i, row in enumerate(rows):
+        P[i, : i + 1] = P[: i + 1, i] = [float(x) for x in row]
+    assert dV <= -w @ P @ w + 1e-9 * (w @ w)
+
+
+def test_what_is_refuted_is_not_proved() -> None:
+    for m in (1, 2, 3):
+        loop = replace(proof(m).loop, eps0=FALSIFIED[m])
+        with pytest.raises(Refused):
+            judged(statement_of(loop), proof(m), data_of(proof(m)))
+
+
+def faults() -> dict[str, LinkBounds]:
+    data = data_of(proof(2))
+    first, *others = data.rising
+    lower = replace(first, prices=tuple(x * F(9, 10) for x in first.prices))
+    wrong = replace(data.falling[0], prices=lower.prices)
+    links = data.arms[0]
+    heavier = (*links[:-1], replace(links[-1], mass=links[-1].mass * 2))
+    cap = replace(data.inertia, prices=tuple(x * F(9, 10) for x in data.inertia.prices))
+    return {
+        "U too small": replace(data, inertia=cap),
+        "Q too small": replace(data, rising=(lower, *others), falling=(wrong, *data.falling[1:])),
+        "Q of one sign only": replace(data, rising=(lower, *others)),
+        "both signs alike": replace(data, falling=data.rising),
+        "forms of another joint": replace(data, rising=(others[0], first, *others[1:])),
+        "a joint left out": replace(data, rising=tuple(others), falling=data.falling[1:]),
+        "other links": replace(data, arms=(heavier,)),
+        "no arm": replace(data, arms=()),
+        "one box": replace(data, tree=".", scales="P" * 13),
+        "scales too short": replace(data, scales=data.scales[:-1]),
+        "a sign that is none": replace(data, scales="~" + data.scales[1:]),
+        "no form": replace(data, inertia=replace(data.inertia, forms=())),
+        "a multiplier far off": replace(data, scales="o" * len(data.scales)),
+    }
+
+
+@pytest.mark.parametrize("name", faults())
+def test_planted_faults_are_refused(name: str) -> None:
+    with pytest.raises(Refused):
+        judged(proof(2).statement, proof(2), faults()[name])
+
+
+def test_a_tree_that_is_none_is_refused() -> None:
+    with pytest.raises((Refused, BrokenTree)):
+        judged(
+            proof(2).statement, proof(2), replace(data_of(proof(2)), tree="7" + data_of(proof(2)).tree[1:])
+        )
+
+
+def test_other_numbers_than_those_shown_are_refused() -> None:
+    found = proof(3, share=F(7, 10))
+    loop = found.loop
+    assert judged(found.statement, found, data_of(found)) == "proved"
+    soft = replace(loop, kp=tuple(k / 4 for k in loop.kp))
+    smooth = replace(loop, viscous=tuple((b / 2, b) for b in loop.arm.viscous))
+    for other in (soft, smooth, replace(loop, coupling=(F(1),) * 6)):
+        with pytest.raises(Refused):
+            judged(statement_of(other), found, data_of(found))
+
+
+def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -> None:
+    found = proof(1, ranges=True, share=F(1, 4))
+    data = data_of(found)
+    assert len(data.arms) == 2
+    low, high = found.loop.parameters[0]
+    assert high - low == 3
+    assert found.loop.viscous[0] == (F("4.2"), F("7.8"))
+    assert isinstance(found.inertia, LinksAtCorners)
+    assert judged(found.statement, found, data) == "proved"
+    for wrong in (data.arms[::-1], data.arms[:1]):
+        with pytest.raises(Refused):
+            judged(found.statement, found, replace(data, arms=wrong))
+        with pytest.raises(Refused):
+            verify(found.statement, PositiveAndDecreasing(LinksAtCorners(wrong), data))
+    wider = replace(found.loop, parameters=((low, high + 1),))
+    with pytest.raises(Refused):
+        judged(statement_of(wider), found, data)
