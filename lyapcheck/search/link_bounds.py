@@ -20,9 +20,9 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.proof import Proof
 
-SHARES = tuple(Fraction(n, 100) for n in (30, 40, 50, 60, 65, 70, 75, 80, 85, 88, 91, 93, 95, 97, 98))
+SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 85, 90, 93, 95, 97))
 """Shares of the falsified ε₀ that are tried one after the other."""
-MAX_BOXES = 150_000
+MAX_BOXES = 100_000
 MORE = 1.03
 """How far an entry of U may exceed the largest eigenvalue of B^−½MB^−½, which lets the others be smaller."""
 _MARGINS = (1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3)
