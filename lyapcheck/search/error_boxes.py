@@ -1,4 +1,4 @@
-"""Boxes of |e| on which the form of `lyapcheck.check.loop.link_bounds` is positive definite, by NumPy.
+"""Boxes of |e| on which the form of `lyapcheck.check.loop.error_form` is positive definite, by NumPy.
 
 Each box is judged at several multipliers l. The sizes of w and p that weigh what is uncertain about N are
 those of the eigenvector of the smallest eigenvalue, again and again: there they cost least.
@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
+from lyapcheck.check.kinds.link_bounds import BITS, LinkBounds
 from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Box
-from lyapcheck.check.loop.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
+from lyapcheck.check.loop.error_form import FIRST, SCALES, BoxForm
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named
 from lyapcheck.intervals import Interval

@@ -12,7 +12,7 @@ from time import monotonic
 import numpy as np
 
 from lyapcheck._types import Array, Progress
-from lyapcheck.check.loop.link_bounds import LinkBounds, Shown
+from lyapcheck.check.kinds.link_bounds import LinkBounds, Shown
 from lyapcheck.constants.storage.problem import Problem, energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.robots.dynamics import Chain
@@ -76,11 +76,12 @@ def linked_epsilon(
 def link_bounds(controlled: ControlledArm) -> LinkBounds | None:
     """Bounds of M and its rates, without boxes yet; ``None`` where some were not found."""
     friction = tuple(low for low, _ in controlled.loop(Fraction(1)).friction)
-    return _bounds(controlled.chains, friction) if controlled.chains else None
+    return bounds_along(controlled.chains, friction) if controlled.chains else None
 
 
 @lru_cache(maxsize=4)
-def _bounds(chains: tuple[Chain, ...], friction: tuple[Fraction, ...]) -> LinkBounds | None:
+def bounds_along(chains: tuple[Chain, ...], friction: tuple[Fraction, ...]) -> LinkBounds | None:
+    """The same for the links at each corner, and the lower ends of the friction, N·m·s/rad."""
     weight = np.array([float(b) for b in friction])
     energies = [energy_problem(chain, 1) for chain in chains]
     uniform = propose(energies, _MARGINS[0], weight[:, None])

@@ -11,8 +11,8 @@ from lyapcheck.check.kinds.decreasing import (
     statement_of,
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
+from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop import ClosedLoop, shared_between
-from lyapcheck.check.loop.link_bounds import LinkBounds
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify

@@ -39,6 +39,7 @@ from lyapcheck.check.kinds.decreasing import (
     Decreasing,
     PositiveAndDecreasing,
     StateWitness,
+    closed_loop_of,
 )
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
@@ -49,6 +50,7 @@ from lyapcheck.check.kinds.inertia import (
     CoriolisBelow,
     HarmonicSizes,
     Links,
+    LinksAtCorners,
     MassAbove,
     MassBelow,
     PostureWitness,
@@ -67,6 +69,8 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.link_bounds import bounds_along
 
 Row = tuple[str, Statement, Proof | None]
 
@@ -108,6 +112,10 @@ LINKS = (
     RigidLink(AXIS, vector(0, 0, 0), F(1), ALONG, NOTHING, TURN),
     RigidLink(AXIS, ALONG, F(1), ALONG, NOTHING, TURN),
 )
+HEAVIER = tuple(replace(link, mass=F(2)) for link in LINKS)
+PAYLOAD = ((F(1), F(2)),)
+LOADED = tuple(tuple(tuple(((*powers, 1), c) for powers, c in entry) for entry in row) for row in MASS)
+"""The same for a mass at each end that ranges."""
 AT = (F(0), F(1))
 RATES = (F(1), F(1, 2))
 
@@ -115,6 +123,7 @@ RATES = (F(1), F(1, 2))
 def of_the_arm() -> Iterator[Row]:
     """Bounds and identities of M, C and g."""
     yield "links", MassAbove(MASS, (), F(0)), Links(LINKS)
+    yield "links-at-corners", MassAbove(LOADED, PAYLOAD, F(0)), LinksAtCorners((LINKS, HEAVIER))
     yield "mass-boxes", MassBelow(MASS, (), F(6)), Bisection()
     ranged = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1))),),)
     yield "mass-range", MassBelow(ranged, ((F(1), F(2)),), F(7, 2)), Bisection()
@@ -240,6 +249,31 @@ STOPPING = ComesToRest(
 RESTING = Resting("hyperbolic", 2, (F(10), F(5)), (F(2), F(5)), (F(3, 5), None))
 
 
+LINKED = Decreasing(
+    mass=LOADED,
+    viscous=((F(5), F(6)), (F(3), F(4))),
+    parameters=PAYLOAD,
+    family="tanh",
+    m=None,
+    kp=(F(20), F(10)),
+    kv=(F(1), F(1)),
+    eps0=F(1, 5),
+    coupling=(),
+)
+
+
+def linked() -> Proof:
+    """Two links with ranges for mass and friction, by bounds along the links."""
+    chains = tuple(Chain(links, vector(1, 0, 0)) for links in (LINKS, HEAVIER))
+    loop = closed_loop_of(LINKED)
+    bounds = bounds_along(chains, tuple(low for low, _ in LINKED.viscous))
+    assert bounds is not None
+    boxes = ErrorBoxes(loop, bounds).covered(5_000)
+    assert boxes.proved
+    rate = replace(bounds, tree=boxes.tree, scales=boxes.scales)
+    return PositiveAndDecreasing(LinksAtCorners((LINKS, HEAVIER)), rate)
+
+
 def of_the_loop() -> Iterator[Row]:
     """Statements of (11), of V and of what is left of the errors."""
     h: tuple[Tree, Tree, Tree] = ("h", 1, X), ("dh", 1, X), ("potential", 1, X)
@@ -247,6 +281,7 @@ def of_the_loop() -> Iterator[Row]:
         yield name.replace(" ", "-"), LoopProperty(name, *h), None
     yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
     yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
+    yield "linked", LINKED, linked()
     yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness((F(0),), (), (F(1),))
     at = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
     yield "eps0-too-large", decreasing(UNIT, F(10)), at

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LinksAtCorners
+from lyapcheck.check.kinds.link_bounds import BITS, LinkBounds
 from lyapcheck.check.loop.boxes import BrokenTree
-from lyapcheck.check.loop.link_bounds import BITS, BoxForm, LinkBounds
+from lyapcheck.check.loop.error_form import BoxForm
 from lyapcheck.check.loop.schur import inverse_one_plus_root
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb

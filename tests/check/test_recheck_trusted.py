@@ -32,6 +32,7 @@ HEADLINES = {
         "tree of boxes",
     ),
     "ε₀ in ‖e‖ alone": ("Decreasing", "M positive and V decreasing", "links", "bounds in ‖e‖"),
+    "ε₀ along the links": ("Decreasing", "M positive and V decreasing", "links", "bounds along the links"),
     "how near an arm comes, and when": (
         "Settling",
         "falling levels",

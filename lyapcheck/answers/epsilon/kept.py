@@ -18,7 +18,7 @@ from lyapcheck.answers.epsilon.consistency import Contradiction
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
-from lyapcheck.check.loop.link_bounds import LinkBounds
+from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import State
 from lyapcheck.check.refusal import Refused

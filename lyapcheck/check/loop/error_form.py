@@ -29,108 +29,25 @@ References: ``reyes2019family`` (11), (12), (15).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import sqrt
 
 from flint import arb
 
-from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.boxes import Box, Side, leaves
-from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.boxes import Box, Side
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import ball
-from lyapcheck.check.loop.links import makes_at_corners
 from lyapcheck.check.loop.schur import inverse_one_plus_root, square, unit_vector
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.refusal import require
+from lyapcheck.check.numbers.balls import to_arb
 
-BITS = 64
 FIRST, SCALES = ord("0"), 64
 """The signs for scales: from "0" on, each √2 times the one before, 1 in the middle."""
 SCALE = {chr(FIRST + k): sqrt(2.0) ** (k - SCALES // 2) for k in range(SCALES)}
 _KEPT = 1 << 16
 
 Row = tuple[Fraction, ...]
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A diagonal bound, and the storage forms that show it for the links at each corner of the ranges."""
-
-    prices: Row
-    forms: tuple[storage.Forms, ...]
-
-    def holds(self, chains: Sequence[Sequence[storage.Stage]], vectors: int) -> bool:
-        """Whether the forms show it for the costs of every chain."""
-        n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
-        fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
-        return fits and all(
-            len(forms) == n
-            and all(len(row) == count for row in forms)
-            and storage.shows(stages, [storage.invariant_form(row, vectors) for row in forms], self.prices)
-            for stages, forms in zip(chains, self.forms, strict=True)
-        )
-
-
-@dataclass(frozen=True)
-class LinkBounds(RateProof):
-    """Bounds of M and its rates along the links, and boxes of e, untrusted.
-
-    Args:
-        arms: the links at each corner of the ranges of the parameters, in the order of ``corners_of``.
-        inertia: M ≼ U, kg·m².
-        rising: ½ ∂M/∂q_j ≼ Q_j for the second and each further joint, kg·m².
-        falling: −½ ∂M/∂q_j ≼ Q_j, with the same Q_j.
-        tree: boxes of |e_1|, …, |e_n|, each from 0 to the R of the closed loop.
-        scales: for each box in turn the multiplier l and the expected sizes of w and of p, as signs.
-    """
-
-    rule = "bounds along the links"
-    arms: tuple[tuple[RigidLink, ...], ...]
-    inertia: Shown
-    rising: tuple[Shown, ...]
-    falling: tuple[Shown, ...]
-    tree: str
-    scales: str
-
-    def require_shown(self, loop: ClosedLoop) -> None:
-        """Judge links, bounds and boxes one after the other."""
-        n = loop.n
-        require(not loop.coupling, "weights", loop.coupling, "must be none")
-        require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")
-        made = makes_at_corners(self.arms, loop.arm.mass, loop.parameters)
-        require(made, "links", len(self.arms), "do not make M(q) at the corners of its ranges")
-        sizes = {len(self.rising), len(self.falling)}
-        require(sizes == {n - 1}, "rates", sizes, f"must be bounded for {n - 1} joints")
-        require(self._bounds_shown(), "forms", "", "do not show the bounds of M and its rates")
-        require(self._boxes_shown(loop), "boxes", self.tree.count("."), "do not show dV/dt < 0 at every e")
-
-    def _bounds_shown(self) -> bool:
-        same = all(up.prices == down.prices for up, down in zip(self.rising, self.falling, strict=True))
-        energy = [storage.energy(links, 1) for links in self.arms]
-        return (
-            same
-            and self.inertia.holds(energy, 2)
-            and all(
-                bound.holds([storage.rate_of_mass(links, 1 + k, sign) for links in self.arms], 4)
-                for sign, bounds in ((1, self.rising), (-1, self.falling))
-                for k, bound in enumerate(bounds)
-            )
-        )
-
-    def _boxes_shown(self, loop: ClosedLoop) -> bool:
-        size = 1 + 2 * loop.n
-        count = self.tree.count(".")
-        if len(self.scales) != size * count or not set(self.scales) <= set(SCALE):
-            return False
-        start: Box = ((0.0, loop.radius),) * loop.n
-        rows = (self.scales[k * size : (k + 1) * size] for k in range(count))
-        with precision(BITS):
-            form = BoxForm(loop, self.inertia.prices, [bound.prices for bound in self.rising])
-            return all(form.proves(box, row) for box, row in zip(leaves(start, self.tree), rows, strict=True))
 
 
 class BoxForm:
