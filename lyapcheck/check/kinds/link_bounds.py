@@ -64,6 +64,7 @@ class LinkBounds(RateProof):
         """Judge links, bounds and boxes one after the other."""
         n = loop.n
         require(not loop.coupling, "weights", loop.coupling, "must be none")
+        require(not loop.within, "errors", loop.within, "must not be bounded: ε is ε₀/(1 + ‖e‖)")
         require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")
         made = makes_at_corners(self.arms, loop.arm.mass, loop.parameters)
         require(made, "links", len(self.arms), "do not make M(q) at the corners of its ranges")
