@@ -14,6 +14,7 @@ from lyapcheck.check.kinds.stable_arm import StableArm, hessian
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.systems.argument import Rest
+from lyapcheck.check.systems.forms import is_positive
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import verify
@@ -208,6 +209,22 @@ def test_a_form_that_is_not_positive():
     assert "above, minor 1" in why(pd.argued(above=pd.goal.mu / 2 * pd.b**2 - pd.K.min * pd.r**2))
     assert "rate, minor 1" in why(pd.argued(rate=0 * pd.b**2 - pd.D.min * pd.b**2))
     assert "rest, minor 1" in why(pd.argued(rest=(pd.e, -pd.K.min * pd.r**2)))
+
+
+def test_three_sizes_in_a_chain_are_decided_by_their_minors():
+    """a r² − 2x r v + b v² − 2y v z + c z²: 2x² < ab and 2y² < bc are enough; without the 2 they are not."""
+    goal = constant_goal()
+    a, b, c, x, y = goal.constants("a b c x y")
+    system = goal.under(-1 * goal.w)
+    r, v, z = (var(f"norm_{name}") for name in ("e", "w", "z"))
+    form = form_of(a * r**2 - 2 * x * r * v + b * v**2 - 2 * y * v * z + c * z**2)
+    for share, proved in ((2, True), (1, False)):
+        where = (share * x**2 < a * b, share * y**2 < b * c)
+        found = [
+            propose(is_positive(system, tree, where, False)).verdict.value for _, tree in form.positive()
+        ]
+        assert found[:2] == ["proved", "proved"]
+        assert (found[2] == "proved") is proved
 
 
 def test_coefficients_are_constants():

@@ -1,7 +1,8 @@
 """Quadratic forms in sizes with constants for coefficients, and statements that they are positive.
 
-A symmetric matrix is positive definite if and only if its leading principal minors are positive (Sylvester);
-for one that depends on a small ε₀ and on s in (0, 1], each minor is asked for every small enough ε₀ at once.
+A symmetric matrix is positive definite if and only if its leading principal minors are positive (Sylvester).
+They are polynomials; the pivots of LDLᵀ are their quotients, say the same, and are harder to decide. For one
+that depends on a small ε₀ and on s in (0, 1], each minor is asked for every small enough ε₀ at once.
 
 References: ``khalil2002nonlinear``, section 4.1.
 """
