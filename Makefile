@@ -68,7 +68,9 @@ lint: .venv/.ready
 types: .venv/.ready
 	$(BIN)/mypy
 
+# Packages that only the benchmarks need; users never do.
 bench: .venv/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	$(BIN)/python -m tests.benchmarks
 
 # The stamp is written last: an interrupted set-up starts again.

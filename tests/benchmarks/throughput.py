@@ -1,9 +1,10 @@
-"""V and dV/dt at many states: lyapcheck, CasADi's own virtual machine, and a NumPy loop over states."""
+"""V and dV/dt at many states: lyapcheck, numba, CasADi as C and by itself, and a NumPy loop over states."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from lyapcheck import (
     read_gain_file,
 )
 
+from . import generated_c
 from .by_hand import rates_loop
 from .measure import Disagreement, states_per_second
 from .results import RateResult
@@ -74,6 +76,8 @@ def _ways(function: str, item: GainSet, robot: str, sizes: Sizes, threads: int) 
     loop = _loop(function, item, robot)
     return [
         Way(f"lyapcheck, {name}", len(q), lambda: ours(q, e, w)),
+        *_numba(function, item, robot, (q, e, w)),
+        *_casadi_c(function, item, robot, (q, e, w), threads),
         *_casadi(function, item, robot, tuple(x[: sizes.casadi] for x in (q, e, w)), threads),
         Way("NumPy, one state at a time", few, lambda: loop(q[:few], e[:few], w[:few])),
     ]
@@ -92,24 +96,52 @@ def _numeric(item: GainSet, robot: str, count: int) -> tuple[LyapunovNumeric, st
     return numeric, {"compiled": "compiled loops", "numpy": "NumPy in blocks"}[numeric.engine(count)]
 
 
-def _casadi(function: str, item: GainSet, robot: str, states: tuple[Any, ...], threads: int) -> Iterator[Way]:
-    """`Function.map` on one thread and on several, of the printed (15) for dV/dt, gains built in.
-
-    The states are already CasADi matrices when the clock starts, and the result stays one.
-    """
+def _point(function: str, item: GainSet, robot: str) -> Any:
+    """V or the printed (15) of one state as a CasADi function, gains built in."""
     import casadi as ca
 
     graph, n = lyapunov_graph(load_robot(robot), _family()), item.n
     symbols = [ca.SX.sym(name, n) for name in "qew"]
     gains = [ca.DM([float(k) for k in item.kp]), ca.DM([float(k) for k in item.kv]), EPS0]
     whole = graph.V if function == "V" else graph.rate_15
-    point = ca.Function("point", symbols, [whole(*symbols, *gains)])
+    return ca.Function("point", symbols, [whole(*symbols, *gains)])
+
+
+def _casadi(function: str, item: GainSet, robot: str, states: tuple[Any, ...], threads: int) -> Iterator[Way]:
+    """`Function.map` on one thread and on several.
+
+    The states are already CasADi matrices when the clock starts, and the result stays one.
+    """
+    import casadi as ca
+
+    point = _point(function, item, robot)
     count, columns = len(states[0]), [ca.DM(np.ascontiguousarray(x.T)) for x in states]
     for name, mapped in (
         ("CasADi `map`", point.map(count)),
         (f"CasADi `map`, {threads} threads", point.map(count, "thread", threads)),
     ):
         yield Way(name, count, lambda mapped=mapped: mapped(*columns))
+
+
+def _casadi_c(
+    function: str, item: GainSet, robot: str, states: tuple[Any, ...], threads: int
+) -> Iterator[Way]:
+    """CasADi's generated C, where there is a compiler."""
+    if generated_c.COMPILER is not None:
+        call = generated_c.loop(_point(function, item, robot), item.n, threads)
+        name = f"CasADi's C, `-Ofast`, {threads} threads"
+        yield Way(name, len(states[0]), lambda: call(*states))
+
+
+def _numba(function: str, item: GainSet, robot: str, states: tuple[Any, ...]) -> Iterator[Way]:
+    """Loops over states in numba, where it is installed (`make bench` does)."""
+    if find_spec("numba") is not None:
+        from .by_hand import rates_numba
+
+        kp, kv = np.array([float(k) for k in item.kp]), np.array([float(k) for k in item.kv])
+        values, rates = rates_numba.loops(robot, MEMBER, kp, kv, EPS0)
+        call = values if function == "V" else rates
+        yield Way("numba, parallel, fastmath", len(states[0]), lambda: call(*states))
 
 
 def _loop(function: str, item: GainSet, robot: str) -> Callable[..., Any]:
