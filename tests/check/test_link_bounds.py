@@ -86,7 +86,7 @@ def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
         assert min(room) > 0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10**6), st.sampled_from([1, 2, 3]), st.integers(-4, 4))
 def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> None:
     """By the chain rule in balls at exact states, whatever the multiplier; the form need not be positive."""
@@ -157,11 +157,11 @@ def test_a_tree_that_is_none_is_refused() -> None:
 
 
 def test_other_numbers_than_those_shown_are_refused() -> None:
-    found = proof(3, share=F(7, 10))
+    found = proof(3)
     loop = found.loop
     assert judged(found.statement, found, data_of(found)) == "proved"
-    soft = replace(loop, kp=tuple(k / 4 for k in loop.kp))
-    smooth = replace(loop, viscous=tuple((b / 2, b) for b in loop.arm.viscous))
+    soft = replace(loop, kp=tuple(k / 8 for k in loop.kp))
+    smooth = replace(loop, viscous=tuple((b / 8, b) for b in loop.arm.viscous))
     for other in (soft, smooth, replace(loop, coupling=(F(1),) * 6)):
         with pytest.raises(Refused):
             judged(statement_of(other), found, data_of(found))
@@ -169,6 +169,7 @@ def test_other_numbers_than_those_shown_are_refused() -> None:
         data_of(found).require_shown(replace(loop, within=(F(1),) * 6))
 
 
+@pytest.mark.slow
 def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -> None:
     found = proof(1, ranges=True, share=F(1, 4))
     data = data_of(found)
