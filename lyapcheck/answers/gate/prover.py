@@ -32,7 +32,7 @@ CEILINGS = (64, 16, 8, 4, 2)
 
 _NOMINAL = "certificates are about the arm at its nominal numbers"
 _RANGED = "certificates are about the arm for all values of its ranges"
-_TOO_MANY = f"over ranges an arm of more than {MOST_RANGED} joints has no certificate"
+_TOO_MANY = f"over ranges an arm of more than {MOST_RANGED} joints has no certificate of this kind"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
@@ -60,9 +60,9 @@ class Prover:
         """
         if self.model is None:
             return Check(name, None, None, None, None, None, _NO_ARM)
-        if self.ranges and self.model.n > MOST_RANGED:
-            return Check(name, None, None, None, None, None, _TOO_MANY)
         controlled = ControlledArm(gains, self.model, self.ranges)
+        if self.ranges and self.model.n > MOST_RANGED and (name == LASALLE or not controlled.chains):
+            return Check(name, None, None, None, None, None, _TOO_MANY)
         reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None
         if not reason and name == LASALLE:
