@@ -47,7 +47,7 @@ def kept(kind: str, name: str) -> bytes | None:
     """The content kept in a room under a name, if it is there, ours alone to write, and whole."""
     path = home() / kind / name
     try:
-        if not _private(path.parent) or not _private(path):
+        if not _private(path.parent) or not _private(path) or not path.is_file():
             return None
         content = path.read_bytes()
     except (OSError, RuntimeError):

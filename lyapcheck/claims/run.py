@@ -14,6 +14,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
@@ -160,8 +161,9 @@ def _dependences(handover: Handover) -> dict[str, set[str]]:
 def _search(statement: Statement | Missing) -> SearchResult:
     """What the search proposes, or has proposed before; the checker judges it either way."""
     try:
-        kept = None if isinstance(statement, Missing) else _read(store.take(_question(statement)))
-        return kept or propose(statement)
+        if isinstance(statement, Missing):
+            return propose(statement)
+        return _read(store.take(_question(statement)), statement) or propose(statement)
     except Exception as error:
         return SearchResult(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
@@ -181,12 +183,15 @@ def _question(statement: Statement) -> dict[str, str]:
     return {"search": digest_of(to_json(statement))}
 
 
-def _read(kept: Any) -> SearchResult | None:
-    """A finding as it was written; none if it is not exactly of that form."""
+def _read(kept: Any, statement: Statement) -> SearchResult | None:
+    """A finding as it was written; none if it is of another form, or its proof shows another thing."""
     try:
         proof, grade = from_json(Proof, kept["proof"], "proof"), Grade[kept["grade"].upper()]
-        return SearchResult(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
-    except (Refused, KeyError, TypeError, ValueError):
+        result = SearchResult(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
+        plain = isinstance(result.method, str) and isinstance(result.reason, str)
+        plain = plain and isinstance(result.evidence, dict) and isinstance(result.witness, dict | None)
+        return result if plain and verify(statement, proof).verdict == result.verdict.value else None
+    except (Refused, AttributeError, KeyError, TypeError, ValueError):
         return None
 
 

@@ -92,13 +92,19 @@ def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch
     assert again.claims[0].verdict is Verdict.PROVED
 
 
-def test_a_proof_that_was_exchanged_proves_nothing(place: Path) -> None:
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"verdict": "refuted"},
+        {"proof": {"rule": "normal form"}},
+        {"reason": {"no": "text"}},
+        {"witness": [3]},
+    ],
+)
+def test_a_proof_that_was_exchanged_is_searched_for_again(place: Path, change: dict[str, Any]) -> None:
     """Even one whose own digest is right: the checker does not trust where it comes from."""
-    run_proof("published.py", (1,), only=("7a",))
-    answers = [json.loads(gzip.decompress(path.read_bytes()[:-32])) for path in sorted(place.iterdir())]
-    names = [path.name for path in sorted(place.iterdir())]
-    for name, answer in zip(names, [*answers[1:], answers[0]], strict=True):
-        store.keep(store.ANSWERS, name, gzip.compress(json.dumps(answer).encode()))
-    assert len(names) > 1
-    (row,) = run_proof("published.py", (1,), only=("7a",)).claims
-    assert row.verdict is not Verdict.PROVED
+    first = run_proof("published.py", (1,), only=("7a",))
+    for path in place.iterdir():
+        answer = json.loads(gzip.decompress(path.read_bytes()[:-32]))
+        store.keep(store.ANSWERS, path.name, gzip.compress(json.dumps(answer | change).encode()))
+    assert run_proof("published.py", (1,), only=("7a",)).data() == first.data()
