@@ -252,5 +252,4 @@ def _sizes(name: str) -> tuple[str, str]:
 
 def _is_sign(factor: Tree) -> bool:
     """Whether a factor is 1 or −1."""
-    [(c, powers)] = terms_of(factor) or [(0, {"": 1})]
-    return not powers and abs(c) == 1
+    return [(abs(c), powers) for c, powers in terms_of(factor)] == [(1, {})]
