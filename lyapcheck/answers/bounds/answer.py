@@ -21,6 +21,7 @@ from lyapcheck.answers.bounds.words import (
     title,
 )
 from lyapcheck.answers.gain_place import gain_place
+from lyapcheck.check.kinds.phases import FallingPhases
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
@@ -39,13 +40,14 @@ REST = (
     "Under dry friction every motion ends at rest, certified by falling energy; |e_i|, simulated: "
     "the larger of this motion's and of one let go at 95 % of the bound:"
 )
+PHASES = "As the motion calms down, V with ε = ε₀ falls for larger ε₀, within these errors and speeds:"
 NONE, TORQUE = "—", "torque"
 LEGEND = (
     "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
     "farther than this one, joint by joint.",
     "simulated: one run.",
 )
-NOT_IN_RECORDS = ("envelope", "statement", "rest_statement")
+NOT_IN_RECORDS = ("envelope", "phases", "after", "statement", "rest_statement")
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,7 @@ def _behind(result: Comparison) -> list[Table | Bullets]:
         said.append(f"{after}.")
     if settling.time is not None and not settling.exponential:
         said.append(f"{FLAT}.")
-    return [*_errors(result), *_rest(result), Bullets(tuple(said))]
+    return [*_errors(result), *_rest(result), *_phases(result), Bullets(tuple(said))]
 
 
 def _errors(result: Comparison) -> list[Table]:
@@ -161,6 +163,23 @@ def _errors(result: Comparison) -> list[Table]:
         return []
     rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
     return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(result))]
+
+
+def _phases(result: Comparison) -> list[Table]:
+    """Which ε₀ is certified within which errors and speeds; no table where there is one phase."""
+    shown = result.settling.shown
+    if shown is None or not isinstance(shown.proof, FallingPhases):
+        return []
+    rows = [
+        (
+            seconds_up(phase.envelope[0][0]),
+            f"{float(phase.eps0):.4g}",
+            ", ".join(map(angle_up, phase.within)),
+            ", ".join(f"{float(floor):.3g}" for floor in phase.floors),
+        )
+        for phase in shown.proof.phases
+    ]
+    return [Table(("from", "ε₀", "|e_i| at most", "h(w_i)/w_i at least"), tuple(rows), PHASES)]
 
 
 def _rest(result: Comparison) -> list[Table]:

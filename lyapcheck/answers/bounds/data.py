@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.check.kinds.phases import StaysWithin
+from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
 
@@ -47,10 +47,27 @@ def _settling(bound: SettlingBound) -> dict[str, Any]:
         "errors": [_degrees_above(x) for x in bound.largest_errors],
         "exponential": bound.exponential,
         "after": _after(bound),
+        "phases": _phases(bound),
         "rests_on": _provenance(bound.rests_on),
         "statement": _text(None if bound.shown is None else bound.shown.statement),
         "reason": bound.reason,
     }
+
+
+def _phases(bound: SettlingBound) -> list[dict[str, Any]]:
+    """ε₀ of each phase, from when on, within which errors in degrees and least h(w)/w."""
+    proof = None if bound.shown is None else bound.shown.proof
+    if not isinstance(proof, FallingPhases):
+        return []
+    return [
+        {
+            "time": above(phase.envelope[0][0]),
+            "eps0": decimal_text(phase.eps0),
+            "errors": [_degrees_above(x) for x in phase.within],
+            "floors": [below(x) for x in phase.floors],
+        }
+        for phase in proof.phases
+    ]
 
 
 def _after(bound: SettlingBound) -> dict[str, Any] | None:
