@@ -33,6 +33,8 @@ from lyapcheck.search.decay_results import Shown
 from lyapcheck.search.margins import Attempt, attempts, candidates, margin_at
 from lyapcheck.search.radial import radial_data
 
+FRICTION = tuple(Fraction(k, 100) for k in (20, 40, 60))
+"""The η that are weighed against each other."""
 COARSE, FINE = 0.6, 0.93
 """Ratio of neighbouring levels, to compare margins and for the answer."""
 STEP = Fraction(1, 6)
@@ -94,7 +96,7 @@ class Phases:
         """One more phase; ``False`` where none is found."""
         near = self._near()
         ranked = []
-        for margin in candidates(near, False):
+        for margin in candidates(near, False, FRICTION):
             found = self._descent(margin, last, COARSE)
             if found is not None:
                 ranked.append((found.time, margin.friction, margin))
