@@ -75,7 +75,13 @@ def _completion(parser: Parser, shell: str) -> str:
     """What the shell reads, by shtab."""
     import shtab
 
-    places = {"FILE": shtab.FILE, "FILE...": shtab.FILE, "PROOF.py": shtab.FILE, "DIR": shtab.DIRECTORY}
+    places = {
+        "FILE": shtab.FILE,
+        "FILE...": shtab.FILE,
+        "PROOF.py": shtab.FILE,
+        "PLAN.toml": shtab.FILE,
+        "DIR": shtab.DIRECTORY,
+    }
     for each in _add_commands(parser):
         for action in each.actions:
             if action.metavar in places:

@@ -15,7 +15,8 @@ from typing import Any
 import pytest
 
 import lyapcheck
-from lyapcheck import InputError
+from lyapcheck import InputError, store
+from lyapcheck.answers.epsilon import kept
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.sweep import folder as folders
 from lyapcheck.answers.sweep import read_plan
@@ -164,6 +165,28 @@ def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan: Path, monkeypatch: 
     for row in rows:
         tally.add(row)
     assert SweepAnswer("plan", tally).exit_code == 4
+
+
+def test_what_is_kept_is_not_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(store.OFF)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path = tmp_path / "plan.toml"
+    text = PENDULUM.replace(
+        '["robot", "gate", "epsilon", "bounds", "simulate", "check"]', '["epsilon", "gate"]'
+    )
+    path.write_text(text, encoding="utf-8")
+    rows = lyapcheck.sweep(path, workers=1, out=tmp_path / "out")
+    assert next(rows)["verdict"] == "proved"
+    del rows  # broken off
+
+    def never(*gains: Any, **budget: Any) -> None:
+        raise AssertionError("it was searched for again")
+
+    monkeypatch.setattr(kept, "epsilon", never)
+    list(lyapcheck.sweep(path, workers=1, out=tmp_path / "out", resume=True))
+    monkeypatch.undo()
+    list(lyapcheck.sweep(path, workers=1, out=tmp_path / "alone"))
+    assert contents(tmp_path / "out") == contents(tmp_path / "alone")
 
 
 @pytest.mark.slow

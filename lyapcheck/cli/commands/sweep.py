@@ -24,7 +24,7 @@ MOST = 1_024
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("plan", metavar="FILE", type=Path, help="A plan (TOML); see examples/sweep.toml.")
+    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan; see examples/sweep.toml.")
     about = "Write rows, certificates and a page with maps there."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
     parser.add_whole("--jobs", "Processes; one a core if missing.", least=1, most=MOST)
