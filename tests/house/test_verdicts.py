@@ -47,7 +47,7 @@ SAID = {
     "report.kept": (2, "what a fresh process of the checker must say"),
     "report.model": (2, SORTING),
     "report.page.claims": (2, SORTING),
-    "report.verdict": (2, GATHERED),
+    "report.verdict": (3, GATHERED),
     "simulate.batch_numpy": (1, "steps of an integrator"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
