@@ -64,6 +64,7 @@ BAD = [
     ("gate none.toml", ["none.toml: file: cannot be read"]),
     ("gate none.toml nil.toml", ["none.toml: file: cannot be read", "nil.toml: file: cannot be read"]),
     ("gate .", ["file: is a folder"]),
+    ("sweep none.toml", ["none.toml: file: cannot be read"]),
     ("gate TABLE2 --robot nobody", ["robot = nobody: is neither a built-in arm nor a file"]),
     (
         "gate TABLE2 --condition 11",
