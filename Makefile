@@ -3,7 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: report screenshots site study test test-slow test-robots test-sweep kernel fuzz lint types bench lock clean help
+.PHONY: report screenshots site study test test-slow test-robots test-sweep kernel kernel-slow fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
@@ -15,6 +15,7 @@ help:
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
+	@echo "make kernel-slow  both checkers on every committed certificate; writes reports/kernel.md and what check knows of Coq"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
 	@echo "make lint       style (ruff) and formatting"
 	@echo "make types      static types (mypy --strict)"
@@ -57,6 +58,9 @@ kernel:
 	@command -v coqc > /dev/null || \
 	  { echo "make kernel needs Coq: apt-get install --no-install-recommends coq libcoq-interval"; exit 2; }
 	@$(MAKE) --no-print-directory -C formal golden
+
+kernel-slow: .venv/.ready kernel
+	$(BIN)/python -m tests.kernel.figures --folder build/kernel
 
 fuzz: .venv/.ready
 	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --seed 1122 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json

@@ -4,7 +4,7 @@ From Coquelicot Require Export Coquelicot.
 From Interval Require Export Tactic.
 Require Export Definitions.
 Require Export Family Bounds Stability.
-Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified.
+Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.
@@ -25,8 +25,12 @@ Qed.
 (** *** Tactics *)
 Ltac open_numbers := unfold h, dh, U, bottom, sinh, cosh, norm, dot, entries, Q2R; cbn [sum nth Qnum Qden];
   cbv [Nat.mul Nat.sub Nat.add]; spell 0%nat.
+Ltac open_rationals := unfold Q2R; cbn [Qnum Qden].
+(** Two numbers by an enclosure of each. *)
+Ltac apart := match goal with |- ?a <= ?b => interval_intro a upper with (i_prec 90); interval_intro b lower with (i_prec 90); lra
+  | |- ?a < ?b => interval_intro a upper with (i_prec 90); interval_intro b lower with (i_prec 90); lra end.
 (** A relation between numbers. *)
-Ltac numbers := intros; first [lra | open_numbers; interval with (i_prec 120)].
+Ltac numbers := intros; first [lra | open_numbers; first [interval with (i_prec 120) | apart]].
 (** A relation that a point refutes. *)
 Ltac fails H := revert H; first [apply Rlt_not_le | apply Rle_not_lt | apply Rgt_not_eq | apply Rlt_not_eq]; numbers.
 (** An identity in sinh and cosh of one variable. *)
@@ -46,7 +50,8 @@ Ltac signs x := first
   | match goal with |- 0 <= x * h ?m x => destruct (Req_dec x 0) as [->|N]; [lra|left; apply h_sign; [lia|auto]] end
   | match goal with |- context [sinh x ^ ?k] => let j := eval compute in (Nat.div2 k) in
       let E := fresh in assert (E : 0 <= sinh x ^ k) by exact (even_pow_pos (sinh x) j); lra end
-  | interval with (i_bisect x, i_autodiff x, i_prec 60) ].
+  | interval with (i_bisect x, i_autodiff x, i_prec 60)
+  | first [apply Rminus_lt | apply Rminus_le]; interval with (i_bisect x, i_autodiff x, i_prec 90, i_depth 60) ].
 (** *** Arms *)
 (** The waves that M(q) and its derivatives are made of. *)
 Definition waves_in (A : arm) : list (list Z) := nodup (list_eq_dec Z.eq_dec) (map (fun t : harmonic => fst (fst t))

@@ -133,3 +133,8 @@ Definition falsified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := e
   solves_at (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) qd e w t /\
   away (joints A) (e t) (w t) /\
   is_derive (fun s => V (joints A) (M_of A) (h m) (U m) (entries kp) qd (Q2R eps0) (e s) (w s)) t d /\ 0 < d.
+(** (19) as a necessary condition: where dV/dt < 0 under kappa K_v for some eps0, kappa times the largest k_v is below the bound. *)
+Definition damping_below (A : arm) (m : nat) (kp kv : list Q) (largest : Q) (bound : R) : Prop := forall kappa eps0, 0 < kappa -> 0 < eps0 ->
+  positive_definite A ->
+  (forall qd, decreasing (joints A) (M_of A) (C_of A) (b_of A) (h m) (U m) (entries kp) (fun i => kappa * entries kv i) qd eps0) ->
+  kappa * Q2R largest < bound.

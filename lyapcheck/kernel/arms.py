@@ -43,12 +43,14 @@ LITERAL = 4000
 
 
 def arm_script(statement: Decreasing, proof: Proof) -> str:
-    """The tactics for ``certified``.
+    """The tactics for ``certified``, or for ``falsified`` by a state.
 
     Raises:
         NotPrinted: the proof is of a kind, or about a function, that Coq has no theorem for.
     """
     loop = closed_loop_of(statement)
+    if isinstance(proof, StateWitness):
+        return _by_state(loop, proof)
     if certifies(loop.tail, loop.eps0):
         return by_norms(loop)
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
@@ -57,9 +59,7 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     return _script(loop, proof.rate.tree)
 
 
-def state_script(statement: Decreasing, state: StateWitness) -> str:
-    """The tactics for ``falsified``."""
-    loop = closed_loop_of(statement)
+def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
     parts = _robot(loop) | {
         "q": exact_list(state.q),
         "e": exact_list(state.e),

@@ -38,15 +38,15 @@ class Coq:
         self.printed.mkdir(parents=True, exist_ok=True)
         self._compile_library()
 
-    def accept(self, name: str, text: str) -> str:
-        """Write a file and have it compiled; what Coq prints, with the seconds of each sentence.
+    def accept(self, name: str, text: str, *options: str) -> str:
+        """Write a file and have it compiled, with options of ``coqc``; what Coq prints.
 
         Raises:
             CoqRefused: Coq does not accept it, or takes too long.
         """
         path = self.printed / f"{name}.v"
         path.write_text(text, encoding="utf-8")
-        return self._compile(path, ("-Q", str(self.printed), "Printed"))
+        return self._compile(path, ("-Q", str(self.printed), "Printed", *options))
 
     def _compile(self, path: Path, more: tuple[str, ...] = ()) -> str:
         command = [self.program, "-q", "-w", QUIET, "-R", str(self.library), LIBRARY, *more, str(path)]
@@ -126,6 +126,11 @@ def axioms_of(printed: str) -> set[str]:
     if head != "Axioms:":
         raise CoqRefused(f"of its axioms: {head}")
     return result
+
+
+def seconds_in(printed: str) -> float:
+    """The computing time of all sentences of a file that was compiled with ``-time``."""
+    return sum(float(user) + float(system) for user, system in TIMES.findall(printed))
 
 
 def golden(name: str) -> frozenset[str]:

@@ -13,7 +13,7 @@ from lyapcheck.check.files import content
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
-from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, axioms_of, golden
+from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, axioms_of, golden, seconds_in
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.kernel.scripts import script
 from lyapcheck.kernel.statements import shown
@@ -35,7 +35,7 @@ class Kernel:
     """Whether Coq's kernel accepted a certificate.
 
     ``reason`` is why not; ``theorem`` the statement that was printed, ``axioms`` the golden list within which
-    its axioms are.
+    its axioms are, ``seconds`` the computing time that Coq took.
     """
 
     file: str
@@ -43,6 +43,7 @@ class Kernel:
     reason: str = ""
     theorem: str = ""
     axioms: str = ""
+    seconds: float = 0.0
 
 
 def theorem_file(certificate: Certificate) -> str:
@@ -106,7 +107,7 @@ def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel
         certificate, data = certificate_of(content(one.document.path))
         require(data["digest"] == one.finding.digest, "digest", data["digest"], "changed while it was judged")
         text = theorem_file(certificate)
-        coq.accept(_module(one), text)
+        printed = coq.accept(_module(one), text, "-time")
     except NotPrinted as lack:
         return Kernel(one.file, False, f"there is no theorem of Coq's for {lack}")
     except CoqRefused as refusal:
@@ -114,7 +115,7 @@ def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel
     except (OSError, ValueError) as error:
         return Kernel(one.file, False, plain(str(error)))
     theorem = text.split("Theorem claim : ", 1)[1].split(".\nProof.", 1)[0]
-    return Kernel(one.file, True, theorem=theorem, axioms=script_axioms(text))
+    return Kernel(one.file, True, theorem=theorem, axioms=script_axioms(text), seconds=seconds_in(printed))
 
 
 def script_axioms(text: str) -> str:

@@ -13,6 +13,7 @@ from typing import Any
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness, closed_loop_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
@@ -22,9 +23,9 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
-from lyapcheck.kernel.arms import arm_script, by_norms, state_script
+from lyapcheck.kernel.arms import arm_script, by_norms
 from lyapcheck.kernel.statements import on_one_arm
-from lyapcheck.kernel.terms import NotPrinted, bound, exact_list, identifier, rational
+from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, identifier, rational
 
 THEOREMS = {
     EQUILIBRIUM: "origin_is_only_equilibrium",
@@ -40,10 +41,10 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     Raises:
         NotPrinted: there is no way to prove it yet.
     """
-    if isinstance(statement, Decreasing) and verdict == "proved":
+    if isinstance(statement, Decreasing) and (verdict == "proved" or isinstance(proof, StateWitness)):
         return arm_script(statement, proof)
-    if isinstance(statement, Decreasing) and isinstance(proof, StateWitness):
-        return state_script(statement, proof)
+    if isinstance(statement, DampingBelow) and isinstance(proof, DampingAbove):
+        return _above(statement, proof)
     if verdict == "proved":
         return facts(statement) + proved(statement)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
@@ -53,6 +54,16 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     if isinstance(proof, Witness):
         return facts(statement) + _refuted(statement, dict(proof.point))
     raise NotPrinted(f"a refutation by {type(proof).__name__}")
+
+
+def _above(statement: DampingBelow, proof: DampingAbove) -> str:
+    """Gains that break the bound, for which dV/dt < 0 is proved."""
+    decreasing = arm_script(statement.with_damping(proof.factor, proof.eps0), proof.decreasing)
+    numbers = f"{exact(proof.factor)} {exact(proof.eps0)}"
+    return (
+        f"{facts(statement)}apply (damping_above _ _ _ _ _ _ {numbers}); "
+        f"[reflexivity|reflexivity|{decreasing.rstrip('.')}|open_rationals; numbers]."
+    )
 
 
 def facts(statement: Statement) -> str:

@@ -6,6 +6,7 @@ beside the function. Kinds that are not listed are not printed, and their certif
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import singledispatch
 
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
@@ -138,8 +139,8 @@ def _(statement: Decreasing) -> str:
 
 @proposition.register
 def _(statement: DampingBelow) -> str:
-    """The gains κK_v are vectors of real numbers; Coq's ``forall`` is over κ and ε₀."""
-    raise NotPrinted("a bound that stability would need")
+    gains = statement.with_damping(Fraction(1), Fraction(1))
+    return f"damping_below {_loop(gains)} {exact(max(statement.kv))} ({expression(statement.bound)})"
 
 
 def on_one_arm(loop: ClosedLoop) -> Decreasing:
@@ -157,6 +158,11 @@ def on_one_arm(loop: ClosedLoop) -> Decreasing:
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:
+    return f"{name} {_loop(statement)} {exact(statement.eps0)}"
+
+
+def _loop(statement: Decreasing) -> str:
+    """Arm, m, K_p and K_v."""
     if statement.coupling:
         raise NotPrinted("V with weights Λ")
     if statement.family != "hyperbolic" or statement.m is None:
@@ -164,8 +170,7 @@ def _of_arm(name: str, statement: Decreasing) -> str:
     if any(low != high for low, high in statement.viscous) or statement.parameters:
         raise NotPrinted("an arm with uncertain numbers")
     data = arm(statement.mass, [low for low, _ in statement.viscous])
-    gains = f"{exact_list(statement.kp)} {exact_list(statement.kv)}"
-    return f"{name} {data} {statement.m} {gains} {exact(statement.eps0)}"
+    return f"{data} {statement.m} {exact_list(statement.kp)} {exact_list(statement.kv)}"
 
 
 def _member(of: LoopProperty | ClosedLoop) -> int:

@@ -16,7 +16,7 @@ import pytest
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing
+from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, StateWitness
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
@@ -138,6 +138,42 @@ def test_the_small_checker_refuses_planted_faults(name: str) -> None:
         verify(faulty(ONE)[name].statement, faulty(ONE)[name].proof)
 
 
+STATE = certificate_of((OWN / "reyes-kelly2.m1.falsified.json").read_bytes())[0]
+
+
+def faulty_state() -> dict[str, Certificate]:
+    """The certificate of a refuted ε₀ with one thing wrong in each."""
+    statement, proof = STATE.statement, STATE.proof
+    assert isinstance(statement, Decreasing)
+    assert isinstance(proof, StateWitness)
+    lighter = tuple(
+        tuple(tuple((powers, c / 3) for powers, c in entry) for entry in row) for row in statement.mass
+    )
+    return {
+        "an ε₀ that is certified": replace(STATE, statement=replace(statement, eps0=Fraction(4, 5))),
+        "the M of another arm": replace(STATE, statement=replace(statement, mass=lighter)),
+        "a wrong number": replace(STATE, proof=replace(proof, w=(-proof.w[0], proof.w[1]))),
+    }
+
+
+@pytest.mark.parametrize("name", faulty_state())
+def test_the_small_checker_refuses_faults_planted_in_a_state(name: str) -> None:
+    with pytest.raises(Refused):
+        verify(faulty_state()[name].statement, faulty_state()[name].proof)
+
+
+@needs_coq
+@pytest.mark.slow
+def test_a_state_against_an_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder: Path) -> None:
+    ours = Coq(folder, 600)
+    ours.accept("state", theorem_file(STATE))
+    printed = ours.accept("asked_state", "Require Printed.state.\nPrint Assumptions Printed.state.claim.\n")
+    assert axioms_of(printed) <= golden("float")
+    for false in map(theorem_file, faulty_state().values()):
+        with pytest.raises(CoqRefused):
+            ours.accept("fault", false)
+
+
 @needs_coq
 @pytest.mark.slow
 def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder: Path) -> None:
@@ -182,7 +218,7 @@ def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_re
 
 @needs_coq
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["buap3.m1.stable", "arms.all.m1", "7a.m2", "h.bounds.m2", "h.odd.m2"])
+@pytest.mark.parametrize("name", ["buap3.m1.stable", "arms.all.m1", "7a.m2", "h.odd.m2", "19n.m2"])
 def test_claims_of_the_table_are_theorems_of_coqs(folder: Path, name: str) -> None:
     one = certificate_of((OWN / f"{name}.json").read_bytes())[0]
     Coq(folder, 600).accept("one_of_the_table", theorem_file(one))
