@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
+from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
@@ -216,7 +217,8 @@ def _claims(report: Report) -> Iterator[Section]:
                 shown = f"{SYMBOLS[result[0]['verdict']]} {result[0]['verdict']}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
-            lines.append((claim, shown, result[0]["grade"], result[0]["comment"]))
+            grades = ", ".join(sorted({row["grade"] for row in result}))
+            lines.append((claim, shown, grades, result[0]["comment"]))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))
 
 
@@ -305,8 +307,22 @@ def rests(report: Report) -> Iterator[Section]:
     blocks: list[Block] = [Bullets(assumed)] if assumed else [Paragraph("Nothing is assumed about the arm.")]
     if report.certificates:
         words = f"{len(report.certificates)} certificates; the small checker judges them again with"
-        blocks += [Paragraph(words), Code("lyapcheck recheck certificates/")]
+        blocks += [Paragraph(words), Code("lyapcheck recheck certificates/"), *_kernel(report)]
     boxes = {row["boxes"] for row in report.epsilon}
     budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
     blocks.append(Paragraph(f"{versions}. Seed {report.seed}.{budget}"))
     yield Section(f"What this rests on: {report.robot['title']}", tuple(blocks))
+
+
+def _kernel(report: Report) -> Iterator[Block]:
+    """What the grade ``kernel`` means, and which verdicts have it."""
+    rows = [row for row in report.every_claim if row["verdict"] in ("proved", "refuted")]
+    kernel = [row for row in rows if row["grade"] == GRADE]
+    if kernel:
+        names = ", ".join(dict.fromkeys(row["id"] for row in kernel))
+        yield Paragraph(
+            "Grade kernel: Coq's kernel has accepted it too, as a theorem printed from the claim's own data, "
+            "on golden axioms; what its words mean stands on one page, formal/Definitions.v. So it is for "
+            f"{len(kernel)} of {len(rows)} verdicts: {names}. With Coq installed, it judges them anew by"
+        )
+        yield Code("lyapcheck recheck --kernel certificates/")
