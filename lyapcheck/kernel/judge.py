@@ -20,7 +20,7 @@ from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
 
 JOBS = 2
-COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|vm_cast_no_check)\b")
+COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|computed)\b")
 HEAD = f"""From Coq Require Import Floats.
 Require Import {LIBRARY}.Certificates.
 Import {LIBRARY}.Definitions.
