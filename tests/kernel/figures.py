@@ -55,12 +55,12 @@ def page(results: list[Kernel], files: int, left: int) -> Iterator[str]:
     slow = sorted((one for one in accepted if one.seconds > SLOW), key=lambda one: -one.seconds)
     if slow:
         yield f"\n| certificate | over {SLOW:g} s |\n|---|---:|\n"
-        yield from (f"| {one.file} | {one.seconds:.0f} s |\n" for one in slow)
+        yield from (f"| {Path(one.file).name} | {one.seconds:.0f} s |\n" for one in slow)
     yield "\n## What Coq does not take\n\n| why | statements | for instance |\n|---|---:|---|\n"
     reasons = Counter(one.reason for one in results if not one.accepted)
     for reason, count in reasons.most_common():
         first = next(one.file for one in results if one.reason == reason)
-        yield f"| {reason.replace('|', '∣')} | {count} | {first} |\n"
+        yield f"| {reason.replace('|', '∣')} | {count} | {Path(first).name} |\n"
 
 
 def main() -> int:
