@@ -12,6 +12,7 @@ from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.command import Writer
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.check.render import as_json, text
+from lyapcheck.errors import argument_error
 from lyapcheck.kernel.coq import require_coq
 from lyapcheck.kernel.judge import Kernel, graded, judged
 from lyapcheck.temporary import temporary_folder
@@ -35,7 +36,7 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
         progress: is told what is going on.
 
     Raises:
-        InputError: there is no Coq.
+        InputError: there is no Coq, or the folder cannot take the files.
     """
     require_coq()
 
@@ -43,7 +44,7 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
         with temporary_folder() as place:
             result = judged(outcome, Path(place), seconds, progress)
             if folder is not None:
-                shutil.copytree(place, folder, dirs_exist_ok=True)
+                _copied(place, folder)
         both = graded(outcome, result)
         if name == "text":
             return text(both, trusted) + kernel_text(result)
@@ -52,6 +53,19 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
         return Recheck(both, trusted, tuple(result)).written(name)
 
     return written
+
+
+def _copied(place: str, folder: Path) -> None:
+    """Copy the files for Coq.
+
+    Raises:
+        InputError: something else has one of their names.
+    """
+    try:
+        shutil.copytree(place, folder, dirs_exist_ok=True)
+    except OSError:
+        rule = "has something else under a name of Coq's files"
+        raise argument_error("--kernel-files", folder, rule, "name an empty directory") from None
 
 
 def kernel_text(result: list[Kernel]) -> str:

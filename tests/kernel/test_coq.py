@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from lyapcheck.answers.kernel import _copied
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of
@@ -21,6 +22,7 @@ from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
+from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
 from lyapcheck.kernel.judge import HEAD, Kernel, judged, theorem_file
@@ -44,6 +46,14 @@ def test_without_coqc_it_says_what_to_install(
     assert out == ""
     assert "there is no coqc" in err
     assert "apt-get install --no-install-recommends coq libcoq-interval" in err
+
+
+def test_a_folder_that_cannot_take_the_files_is_named(tmp_path: Path) -> None:
+    (tmp_path / "from" / "library").mkdir(parents=True)
+    (tmp_path / "to").mkdir()
+    (tmp_path / "to" / "library").write_text("something else")
+    with pytest.raises(InputError, match="has something else under a name"):
+        _copied(str(tmp_path / "from"), tmp_path / "to")
 
 
 def test_nothing_of_the_library_is_left_out_or_assumed() -> None:
