@@ -31,9 +31,8 @@ from lyapcheck.temporary import temporary_folder
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
 
-FIRST = "epsilon"
-"""The certificates that take longest for their size."""
-PROCESSES = 2
+HALF = ("published", "tracking")
+"""The folders of certificates that one process judges while another judges the rest."""
 JUDGED = ("verdict", "id", "m", "rules", "granted")
 """What a row has from the checker."""
 
@@ -135,12 +134,12 @@ def _eps0(certificate: str) -> Fraction:
 
 
 def _judged(certificates: Mapping[str, str]) -> dict[str, Any]:
-    """What fresh processes of the checker say, one a folder, by the digest of each certificate."""
-    folders: dict[str, list[str]] = {}
+    """What two fresh processes of the checker say, by the digest of each certificate."""
+    halves: tuple[list[str], list[str]] = ([], [])
     for path, text in certificates.items():
-        folders.setdefault(path.split("/")[1], []).append(text)
-    with ThreadPoolExecutor(PROCESSES) as pool:
-        answers = list(pool.map(_answer, [folders[name] for name in sorted(folders, key=FIRST.__ne__)]))
+        halves[path.split("/")[1] in HALF].append(text)
+    with ThreadPoolExecutor(len(halves)) as pool:
+        answers = list(pool.map(_answer, filter(None, halves)))
     if any(answer["alarms"] for answer in answers):
         return {}
     return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}

@@ -15,10 +15,16 @@ from lyapcheck.report.write import render, write
 
 
 @pytest.fixture(scope="session")
-def report() -> Report:
+def subject() -> Subject:
     """The two-joint arm, m = 1."""
     file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    return build(Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),)))
+    return Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),))
+
+
+@pytest.fixture(scope="session")
+def report(subject: Subject) -> Report:
+    """What is said about it."""
+    return build(subject)
 
 
 @pytest.fixture(scope="session")

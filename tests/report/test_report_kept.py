@@ -13,6 +13,7 @@ from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import GainSet
 from lyapcheck.report import kept
 from lyapcheck.report.bench import gain_map, map_eps0, map_path
+from lyapcheck.report.build import Subject
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.model import Report
 from lyapcheck.robots import load
@@ -37,7 +38,7 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> No
 
 @pytest.mark.slow
 def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
-    report: Report, monkeypatch: pytest.MonkeyPatch
+    report: Report, subject: Subject, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
     computed = Computed(
@@ -45,7 +46,7 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
         report.bench["map"], report.figures, report.certificates,
     )  # fmt: skip
     text = json.dumps(kept.written(computed))
-    found = kept.read(json.loads(text))
+    found = kept.read(json.loads(text), subject)
     assert found is not None
     assert found.figures == computed.figures
     judged = kept._judged(report.certificates)
@@ -59,4 +60,4 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
     ):
         data = json.loads(text)
         change(data)
-        assert kept.read(data) is None
+        assert kept.read(data, subject) is None

@@ -15,10 +15,14 @@ FOLDED = ("C", "D")
 
 def findings_section(report: Report) -> Markup:
     """Everything that is not confirmed, the heaviest first."""
-    title = "What to mend" if report.own else "Findings"
+    title, nothing = "Findings", "Everything that was decided is confirmed."
+    if report.own:
+        title, nothing = (
+            "What to mend",
+            "No condition is broken, and no Property of the arm is refuted.",
+        )
     groups = [_group(report, weight) for weight in WEIGHTS if report.weighing(weight)]
-    none = element("p", "Everything that was decided is confirmed.")
-    return element("section", element("h2", title), groups or none, id="findings")
+    return element("section", element("h2", title), groups or element("p", nothing), id="findings")
 
 
 def _group(report: Report, weight: str) -> Markup:
