@@ -90,7 +90,7 @@ def _examples() -> dict[str, Path]:
     package = Path(__file__).parents[1]
     inside = package / "examples"
     folder = inside if inside.is_dir() else package.parent / "examples"
-    return {file.stem: file for file in folder.glob("*.toml") if not file.stem.endswith("_gains")}
+    return {file.stem: file for file in folder.glob("*.toml") if not file.stem.endswith(("_gains", "_plan"))}
 
 
 def _arms() -> dict[str, Path]:

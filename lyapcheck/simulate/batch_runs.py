@@ -147,7 +147,7 @@ def tops(values: Array) -> Array:
     bend, slope = before - 2 * top + after, (after - before) / 2
     inside = (bend < 0) & (np.abs(slope) <= -bend)
     vertex = top - slope**2 / (2 * np.where(inside, bend, -1.0))
-    return np.asarray(np.fmax(np.max(values, axis=1), np.where(inside, vertex, -np.inf)))
+    return np.asarray(np.maximum(np.max(values, axis=1), np.where(inside, vertex, -np.inf)))
 
 
 def runs_of(t: Array, rows: dict[str, Any], engine: str) -> Runs:

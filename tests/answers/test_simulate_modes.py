@@ -192,8 +192,8 @@ def test_a_run_of_a_batch_is_the_run_by_itself():
     found = sweep(gain_set, model, PAPER_TASK, Starts(3, 0.5, 1))
     alone = simulate(gain_set, model, PAPER_TASK.q_d, found.q0[2], points=501)
     assert found.runs.L2[2] == pytest.approx(alone.L2, rel=1e-8)
-    sampled = np.max(np.abs(alone.tau), axis=0)  # of a batch the samples are looked at alone
-    assert found.runs.peak_torque[2] == pytest.approx(sampled, rel=1e-8)
+    assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-4)
+    assert np.all(found.runs.peak_torque[2] >= np.max(np.abs(alone.tau), axis=0) * (1 - 1e-8))
     assert np.all(np.abs(found.q0) <= 0.5)
 
 

@@ -64,7 +64,7 @@ def test_examples_are_known_by_name_and_lean_on_nothing_else() -> None:
     assert robots.load("ur5").n == 6
     assert robots.load("Panda").n == 7
     for file in (ROOT / "examples").glob("*.toml"):
-        assert ".." not in file.read_text()
+        assert "../" not in file.read_text()
 
 
 def test_gate_takes_a_path() -> None:

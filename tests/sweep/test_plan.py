@@ -12,7 +12,7 @@ import pytest
 from lyapcheck import InputError, read_plan
 from lyapcheck.answers.sweep.ask import TOGETHER, batches
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep.toml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep_plan.toml"
 HEAD = 'robots = ["reyes-kelly2"]\nquestions = ["gate"]\n'
 GRID = "[grid]\nm = [1]\nkp = [20]\nkv = [0.1]\n"
 

@@ -86,7 +86,7 @@ def sweep(
 
     Example:
         >>> import lyapcheck
-        >>> rows = lyapcheck.sweep("examples/sweep.toml", workers=1)
+        >>> rows = lyapcheck.sweep("examples/sweep_plan.toml", workers=1)
         >>> next(rows)["verdict"]
         'accepted'
     """

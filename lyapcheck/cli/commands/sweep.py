@@ -24,7 +24,7 @@ MOST = 1_024
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan; see examples/sweep.toml.")
+    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan; see examples/sweep_plan.toml.")
     about = "Write rows, certificates and a page with maps there."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
     parser.add_whole("--jobs", "Processes; one a core if missing.", least=1, most=MOST)
@@ -54,7 +54,7 @@ def run(
     3: something undecided, 4: a question failed; its row says why.
 
     Examples:
-      lyapcheck sweep examples/sweep.toml --out sweep/
+      lyapcheck sweep examples/sweep_plan.toml --out sweep/
       lyapcheck sweep plan.toml --out sweep/ --resume
       lyapcheck sweep plan.toml --out sweep/ --scheduler tcp://head:8786
     """
