@@ -63,13 +63,6 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
     return tuple(result)
 
 
-def what_m_does(sets: Sequence[GainSet], model: RobotModel, task: Task) -> Section | None:
-    """The section for gain sets of several members on one motion, as reports show it; none for a single m."""
-    by_m = {gains.m: gains for gains in sets if gains.m is not None}
-    result = effects([by_m[m] for m in sorted(by_m)], model, task) if len(by_m) > 1 else ()
-    return effect_section(result, task) if len(result) > 1 else None
-
-
 def effect_section(result: Sequence[Effect], task: Task) -> Section:
     """The runs beside each other, and what they show in one sentence."""
     rows = tuple(
