@@ -12,6 +12,8 @@ _HTML = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
 _MARKDOWN = re.compile(r"[\\`*\[\]|~#!@&<>]|:(?=\S)|(?<![^\W_])_|_(?![^\W_])")
 """What Markdown would take for its own; an underscore within a word is none."""
+_MARKER = re.compile(r"^(\s*\d*)([-+=.)])(?=\s|\2|$)")
+"""What begins a list, a line across the page or the line under a heading: ``-``, ``+``, ``1.``, ``---``."""
 _LATEX = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
@@ -59,7 +61,8 @@ def _unit_escapes(c: str) -> str:
 
 def markdown_text(text: str) -> str:
     """The text as Markdown that shows it, on one line and in one cell."""
-    return _MARKDOWN.sub(lambda result: _ENTITIES.get(result[0], f"\\{result[0]}"), printable(text))
+    shown = _MARKDOWN.sub(lambda result: _ENTITIES.get(result[0], f"\\{result[0]}"), printable(text))
+    return _MARKER.sub(r"\1\\\2", shown)
 
 
 def html_text(text: str) -> str:

@@ -190,7 +190,7 @@ def test_without_any_one_of_the_norms_nothing_is_shown():
 
 @pytest.mark.slow
 def test_the_norms_for_tracking_do_not_do_without_the_desired_velocity():
-    assert verdict(rate_of(REGULATOR, True)) == "undecided"
+    assert verdict(rate_of(REGULATOR, True)) != "proved"
     assert verdict(rate_of(TRACKING, False)) in ("proved", "undecided")
 
 

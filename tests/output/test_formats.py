@@ -112,6 +112,12 @@ def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
 
 @given(NAMES)
 @example("&lt; a|b \\| ` <i>_x_</i> ~~s~~ http://x.y <http://x.y>")
+@example("-")
+@example("+ x")
+@example("---")
+@example("1.")
+@example("2) x")
+@example("=")
 def test_markdown_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
     written = Sample(name).written("markdown")
     page = Page(MarkdownIt("commonmark").enable(["table", "strikethrough"]).render(written))
