@@ -11,10 +11,20 @@ import copy
 import json
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.check.kinds.stability import ByObligations
+from lyapcheck.check.statement import Proof, Statement, Witness
+from lyapcheck.claims.arguments import at_arm, lasalle
+from lyapcheck.claims.goals import constant_goal, norm
+from lyapcheck.claims.procedures import propose
+from lyapcheck.robots import load
 from tests.arena.attacks import encoded, sealed
 from tests.arena.plant import ARENA, NOT_ACCEPTED, Arena, Document, collections, read, with_premises
 
@@ -81,6 +91,57 @@ def altered(document: Document, change: Change, by_digest: dict[str, Document]) 
     return [(f"{k}.json", encoded(one)) for k, one in enumerate([sealed(changed), *rest])]
 
 
+def conditions_that_nothing_meets() -> Iterator[tuple[str, str, Statement, Proof]]:
+    """K_v with the wrong sign, under conditions of which all follows: obligations are proved."""
+    goal = constant_goal()
+    e, w = goal.e, goal.w
+    K_p, K_v = goal.gains("Kp Kv")
+    energy = w @ goal.M @ w / 2 + e @ K_p @ e / 2
+    above = goal.mu / 2 * norm(w) ** 2 + K_p.min / 2 * norm(e) ** 2
+    conditions = {
+        "boundary": [-K_v.min * K_v.max >= K_v.min],
+        "order": [K_v.max < K_v.min, -K_v.max >= K_v.min - K_v.max],
+    }
+    for name, where in conditions.items():
+        stable = lasalle(
+            goal.under(K_p @ e + K_v @ w + goal.gravity),
+            energy,
+            above=above,
+            rate=-K_v.max * norm(w) ** 2,
+            rest=(e, K_p.min * norm(e) ** 2),
+            where=where,
+        )
+        proofs = tuple(_proof_of(one) for _, one in stable.obligations())
+        for point in (None, Witness((("Kv_max", Fraction(7)), ("Kv_min", Fraction(0))))):
+            yield (
+                f"{name}-{'absent' if point is None else 'false'}",
+                name,
+                stable,
+                ByObligations(proofs, point),
+            )
+        on_arm = at_arm(stable, load("pelican2"), Kp="30 30", Kv="7 3")
+        least = replace(on_arm, numbers=(("Kv_max", Fraction(7)), ("Kv_min", Fraction(0))))
+        proofs = tuple(_proof_of(one, name) for name, one in least.obligations())
+        yield f"{name}-arm", name, least, ByObligations(proofs)
+
+
+def _proof_of(one: Statement, name: str = "") -> Proof:
+    """Its proof, or its refutation where no proof is to be had."""
+    result = propose(one).proof
+    assert result is not None, name
+    return result
+
+
+def unmet(arena: Arena, name_of_folder: str) -> None:
+    """Such theorems as certificates."""
+    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
+    for name, why, statement, proof in conditions_that_nothing_meets():
+        about = About(name, statement.text()[:200], None, None, "library")
+        text = Certificate(about, statement, "proved", "exact", proof, {}, used).text()
+        said = f"{type(statement).__name__}: nothing meets its conditions ({why})"
+        arena.add(f"bad/unmet-{name}.{name_of_folder}.json", text.encode(), NOT_ACCEPTED, said)
+
+
 def main(folder: str) -> None:
     """Write the files, and what is expected of them."""
     documents = read([Path(folder)])
@@ -91,6 +152,7 @@ def main(folder: str) -> None:
     for attack, (change, why) in FALSE.items():
         files = altered(theorem, change, by_digest)
         arena.add(f"bad/{attack}.{name}", files, NOT_ACCEPTED, f"Stable: {why}")
+    unmet(arena, Path(folder).name)
     arena.entries.sort(key=lambda entry: entry["path"])
     (ARENA / "expected.json").write_text(json.dumps(arena.entries, indent=1, ensure_ascii=False) + "\n")
 

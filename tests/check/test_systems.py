@@ -12,7 +12,7 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm, hessian
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Statement
+from lyapcheck.check.statement import Statement, Witness
 from lyapcheck.check.systems.argument import Rest
 from lyapcheck.check.systems.forms import is_positive
 from lyapcheck.check.systems.system import Entrywise
@@ -465,6 +465,43 @@ def test_a_theorem_that_the_checker_does_not_know():
     argument = replace(PD().argued().argument, theorem="magic")
     assert "is not one that the checker knows" in why(Stable(argument))
     assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS", "cascade"}
+
+
+def test_conditions_that_nothing_meets_show_nothing():
+    """K_v with the wrong sign: dV/dt ≤ λmax(K_v)‖q̇‖², which no condition on positive gains makes negative."""
+    pd = PD()
+    most = pd.D.max * pd.b**2
+    sets = {
+        "K_v,min = 0 alone meets them": [-pd.D.min * pd.D.max >= pd.D.min],
+        "least above greatest": [pd.D.max < pd.D.min, -pd.D.max >= pd.D.min - pd.D.max],
+    }
+    for conditions in sets.values():
+        stable = pd.argued(torque=pd.K @ pd.e + pd.D @ pd.w + pd.goal.gravity, rate=-most, where=conditions)
+        assert "no constants were found that meet them" in why(stable)
+        for _, one in stable.obligations():
+            assert propose(one).verdict.value == "proved"
+        proofs = tuple(propose(one).proof for _, one in stable.obligations())
+        for met in (None, Witness((("Kv_max", Fraction(7)), ("Kv_min", Fraction(3))))):
+            with pytest.raises(Refused, match=r"met|point"):
+                verify(stable, ByObligations(proofs, met))
+    on_arm = at_arm(
+        pd.argued(where=sets["K_v,min = 0 alone meets them"]), load("pelican2"), Kp="30 30", Kv="7 3"
+    )
+    numbers = tuple((name, Fraction(0) if name == "Kv_min" else value) for name, value in on_arm.numbers)
+    assert "Kv_min = 0: is no such bound" in why(replace(on_arm, numbers=numbers))
+
+
+def test_conditions_are_met_at_the_point_given():
+    stable = PD().argued(where=[var("kg") < var("Kp_min")])
+    proof = propose(stable).proof
+    assert verify(stable, proof).verdict == "proved"
+    again = from_json(type(proof), json.loads(json.dumps(to_json(proof))), "proof")
+    assert again == proof
+    for point in ((("Kp_min", Fraction(1)), ("kg", Fraction(1))), (("Kp_min", Fraction(1)),)):
+        with pytest.raises(Refused):
+            verify(stable, replace(proof, met=Witness(point)))
+    with pytest.raises(Refused, match="must be given where there are conditions"):
+        verify(PD().argued(), replace(proof, proofs=propose(PD().argued()).proof.proofs))
 
 
 def test_proofs_of_other_obligations_show_nothing():

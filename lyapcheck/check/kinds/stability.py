@@ -5,18 +5,19 @@ The checker derives the obligations from the system (``check.systems``); a certi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import relation_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Statement, Total
+from lyapcheck.check.statement import Proof, Statement, Total, Witness
 from lyapcheck.check.systems.argument import Argument
+from lyapcheck.check.systems.conditions import never_met
 from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
-from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 FRICTION = {
     "none": "without friction",
@@ -131,16 +132,31 @@ def _granted(argument: Argument) -> Iterator[str]:
 
 @dataclass(frozen=True)
 class ByObligations(Proof):
-    """A proof of each obligation of the theorem, in its order."""
+    """A proof of each obligation of the theorem, in its order, and constants that meet its conditions."""
 
     rule = "obligations"
     proofs: tuple[Proof, ...]
+    met: Witness | None = None
 
 
 @rule(Stable, ByObligations)
 def by_obligations(statement: Stable, proof: ByObligations) -> Accepted:
-    """Soundness: see ``check.systems.theorems``; each obligation by its own proof."""
-    wanted = list(statement.obligations())
+    """Soundness: see ``check.systems.theorems``; each obligation by its own proof, and not of nothing."""
+    never = never_met(statement.argument)
+    require((never is None) == (proof.met is None), "met", "", "must be given where there are conditions")
+    if never is not None and proof.met is not None:
+        met = verify(never, proof.met).verdict == "refuted"
+        require(met, "met", "", "must be a point at which all conditions hold")
+    return all_proved(statement.obligations(), proof)
+
+
+def all_proved(obligations: Iterable[tuple[str, Statement]], proof: ByObligations) -> Accepted:
+    """Each obligation by its own proof.
+
+    Raises:
+        Refused: one is not proved, or has no proof.
+    """
+    wanted = list(obligations)
     require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
     pairs = zip(wanted, proof.proofs, strict=True)
     return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))

@@ -27,12 +27,13 @@ from lyapcheck.check.kinds.inertia import (
     written_out,
 )
 from lyapcheck.check.kinds.parts import require_distinct
-from lyapcheck.check.kinds.stability import ByObligations, Stable
+from lyapcheck.check.kinds.stability import ByObligations, Stable, all_proved
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Monomials, Relation, Statement, Total
 from lyapcheck.check.systems.argument import Argument
+from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.obligations import obligations
-from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+from lyapcheck.check.verify import Accepted, rule
 
 Numbers = tuple[Fraction, ...]
 Mass = tuple[tuple[Monomials, ...], ...]
@@ -78,8 +79,12 @@ class StableArm(Total):
         wanted = set().union(*(variables(one.gap) for one in self.argument.where))
         given = {name for name, _ in self.numbers}
         require(given == wanted, "numbers", ", ".join(sorted(given)), "must be those of the conditions")
+        ranges = constants_of(system)  # the argument says nothing of numbers outside, as of K_min = 0
         for name, value in self.numbers:
-            require(self._bounds(name, value, rows), name, number_text(value), "is no such bound")
+            low, strict = ranges[name].low, ranges[name].strict
+            inside = low is not None and (value > low or (value == low and not strict))
+            fits = inside and self._bounds(name, value, rows)
+            require(fits, name, number_text(value), "is no such bound")
 
     def _bounds(self, name: str, value: Fraction, rows: dict[str, Numbers]) -> bool:
         """Whether a number is a bound of what is given; those of M, C and g are obligations."""
@@ -88,19 +93,18 @@ class StableArm(Total):
             values = rows[stem]
             squares = sum((x * x for x in values), Fraction(0))
             fits = {"min": value <= min(values), "max": value >= max(values)}
-            return fits.get(end, value >= 0 and value * value >= squares) and value >= 0
+            return fits.get(end, value * value >= squares)
         for f in self.argument.system.functions:
             if stem == f.name and f.member is not None:
                 gamma, count = f.member.gamma or Fraction(0), len(self.arm.mass)
                 return {
-                    "reach": f.bounded and value > 0 and value**2 >= count * gamma**2,
+                    "reach": f.bounded and value**2 >= count * gamma**2,
                     "slope": value >= f.member.rho,
                     "secant": value >= f.member.secant,
-                    "sector": 0 < value * f.member.secant <= 1,
+                    "sector": value * f.member.secant <= 1,
                 }[end]
-        upper = {"kc", "kg", "km", "kc2", "vd", "ad"}
-        known = {"mu", "beta", "R", "eps0", *upper, *self.argument.system.constants}
-        return name in known and value >= 0 and (value > 0 or name in upper)
+        known = {"mu", "beta", "R", "eps0", "kc", "kg", "km", "kc2", "vd", "ad"}
+        return name in {*known, *self.argument.system.constants}
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
@@ -190,7 +194,5 @@ def slope(polynomial: Monomials, i: int, n: int) -> Monomials:
 @rule(StableArm, ByObligations)
 def by_obligations(statement: StableArm, proof: ByObligations) -> Accepted:
     """Soundness: the argument holds for all arms with such constants, and this is one of them."""
-    wanted = list(statement.obligations())
-    require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
-    pairs = zip(wanted, proof.proofs, strict=True)
-    return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))
+    require(proof.met is None, "conditions", "", "are met by the numbers of the statement")
+    return all_proved(statement.obligations(), proof)

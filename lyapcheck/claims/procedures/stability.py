@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
+from lyapcheck.check.systems.conditions import never_met
+from lyapcheck.claims.procedures.implication import counterexample
+from lyapcheck.claims.procedures.search import witness_of
 from lyapcheck.claims.registry import find, procedure
 from lyapcheck.claims.search_result import SearchResult, shown, still_open
 
@@ -13,6 +16,10 @@ METHOD = "obligations of a theorem"
 @procedure(Stable, StableArm)
 def find_stable(statement: Stable | StableArm) -> SearchResult:
     """Decide the obligations up to one that fails: the conclusion is open then, as it is sufficient only."""
+    never = never_met(statement.argument) if isinstance(statement, Stable) else None
+    point = None if never is None else counterexample(never)
+    if never is not None and point is None:
+        return still_open("conditions: no constants were found that meet them; a theorem needs some", METHOD)
     proofs, rows = [], []
     for name, obligation in statement.obligations():
         one = find(obligation)
@@ -21,4 +28,5 @@ def find_stable(statement: Stable | StableArm) -> SearchResult:
             why = one.reason or f"it is {one.verdict.value}, {one.method}"
             return still_open(f"{name}: {why}", METHOD, parts=rows)
         proofs.append(one.proof)
-    return shown(ByObligations(tuple(proofs)), METHOD, parts=rows)
+    met = None if point is None else witness_of(point)
+    return shown(ByObligations(tuple(proofs), met), METHOD, parts=rows)
