@@ -79,9 +79,7 @@ def settling_bound(
         shown = claim if claim is not None and accepted(claim.statement, claim.proof, jobs) else None
     if not reason and shown is None:
         shown, reason = wanted.shown(max_boxes, jobs, progress)
-    gains, robot = controlled.gains, controlled.model.name
-    exponential = gains.m in (None, 1)
-    return SettlingBound(gains.name, gains.m, robot, shown, reason, as_written(delta), exponential)
+    return SettlingBound.of(controlled, shown, reason, as_written(delta))
 
 
 def disturbance_bound(
@@ -121,8 +119,7 @@ def disturbance_bound(
     if not reason:
         shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
         at_rest = resting(controlled, acting.torque, acting.dry)
-    gains, robot = controlled.gains, controlled.model.name
-    return DisturbanceBound(gains.name, gains.m, robot, shown, reason, acting.torque, acting.dry, at_rest)
+    return DisturbanceBound.of(controlled, shown, reason, acting.torque, acting.dry, at_rest)
 
 
 @dataclass(frozen=True)

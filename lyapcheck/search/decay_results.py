@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
@@ -14,6 +15,9 @@ from lyapcheck.check.loop import shared_between
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
+
+if TYPE_CHECKING:
+    from lyapcheck.search.controlled_arm import ControlledArm
 
 
 @dataclass(frozen=True)
@@ -137,6 +141,15 @@ class SettlingBound(MotionBound):
     delta: Fraction
     exponential: bool
 
+    @classmethod
+    def of(
+        cls, controlled: ControlledArm, shown: Shown | None, reason: str, delta: Fraction
+    ) -> SettlingBound:
+        """What was shown of a controlled arm."""
+        gains = controlled.gains
+        exponential = gains.m in (None, 1)
+        return cls(gains.name, gains.m, controlled.model.name, shown, reason, delta, exponential)
+
 
 @dataclass(frozen=True)
 class DisturbanceBound(MotionBound):
@@ -152,6 +165,20 @@ class DisturbanceBound(MotionBound):
     torque: tuple[Fraction, ...]
     dry: tuple[Fraction, ...]
     resting: AtRest | None
+
+    @classmethod
+    def of(
+        cls,
+        controlled: ControlledArm,
+        shown: Shown | None,
+        reason: str,
+        torque: tuple[Fraction, ...],
+        dry: tuple[Fraction, ...],
+        resting: AtRest | None,
+    ) -> DisturbanceBound:
+        """What was shown of a controlled arm."""
+        gains = controlled.gains
+        return cls(gains.name, gains.m, controlled.model.name, shown, reason, torque, dry, resting)
 
     @property
     def rest(self) -> tuple[Fraction | None, ...]:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.answers.bounds.kept import kept_bounds
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay import disturbance_bound, settling_bound
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
@@ -90,24 +90,16 @@ def compare(
     progress = on_progress or (lambda fraction, note: None)
     controlled = ControlledArm(gain_set, model)
     friction = coulomb(model) if dry is None else tuple(dry)
-    settling = settling_bound(
+    settling, left = kept_bounds(
         controlled,
         task.step,
         task.w0,
         delta,
-        max_boxes=max_boxes,
-        jobs=jobs,
-        on_progress=lambda f, note: progress(0.45 * f, note),
-    )
-    left = disturbance_bound(
-        controlled,
-        task.step,
-        task.w0,
         torque,
         friction,
         max_boxes=max_boxes,
         jobs=jobs,
-        on_progress=lambda f, note: progress(0.45 + 0.45 * f, note),
+        on_progress=lambda f, note: progress(0.9 * f, note),
     )
     progress(0.9, "simulation")
     duration = task.T

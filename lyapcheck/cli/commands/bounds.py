@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.options import add_certificates, add_format, add_robot
+from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
@@ -42,6 +42,7 @@ def arguments(parser: Parser) -> None:
     parser.add_whole("--max-boxes", "Budget of boxes for each attempt.", default=60_000, least=1)
     parser.add_whole("--jobs", "Processes for checking the boxes.", default=2, least=1, most=64)
     add_certificates(parser)
+    add_no_store(parser)
     add_format(parser)
 
 
@@ -57,6 +58,7 @@ def run(
     max_boxes: int,
     jobs: int,
     certificates: Path | None,
+    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
@@ -71,9 +73,12 @@ def run(
       lyapcheck bounds gains.toml --delta 0.5
       lyapcheck bounds gains.toml --disturbance 0.1,0.1,0.05 --friction 0,0,0
     """
+    from lyapcheck import store
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
+    if no_store:
+        store.switch_off()
     gain_file = read_gain_file(file)
     model = load(robot_name(robot, [gain_file]))
     require_joints([gain_file], model)
