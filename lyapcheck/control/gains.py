@@ -9,6 +9,7 @@ from pathlib import Path
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.kinds import GAINS, require_kind
 from lyapcheck.files.place import KeyPath, Place
 from lyapcheck.files.toml import Document, open_document
 
@@ -104,6 +105,7 @@ def read_gain_file(path: str | Path) -> GainFile:
         InputError: everything that is wrong with the file, each problem with its line and repair.
     """
     document = open_document(Path(path), str(path))
+    require_kind(document.name, document.data, GAINS)
     notes = Notes(document.name, document.line)
     top = Fields(document.data, (), notes)
     robot = top.text("robot") or None

@@ -73,6 +73,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.errors import InputError
+from lyapcheck.files.kinds import ARM, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
@@ -100,6 +101,7 @@ def read_arm(
         InputError: the file cannot be read or describes no arm; carries every problem found.
     """
     document = open_arm(path, str(path) if shown is None else shown)
+    require_kind(document.name, document.data, ARM)
     source = document.data.get("source")
     notes = ArmNotes(document.name, document.line, source if isinstance(source, str) else "")
     top = ArmFields(document.data, (), notes)

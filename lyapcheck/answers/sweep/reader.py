@@ -17,6 +17,7 @@ from lyapcheck.control.gains import beside, gain_set_of
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text, exact_decimal
 from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.kinds import PLAN, require_kind
 from lyapcheck.files.toml import open_document
 
 MOST = 100_000
@@ -30,6 +31,7 @@ def read_plan(path: str | Path) -> Plan:
         InputError: everything that is wrong with the file, each problem with its line and repair.
     """
     document = open_document(Path(path), str(path))
+    require_kind(document.name, document.data, PLAN)
     notes = Notes(document.name, document.line)
     top = Fields(document.data, (), notes)
     robots = tuple(str(beside(name, Path(path))) for name in _texts(top, "robots", required=True))
