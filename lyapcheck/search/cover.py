@@ -1,10 +1,16 @@
-"""Covering a box with smaller boxes on each of which something is proved."""
+"""Covering a box with smaller boxes on each of which something is proved.
+
+Boxes are looked at level by level. Whether one is proved, where it is cut and whether its middle is probed
+depends on nothing but the box once levels are large, so that others may look at what lies below some boxes of
+a level: the tree, the count of boxes and the end are those of one process, whoever looked at what.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 from time import monotonic
 
 import numpy as np
@@ -20,8 +26,12 @@ Prover = Callable[[Boxes], NDArray[np.bool_]]
 Chooser = Callable[[Boxes], Indices]
 
 CHUNK = 32768
-PROBES = 64
+"""Boxes that are judged at a time."""
 FEW = 512
+"""Boxes of a level up to which every middle is probed."""
+PROBE_BITS = 5
+"""Of the boxes of larger levels one in 2⁵ is probed."""
+MIXING = np.multiply.accumulate(np.full(128, 0x9E3779B97F4A7C15, dtype=np.uint64))
 SMALLEST = 1e-5
 """Half width below which a box that is not proved ends the search."""
 
@@ -49,6 +59,30 @@ class Outcome:
     tree: str = ""
 
 
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """What was found below some boxes.
+
+    Args:
+        levels: how many boxes were looked at, level by level, from theirs on.
+        cuts: of each level the boxes that were cut, the sides, and the halves; the first boxes have the
+            first numbers.
+        reason: why the last level was not all proved or cut; empty where it was.
+        point: the point that resisted.
+        waiting: the boxes that were left for others, with their numbers.
+    """
+
+    levels: list[int]
+    cuts: list[tuple[Indices, Indices, Indices]]
+    reason: str = ""
+    point: Array | None = None
+    waiting: tuple[Boxes, Indices] | None = None
+
+
+Share = Callable[[Boxes, int, float], Iterator[tuple[slice, Branches]]]
+"""Has others look below boxes of a level, within a budget and a time in s: below which, and what is there."""
+
+
 def cover(
     start: Boxes,
     prove: Prover,
@@ -56,11 +90,13 @@ def cover(
     max_boxes: int,
     on_progress: Progress | None = None,
     deadline: float = math.inf,
+    share: Share | None = None,
+    worth: float = math.inf,
 ) -> Outcome:
     """Prove a property of every point of a box, halving it where it is not proved as a whole.
 
-    Depth first in chunks, so that memory stays bounded. It ends early at a point, or a very small box, on
-    which the property is not proved: halving would not help there.
+    It ends early at a point, or a very small box, on which the property is not proved: halving would not help
+    there.
 
     Args:
         start: one box.
@@ -69,32 +105,88 @@ def cover(
         max_boxes: how many boxes may be looked at.
         on_progress: told the share of the volume decided.
         deadline: by the monotonic clock, s; the search gives up after it.
+        share: has others look at what lies below the boxes of a level.
+        worth: how many boxes of a level are left to them, more than ``FEW``.
 
     Soundness: halves cover their box; ``prove`` is taken at its word.
     """
     nodes = Nodes()
-    stack, seen, done = [(start, nodes.add(1))], 0, 0.0
-    volume = float(np.sum(_volumes(start)))
-    while stack:
-        boxes, names = stack.pop()
-        if len(boxes) > CHUNK:
-            stack.append((boxes[CHUNK:], names[CHUNK:]))
-            boxes, names = boxes[:CHUNK], names[:CHUNK]
-        seen += len(boxes)
-        if seen > max_boxes or monotonic() > deadline:
-            return Outcome(False, seen, EXHAUSTED if seen > max_boxes else LATE)
-        proved, point = _judged(boxes, prove)
-        done += float(np.sum(_volumes(boxes[proved])))
-        rest = boxes[~proved]
-        if on_progress is not None:
-            still_open = sum(len(waiting) for waiting, _ in stack) + 2 * len(rest)
-            on_progress(min(done / volume, 1.0) if volume else 0.0, f"{seen} boxes, {still_open} open")
-        if len(rest):
-            if point is not None:
-                return Outcome(False, seen, RESISTS, point)
-            sides = choose(rest)
-            stack.append((halve(rest, sides), nodes.cut(names[~proved], sides)))
+    nodes.add(len(start))
+    top = explored(start, prove, choose, max_boxes, deadline, on_progress, worth=worth if share else math.inf)
+    nodes.graft(slice(None), np.arange(len(start)), top)
+    parts, levels, seen = [top], top.levels, 0
+    if top.waiting is not None and share is not None:
+        (boxes, names), parts, seen = top.waiting, [], sum(top.levels)
+        still, whole = float(np.sum(_volumes(boxes))), float(np.sum(_volumes(start)))
+        for which, part in share(boxes, max_boxes - seen, deadline - monotonic()):
+            nodes.graft(which, names, part)
+            parts.append(part)
+            still -= float(np.sum(_volumes(boxes[which])))
+            if on_progress is not None:
+                on_progress(1 - still / whole, f"{seen + sum(sum(p.levels) for p in parts)} boxes")
+        levels = [sum(counts) for counts in zip_longest(*(part.levels for part in parts), fillvalue=0)]
+    if any(part.reason == LATE for part in parts):
+        return Outcome(False, seen + sum(levels), LATE)
+    for depth, count in enumerate(levels):
+        seen += count
+        if seen > max_boxes:
+            return Outcome(False, seen, EXHAUSTED)
+        points = [p.point for p in parts if p.point is not None and len(p.levels) == depth + 1]
+        if points:
+            return Outcome(False, seen, RESISTS, first_of(np.array(points)))
     return Outcome(True, seen, tree=nodes.preorder()[0])
+
+
+def explored(
+    boxes: Boxes,
+    prove: Prover,
+    choose: Chooser,
+    max_boxes: int,
+    deadline: float = math.inf,
+    on_progress: Progress | None = None,
+    *,
+    few: bool = True,
+    worth: float = math.inf,
+) -> Branches:
+    """Look at some boxes of a level and all that they are cut into.
+
+    Args:
+        boxes: of one level.
+        prove: see ``cover``, as for the rest.
+        choose: the sides.
+        max_boxes: how many boxes may be looked at.
+        deadline: by the monotonic clock, s.
+        on_progress: told the share of the volume decided.
+        few: whether no level so far had more than ``FEW`` boxes.
+        worth: a level of so many boxes is left waiting.
+    """
+    levels: list[int] = []
+    nodes, volume, done = Nodes(), float(np.sum(_volumes(boxes))), 0.0
+    names = nodes.add(len(boxes))
+    while len(boxes):
+        if len(boxes) >= worth:
+            return Branches(levels, nodes.parts, waiting=(boxes, names))
+        levels.append(len(boxes))
+        if sum(levels) > max_boxes or monotonic() > deadline:
+            return Branches(levels, nodes.parts, EXHAUSTED if sum(levels) > max_boxes else LATE)
+        few = few and len(boxes) <= FEW
+        proved, point = _judged(boxes, prove, few)
+        if point is not None:
+            return Branches(levels, nodes.parts, RESISTS, point)
+        done += float(np.sum(_volumes(boxes[proved])))
+        boxes, names = boxes[~proved], names[~proved]
+        if on_progress is not None:
+            told = f"{sum(levels)} boxes, {2 * len(boxes)} open"
+            on_progress(min(done / volume, 1.0) if volume else 0.0, told)
+        if len(boxes):
+            sides = choose(boxes)
+            boxes, names = halve(boxes, sides), nodes.cut(names, sides)
+    return Branches(levels, nodes.parts)
+
+
+def first_of(points: Array) -> Array:
+    """The first of some points, by their coordinates: whoever found which, it is the same."""
+    return np.asarray(points[np.lexsort(points.T[::-1])[0]])
 
 
 class Nodes:
@@ -114,6 +206,13 @@ class Nodes:
         halves = self.add(2 * len(names))
         self.parts.append((names, sides, halves))
         return halves
+
+    def graft(self, which: slice, names: Indices, below: Branches) -> None:
+        """Take over the cuts that others made below some of the boxes with these names."""
+        own = names[which]
+        new = max((int(halves[-1]) + 1 for _, _, halves in below.cuts), default=len(own)) - len(own)
+        renamed = np.concatenate([own, self.add(new)])
+        self.parts += [(renamed[cut], sides, renamed[halves]) for cut, sides, halves in below.cuts]
 
     def preorder(self) -> tuple[str, list[int]]:
         """The tree as text, and the names of its leaves in their order."""
@@ -138,26 +237,36 @@ def _volumes(boxes: Boxes) -> Array:
     return np.asarray(np.prod(boxes[:, 1] - boxes[:, 0], axis=1))
 
 
-def _judged(boxes: Boxes, prove: Prover) -> tuple[NDArray[np.bool_], Array | None]:
+def _judged(boxes: Boxes, prove: Prover, few: bool) -> tuple[NDArray[np.bool_], Array | None]:
     """Which boxes are proved, and a point that resists: halving would not help there.
 
     It is the middle of a box where not even that point is proved, or of a box too small to halve.
     """
-    if len(boxes) <= FEW:
+    if few:
         # one call for both: so few boxes cost less than the call
         middles = boxes.mean(axis=1)
         judged = prove(np.concatenate([boxes, np.stack([middles, middles], axis=1)]))
         proved, central = judged[: len(boxes)], judged[len(boxes) :]
         rest = boxes[~proved]
     else:
-        proved = prove(boxes)
+        proved = np.concatenate([prove(chunk) for chunk in _chunks(boxes)])
         rest = boxes[~proved]
-        middles = rest[:: max(1, len(rest) // PROBES)].mean(axis=1)
-        central = prove(np.stack([middles, middles], axis=1))
-    if not central.all():
-        return proved, np.asarray(middles[~central][0])
-    small = np.max(rest[:, 1] - rest[:, 0], axis=1) < 2 * SMALLEST
-    return proved, np.asarray(rest[small][0].mean(axis=0)) if small.any() else None
+        middles = rest[_probed(rest)].mean(axis=1)
+        central = prove(np.stack([middles, middles], axis=1)) if len(middles) else np.ones(0, dtype=bool)
+    small = rest[np.max(rest[:, 1] - rest[:, 0], axis=1) < 2 * SMALLEST]
+    points = np.concatenate([middles[~central], small.mean(axis=1)])
+    return proved, first_of(points) if len(points) else None
+
+
+def _chunks(boxes: Boxes) -> Iterator[Boxes]:
+    return (boxes[first : first + CHUNK] for first in range(0, len(boxes), CHUNK))
+
+
+def _probed(boxes: Boxes) -> NDArray[np.bool_]:
+    """About one box in 2⁵, by nothing but its ends."""
+    ends = np.ascontiguousarray(boxes).reshape(len(boxes), 2 * boxes.shape[2]).view(np.uint64)
+    mixed: NDArray[np.uint64] = np.sum(ends * MIXING[: ends.shape[1]], axis=1, dtype=np.uint64)
+    return np.asarray(mixed >> np.uint64(64 - PROBE_BITS) == 0)
 
 
 def halve(boxes: Boxes, side: Indices) -> Boxes:

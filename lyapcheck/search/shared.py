@@ -1,12 +1,13 @@
 """Boxes of one branch and bound shared between processes, of this machine or of a cluster.
 
-The boxes that wait at one depth are judged in slices, and put together again in their order. What is proved
-of a box depends on nothing but the box, so that trees, and the certificates made of them, are the same bytes
-as on one core.
+The first level with boxes enough is dealt out, and what lies below each hand is one task: whole subtrees, put
+together again in their places. What is found of a box depends on nothing but the box, so that trees, and the
+certificates made of them, are the same bytes as on one core.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
@@ -14,21 +15,19 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from multiprocessing import get_context
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from time import monotonic
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.proof import main_unnamed
-from lyapcheck.search.cover import Prover
+from lyapcheck.search.cover import Branches, Chooser, Share, explored
 from lyapcheck.search.schur import Problem
+from lyapcheck.search.sides import Splitter
 
 WORTH = 2_048
-"""Boxes at one depth from which a slice for another process pays for its way there and back."""
-SLICES = 2
-"""For each process, as some boxes take longer than others."""
+"""Boxes of a level from which the subtrees below them pay for their way there and back."""
+HANDS = 8
+"""Tasks for each process: some subtrees are far larger than others. Neighbours come into different hands."""
 
 
 @dataclass
@@ -45,18 +44,20 @@ class Sharing:
     pool: Executor | None = None
     own: bool = field(default=False, init=False)
 
-    def proved(self, problem: Problem, boxes: Array) -> NDArray[np.bool_]:
-        """What the problem says of each box."""
-        if len(boxes) < WORTH:
-            return problem.proved(boxes)
+    def below(
+        self, loop: ClosedLoop, boxes: Array, max_boxes: int, seconds: float
+    ) -> Iterator[tuple[slice, Branches]]:
+        """What others find below each hand of boxes; see ``lyapcheck.search.cover.Share``."""
         if self.pool is None:
             # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
             self.pool, self.own = ProcessPoolExecutor(self.jobs, get_context("spawn")), True
-        loop = replace(problem.loop)  # without what it has computed for itself
-        slices = np.array_split(boxes, self.jobs * SLICES)
+        plain = replace(loop)  # without what it has computed for itself
+        count = self.jobs * HANDS
+        hands = [slice(first, None, count) for first in range(count)]
         with main_unnamed():
-            asked = [self.pool.submit(proved_of, loop, part) for part in slices]
-        return np.concatenate([one.result() for one in asked])
+            asked = [self.pool.submit(branches_of, plain, boxes[h], max_boxes, seconds) for h in hands]
+        for hand, one in zip(hands, asked, strict=True):
+            yield hand, one.result()
 
 
 _SHARING: ContextVar[Sharing | None] = ContextVar("sharing", default=None)
@@ -64,7 +65,7 @@ _SHARING: ContextVar[Sharing | None] = ContextVar("sharing", default=None)
 
 @contextmanager
 def boxes_shared(jobs: int, pool: Executor | None = None) -> Iterator[None]:
-    """Inside, large depths of branch and bound are shared by so many processes, unless they are already."""
+    """Inside, large branch and bound is shared by so many processes, unless it is already."""
     if jobs <= 1 or _SHARING.get() is not None:
         yield
         return
@@ -78,23 +79,20 @@ def boxes_shared(jobs: int, pool: Executor | None = None) -> Iterator[None]:
             sharing.pool.shutdown()
 
 
-def prover(problem: Problem) -> Prover:
-    """What judges boxes: the problem itself, or with others."""
+def share_of(loop: ClosedLoop) -> Share | None:
+    """What has others look below boxes of a closed loop; none where nothing is shared."""
     sharing = _SHARING.get()
-    if sharing is None:
-        return problem.proved
-
-    def proved(boxes: Array) -> NDArray[np.bool_]:
-        return sharing.proved(problem, boxes)
-
-    return proved
+    return None if sharing is None else lambda boxes, most, seconds: sharing.below(loop, boxes, most, seconds)
 
 
-def proved_of(loop: ClosedLoop, boxes: Array) -> Any:
-    """What the problem of a closed loop says of each box, in another process."""
-    return _problem(loop).proved(boxes)
+def branches_of(loop: ClosedLoop, boxes: Array, max_boxes: int, seconds: float) -> Branches:
+    """What is found below some boxes of a closed loop, in another process."""
+    problem, choose = _problem(loop)
+    deadline = math.inf if math.isinf(seconds) else monotonic() + seconds
+    return explored(boxes, problem.proved, choose, max_boxes, deadline, few=False)
 
 
 @lru_cache(maxsize=2)
-def _problem(loop: ClosedLoop) -> Problem:
-    return Problem(loop)
+def _problem(loop: ClosedLoop) -> tuple[Problem, Chooser]:
+    problem = Problem(loop)
+    return problem, Splitter.of(problem).sides

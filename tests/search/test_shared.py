@@ -10,21 +10,23 @@ import pytest
 
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
-from lyapcheck.search import shared
+from lyapcheck.search import cover, shared
+from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.schur import Problem
 
 GAINS = GainSet("one", 1, (Fraction(20), Fraction(5)), (Fraction(1, 5), Fraction(1, 5)))
 
 
 class Here(Executor):
-    """Takes every slice in this process, and counts them."""
+    """Takes every task in this process, and counts the boxes whose subtrees they are."""
 
     def __init__(self) -> None:
-        self.slices: list[int] = []
+        self.hands: list[int] = []
 
     def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        self.slices.append(len(args[1]))
+        self.hands.append(len(args[1]))
         done: Future[Any] = Future()
         done.set_result(fn(*args, **kwargs))
         return done
@@ -35,19 +37,36 @@ def certified(budget: int, jobs: int = 1) -> Any:
     return found.looked_at, found.reason, found.proof and found.proof.certificate
 
 
+@pytest.fixture
+def early(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small levels are worth it too."""
+    monkeypatch.setattr(cover, "FEW", 8)
+    monkeypatch.setattr(shared, "WORTH", 16)
+
+
 @pytest.mark.parametrize("budget", [600, 200])
-def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, budget: int) -> None:
+def test_subtrees_of_others_change_nothing(early: None, budget: int) -> None:
     alone = certified(budget)
-    monkeypatch.setattr(shared, "WORTH", 8)
     pool = Here()
     with shared.boxes_shared(3, pool):
         assert certified(budget) == alone
-    assert len(pool.slices) >= 3 * shared.SLICES
-    assert len(set(pool.slices)) > 1
+    assert len(pool.hands) >= 3 * shared.HANDS
+    assert len(set(pool.hands)) > 1
+
+
+def test_a_search_that_fails_ends_where_one_process_does(early: None) -> None:
+    """At the same level with the same point and count, whichever subtree resisted."""
+    above = ControlledArm(GAINS, load("reyes-kelly2")).loop(Fraction(85, 100))
+    outcomes = []
+    for jobs in (1, 2, 3):
+        with shared.boxes_shared(jobs, Here()):
+            one = certify(Problem(above), 20_000)
+        outcomes.append((one.proved, one.boxes, one.reason, one.point is not None and one.point.tolist()))
+    assert outcomes[0][2] == cover.RESISTS
+    assert outcomes[1:] == outcomes[:1] * 2
 
 
 @pytest.mark.slow
-def test_processes_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_processes_change_nothing(early: None) -> None:
     alone = certified(600)
-    monkeypatch.setattr(shared, "WORTH", 8)
     assert certified(600, jobs=2) == alone
