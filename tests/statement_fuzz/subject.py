@@ -32,10 +32,12 @@ from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
+from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
 from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
+from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
 from tests.statement_fuzz.motions import decide_settling
 
@@ -48,6 +50,7 @@ __all__ = [
     "ArmAndGains",
     "BoundEveryN",
     "Boxes",
+    "Case",
     "Certificate",
     "ClosedLoop",
     "Constant",
@@ -83,6 +86,7 @@ __all__ = [
     "SeparateBalls",
     "Settling",
     "SignIdentity",
+    "Stable",
     "Statement",
     "Sturm",
     "Supremum",

@@ -75,6 +75,7 @@ def _load() -> None:
         resting,
         settling,
         small,
+        stability,
         theorems,
         trigonometric,
     )

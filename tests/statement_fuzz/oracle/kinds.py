@@ -71,5 +71,6 @@ def _load() -> None:
         same_harmonics,
         settling,
         small,
+        stability,
         theorems,
     )
