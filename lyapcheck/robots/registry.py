@@ -12,6 +12,9 @@ from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.vary import Vary, require_known
 
+OWN = Path(__file__).parent / "arms"
+"""The arms of lyapcheck itself."""
+
 
 def names() -> tuple[str, ...]:
     """The built-in arms, sorted: one for each file in ``arms/``, here or in a folder of the user's own."""
@@ -82,7 +85,9 @@ def _advice(name: str) -> str:
 
 @lru_cache(maxsize=64)
 def _builtin(name: str, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
-    return read_arm(_arms()[name], f"{name}.toml", spread, vary)
+    path = _arms()[name]
+    own = path.parent == OWN and not spread and not vary  # tests/robots look at those
+    return read_arm(path, f"{name}.toml", spread, vary, tested=own)
 
 
 def _examples() -> dict[str, Path]:
@@ -95,8 +100,7 @@ def _examples() -> dict[str, Path]:
 
 def _arms() -> dict[str, Path]:
     """The files of the arms by name; lyapcheck's own before others of that name."""
-    own = str(Path(__file__).parent / "arms")
     files = [
-        file for folder in (*folders("lyapcheck.robots.arms"), own) for file in Path(folder).glob("*.toml")
+        file for folder in (*folders("lyapcheck.robots.arms"), OWN) for file in Path(folder).glob("*.toml")
     ]
     return {file.stem: file for file in files}

@@ -14,6 +14,7 @@ import sympy as sp
 from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots import symbolic
+from lyapcheck.robots.physics import impossible_state
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
@@ -45,6 +46,11 @@ def at_rest(n: int) -> tuple[list[Fraction], list[Fraction]]:
 
 def test_the_built_in_arms() -> None:
     assert {"buap3", "reyes-kelly2", "pelican2", "buap3-small", "pendulum1"} <= set(robots.names())
+
+
+def test_the_built_in_arms_can_be() -> None:
+    """They are read without this look for slips."""
+    assert not any(impossible_state(robots.load(name)) for name in robots.names())
 
 
 def test_small_arm_gravity_is_the_print() -> None:
