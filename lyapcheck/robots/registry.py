@@ -100,7 +100,6 @@ def _examples() -> dict[str, Path]:
 
 def _arms() -> dict[str, Path]:
     """The files of the arms by name; lyapcheck's own before others of that name."""
-    files = [
-        file for folder in (*folders("lyapcheck.robots.arms"), OWN) for file in Path(folder).glob("*.toml")
-    ]
+    places = (*map(Path, folders("lyapcheck.robots.arms")), OWN)
+    files = [file for place in places for file in place.glob("*.toml")]
     return {file.stem: file for file in files}
