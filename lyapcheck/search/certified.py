@@ -53,6 +53,7 @@ def certified_epsilon(
     jobs: int = 1,
     seconds: float | None = None,
     on_progress: Progress | None = None,
+    shares: Sequence[Fraction] = SHARES,
 ) -> Certified:
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
 
@@ -63,6 +64,7 @@ def certified_epsilon(
         jobs: processes that share the boxes, of the search and of the checker; they change no answer.
         seconds: no new boxes are looked at after that time; the answer then depends on the machine.
         on_progress: told the share of the attempts done.
+        shares: of the ceiling, rising, that are tried where `HOPED` is not proved.
 
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
@@ -80,7 +82,7 @@ def certified_epsilon(
     with boxes_shared(jobs):
         # no more than half of everything for what may be too much
         result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
-        result += search.climb(HOPED[1:] if result else SHARES, max_boxes, began + seconds)
+        result += search.climb(HOPED[1:] if result else shares, max_boxes, began + seconds)
     while result:
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
@@ -117,7 +119,7 @@ class _Search:
             if not outcome.proved:
                 self.reason = _advice(outcome.reason, loop.eps0, max_boxes)
                 return result
-            result.append(Proof(loop, BoxTree(outcome.tree), self.controlled.inertia_proof))
+            result.append(self.controlled.proof(loop, BoxTree(outcome.tree)))
         return result
 
 

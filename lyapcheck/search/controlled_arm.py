@@ -24,6 +24,7 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
+from lyapcheck.search.proof import Proof, RateData
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -152,6 +153,10 @@ class ControlledArm:
         whole = closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
         asked = replace(whole, within=self.within)
         return slowed(asked, self.floors) if self.floors else asked
+
+    def proof(self, loop: ClosedLoop, by: RateData) -> Proof:
+        """What is to be judged, with untrusted data for dV/dt < 0."""
+        return Proof(loop, by, self.inertia_proof)
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from typing import TypeVar
 
 import numpy as np
 
 from lyapcheck._types import Progress
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.falsify import Witness, falsify
+from lyapcheck.search.falsify import Witness
 from lyapcheck.search.sample import States, quadratic
 
 ROUNDS = 4
@@ -21,13 +22,18 @@ Corner = dict[str, Fraction]
 """Values by name: parameters of M, and ``viscous 0`` … for the friction of each joint."""
 
 
+Arm = TypeVar("Arm", bound=ControlledArm)
+
+
 def falsify_corners(
-    controlled: ControlledArm, starts: int, seed: int, on_progress: Progress | None = None
-) -> tuple[ControlledArm, Witness | None]:
+    controlled: Arm,
+    look: Callable[[Arm, Progress], Witness | None],
+    on_progress: Progress | None = None,
+) -> tuple[Arm, Witness | None]:
     """The smallest ε₀ that a state refutes at some corner of the arm's ranges, and the arm at that corner.
 
     From the nominal arm: find a witness, move every uncertain number to the end at which that state refutes
-    a smaller ε₀, look again there, until nothing gets smaller.
+    a smaller ε₀, look again there, until nothing gets smaller; ``look`` looks at one arm.
 
     Soundness: the witness is proved for the arm that is handed back, which is one of those meant.
     """
@@ -35,7 +41,7 @@ def falsify_corners(
     best, witness = replace(controlled, ranges=False), None
     trial = best
     for turn in range(ROUNDS):
-        result = falsify(trial, starts, seed=seed, on_progress=_part(progress, turn))
+        result = look(trial, _part(progress, turn))
         if result is None or (witness is not None and result.eps0 >= witness.eps0):
             break
         best, witness = trial, result

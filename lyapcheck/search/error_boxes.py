@@ -67,7 +67,7 @@ class ErrorBoxes:
     def covered(self, max_boxes: int) -> Covered:
         """A tree of boxes from 0 to R within a budget."""
         nodes = Nodes()
-        start = np.stack([np.zeros(self.n), np.full(self.n, self.loop.radius)])[None]
+        start = np.stack([np.zeros(self.n), np.array(self.loop.farthest)])[None]
         stack, seen = [(start, nodes.add(1))], 0
         scales: dict[int, str] = {}
         while stack:

@@ -6,7 +6,7 @@ References: ``reyes2019family`` (12), (15).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
@@ -39,7 +39,7 @@ from lyapcheck.search.worst_states import (
 SAMPLES = 20_000
 STARTS = 30
 
-_DIGITS = 9
+DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
 _EPS_DIGITS = 7
 _STEPS, _QUICK = 9, 3
@@ -99,12 +99,32 @@ def falsify(
     Soundness: the witness is proved by `lyapcheck.check.loop.states` from exact data; nothing says that no
         smaller ε₀ fails.
     """
+    candidates = _candidates(controlled, math.ceil(starts / 3) if quick else starts, samples, seed)
+    steps = _QUICK if quick else _STEPS
+    return smallest_refuted(controlled, islice(candidates, steps), steps, on_progress)
+
+
+def smallest_refuted(
+    controlled: ControlledArm,
+    candidates: Iterable[tuple[str, States]],
+    steps: int,
+    on_progress: Progress | None = None,
+    held: Callable[[States], States] = lambda states: states,
+) -> Witness | None:
+    """The witness of the smallest ε₀ that some candidates refute.
+
+    Args:
+        controlled: gains and arm.
+        candidates: a word for each kind of states, and the states.
+        steps: about how many kinds there are.
+        on_progress: told how far the search is.
+        held: moves states to where the witness has to be; they keep there when rounded to `DIGITS` digits.
+    """
     progress = on_progress or (lambda fraction, note: None)
     result: list[tuple[float, str, State]] = []
-    candidates = _candidates(controlled, math.ceil(starts / 3) if quick else starts, samples, seed)
-    for share, (kind, states) in enumerate(islice(candidates, _QUICK if quick else None), start=1):
-        progress(share / _STEPS, f"{kind} states")
-        result += _best(controlled, kind, states)
+    for share, (kind, states) in enumerate(candidates, start=1):
+        progress(min(share / steps, 1.0), f"{kind} states")
+        result += _best(controlled, kind, states, held)
     for reciprocal, kind, state in sorted(result, key=lambda entry: -entry[0]):
         witness = _confirm(controlled, reciprocal, kind, state)
         if witness is not None:
@@ -162,7 +182,7 @@ def _candidates(
 ) -> Iterator[tuple[str, States]]:
     """States that refute a small ε₀, from plain sampling to the optimised programs."""
     states = sample(controlled, samples, seed)
-    chosen = _promising(controlled, states, starts)
+    chosen = promising(controlled, states, starts)
     yield "sampled", chosen
     speed, directions = fastest_directions(controlled, states.q, states.e)
     picked = spread(states, speed, starts)
@@ -179,17 +199,18 @@ def _slow_candidates(
 ) -> Iterator[tuple[str, States]]:
     """States near the origin, and those of weak gains: there the linear terms in w decide."""
     states = slow_sample(controlled, samples, seed)
-    chosen = _promising(controlled, states, starts)
+    chosen = promising(controlled, states, starts)
     yield "slow", chosen
     yield "slow", slow_states(controlled, chosen, _WIDE)
     if controlled.family.dh(0.0) > 0:
         near = States(states.q, states.e * _NEAR / 10, states.w * _NEAR / 10)
-        chosen = _promising(controlled, worst_rates(controlled, near), starts)
+        chosen = promising(controlled, worst_rates(controlled, near), starts)
         yield "slow", chosen
         yield "slow", slow_states(controlled, chosen, _NEAR)
 
 
-def _promising(controlled: ControlledArm, states: States, count: int) -> States:
+def promising(controlled: ControlledArm, states: States, count: int) -> States:
+    """So many of the states, from different corners, those first that refute the smallest ε₀."""
     return states.take(spread(states, quadratic(controlled, states).reciprocal(), count))
 
 
@@ -202,27 +223,26 @@ def _leaving(controlled: ControlledArm, fast: States, starts: int) -> States:
     return States(*(np.vstack([getattr(part, name) for part in parts]) for name in "qew"))
 
 
-def _best(controlled: ControlledArm, kind: str, states: States) -> list[tuple[float, str, State]]:
+def _best(
+    controlled: ControlledArm, kind: str, states: States, held: Callable[[States], States]
+) -> list[tuple[float, str, State]]:
     """The three best of the states, each with the smallest rates that are as good as any."""
-    reciprocals = np.array([_rounded_reciprocals(controlled, states, scale) for scale in _SCALES])
+    moved = [held(states.scaled(scale)) for scale in _SCALES]
+    reciprocals = np.array([quadratic(controlled, one).reciprocal() for one in moved])
     best = reciprocals.max(axis=0)
     result = []
     for i in np.argsort(-best, kind="stable")[:3]:
         if best[i] > 0:
             enough = int(np.argmax(reciprocals[:, i] >= best[i] * (1 - 1e-6)))
-            q, e, w = (_exact(part[i]) for part in (states.q, states.e, states.w * _SCALES[enough]))
+            q, e, w = (_exact(getattr(moved[enough], part)[i]) for part in "qew")
             result.append((float(reciprocals[enough, i]), kind, State(q, e, w)))
     return result
-
-
-def _rounded_reciprocals(controlled: ControlledArm, states: States, scale: float) -> Array:
-    return quadratic(controlled, states.scaled(scale)).reciprocal()
 
 
 def _exact(row: Array) -> tuple[Fraction, ...]:
     """Short decimals close to the doubles; what is rounding noise beside the others becomes 0."""
     noise = max(1e-12, 1e-8 * float(np.max(np.abs(row))))
-    return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{_DIGITS - 1}e}") for x in row)
+    return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{DIGITS - 1}e}") for x in row)
 
 
 def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> Witness | None:

@@ -67,7 +67,7 @@ def linked_epsilon(
         if not found.proved:
             reason = f"ε₀ = {float(loop.eps0):.6g} was not proved: {found.reason}"
             break
-        result = Proof(loop, replace(bounds, tree=found.tree, scales=found.scales), controlled.inertia_proof)
+        result = controlled.proof(loop, replace(bounds, tree=found.tree, scales=found.scales))
     if result is not None and not result.accepted():
         return None, looked_at, "the checker refused the boxes"
     return result, looked_at, reason

@@ -23,6 +23,7 @@ from lyapcheck.check.loop.decay.speeds import fastest, regraded
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
 from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -40,7 +41,7 @@ COARSE, FINE = 0.6, 0.93
 STEP = Fraction(1, 6)
 """What is left of V after a phase."""
 MOST_PHASES = 24
-SHARES = tuple(Fraction(k, 100) for k in (98, 90, 50))
+SHARES = tuple(Fraction(k, 100) for k in (98, 90, 70, 50, 25))
 """Of the least inertia that samples show, tried one after the other."""
 SAMPLES = 4_000
 POINTS = 400
@@ -64,7 +65,7 @@ class Phases:
         self.controlled, self.start, self.goal, self.max_boxes = controlled, start, goal, max_boxes
         self.made: list[Phase] = []
         self.member = member(controlled.gains.family, controlled.gains.m)
-        self.lightest = _lightest(controlled)
+        self.lightest = lightest(controlled)
         self.base = self._base()
         self.last: Estimate | None = self.base
         self.energy = Fraction(0) if self.base is None else self.base.start_energy(*start)
@@ -112,18 +113,10 @@ class Phases:
         """The setting with the floors and errors that the energy allows."""
         energy = self.energy * ROOM
         floors = tuple(
-            self._floor(float(fastest(energy, inertia))) if inertia else Fraction(0)
+            floor_below(self.controlled, float(fastest(energy, inertia))) if inertia else Fraction(0)
             for inertia in self.lightest
         )
         return replace(self.controlled, floors=floors, within=self._kept(energy))
-
-    def _floor(self, speed: float) -> Fraction:
-        """The least h(x)/x up to a speed, nearly."""
-        x = np.linspace(speed / POINTS, speed, POINTS)
-        least = min(
-            float(np.min(self.controlled.family.h(x) / x)), float(self.controlled.family.dh(np.zeros(1))[0])
-        )
-        return short_below(Fraction(least * (1 - 1e-5))) if least > 1e-6 else Fraction(0)
 
     def _estimate(self, margin: Margin) -> Estimate:
         return Estimate(margin, Disturbance.none(self.controlled.n))
@@ -209,23 +202,32 @@ class Phases:
         )
 
 
-def _lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
+def floor_below(controlled: ControlledArm, speed: float) -> Fraction:
+    """The least h(x)/x up to a speed, rad/s, nearly; 0 where it is next to nothing."""
+    x = np.linspace(speed / POINTS, speed, POINTS)
+    least = min(float(np.min(controlled.family.h(x) / x)), float(controlled.family.dh(np.zeros(1))[0]))
+    return short_below(Fraction(least * (1 - 1e-5))) if least > 1e-6 else Fraction(0)
+
+
+def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
     """For each joint a ν_i with M ⪰ ν_i at place (i, i), near the largest one, or 0 where none is shown."""
     if controlled.n > MOST_JOINTS:
         return (Fraction(0),) * controlled.n
-    mass = controlled.arm.mass
+    loop = controlled.loop(Fraction(1))
+    mass, parameters = loop.arm.mass, loop.parameters
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, controlled.n))
     least = 1.0 / np.diagonal(np.linalg.inv(controlled.numeric.mass(q)), axis1=1, axis2=2).max(axis=0)
     found = []
     for joint, inertia in enumerate(least.tolist()):
         tried = (short_below(Fraction(inertia) * share) for share in SHARES)
-        found.append(next((x for x in tried if _shown(lightened(mass, joint, x))), Fraction(0)))
+        shown = (x for x in tried if _shown(lightened(mass, joint, x, len(parameters)), parameters))
+        found.append(next(shown, Fraction(0)))
     return tuple(found)
 
 
-def _shown(mass: Mass) -> bool:
+def _shown(mass: Mass, parameters: tuple[Ends, ...]) -> bool:
     """Whether the checker sees at once that a matrix is positive definite throughout."""
     try:
-        return verify(MassAbove(mass, (), Fraction(0)), Bisection()).verdict == "proved"
+        return verify(MassAbove(mass, parameters, Fraction(0)), Bisection()).verdict == "proved"
     except Refused:
         return False

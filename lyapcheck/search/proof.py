@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
-    Decreasing,
     PositiveAndDecreasing,
     statement_of,
 )
@@ -15,7 +14,12 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop import ClosedLoop, shared_between
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof as Shown
+from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
+
+RateData = BoxTree | RadialBounds | LinkBounds
+"""What may show dV/dt < 0."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,7 @@ class Proof:
     """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it."""
 
     loop: ClosedLoop
-    by: BoxTree | RadialBounds | LinkBounds
+    by: RateData
     inertia: Bisection | Links | LinksAtCorners
 
     @property
@@ -32,12 +36,12 @@ class Proof:
         return self.by.tree.count(".")
 
     @property
-    def statement(self) -> Decreasing:
+    def statement(self) -> Statement:
         """What is proved."""
         return statement_of(self.loop)
 
     @property
-    def certificate(self) -> PositiveAndDecreasing:
+    def certificate(self) -> Shown:
         """The proof as certificates bring it forward."""
         return PositiveAndDecreasing(self.inertia, self.by)
 

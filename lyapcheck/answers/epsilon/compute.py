@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
+from lyapcheck.answers.epsilon.nearby import Limits, nearby
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
@@ -57,6 +58,7 @@ def epsilon(
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
+    limits: Limits | None = None,
     on_progress: Progress | None = None,
 ) -> EpsilonResult:
     """All four ε₀ of a gain set.
@@ -71,6 +73,7 @@ def epsilon(
         weights: look for weights Λ as well, joint by joint.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
+        limits: of speed and of error, to ask for the ε₀ of the states within them as well.
         on_progress: told the fraction done and a few words.
 
     Raises:
@@ -126,6 +129,20 @@ def epsilon(
         reasons={name: reason for name, reason in reasons.items() if reason},
         assumptions=model.assumptions,
         seed=seed,
+        nearby=None
+        if limits is None
+        else nearby(
+            gain_set,
+            model,
+            limits,
+            certified,
+            max_boxes=max_boxes,
+            jobs=jobs,
+            ranges=ranges,
+            seconds=seconds,
+            seed=seed,
+            on_progress=on_progress,
+        ),
     )
 
 
@@ -214,7 +231,11 @@ class _Search:
 
     def _falsified(self, progress: Progress) -> tuple[ControlledArm, Witness | None]:
         if self.controlled.ranges:
-            return falsify_corners(self.controlled, self.starts, self.seed, progress)
+            return falsify_corners(
+                self.controlled,
+                lambda arm, on_progress: falsify(arm, self.starts, seed=self.seed, on_progress=on_progress),
+                progress,
+            )
         return self.controlled, falsify(self.controlled, self.starts, seed=self.seed, on_progress=progress)
 
     def _certified(self, witness: Witness | None, max_boxes: int, low: float, high: float) -> Certified:

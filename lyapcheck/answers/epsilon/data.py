@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.epsilon.words import KINDS, exact, ratio_text
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
@@ -27,6 +28,7 @@ def result_data(result: EpsilonResult) -> dict[str, Any]:
         "witness": None if result.witness is None else _witness(result.witness),
         "boxes": result.boxes,
         "weighted": None if result.weighted is None else _weighted(result.weighted),
+        "nearby": None if result.nearby is None else _nearby(result.nearby),
         "ranges": result.ranges,
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
@@ -44,6 +46,23 @@ def _weighted(weighted: Weighted) -> dict[str, Any]:
         "eps0_lambda": [exact(value) for value in weighted.products],
         "boxes": weighted.proof.boxes,
         "states": weighted.states,
+    }
+
+
+def _nearby(near: NearbyResult) -> dict[str, Any]:
+    """Limits in rad/s and rad, energy in J; what is proved in words."""
+    return {
+        "max_speed": [exact(x) for x in near.limits.speeds] or None,
+        "max_error": [exact(x) for x in near.limits.errors] or None,
+        "certified": exact(near.certified),
+        "falsified": exact(near.falsified),
+        "ratio": ratio_text(near.ratio),
+        "energy": exact(near.energy),
+        "from_rest": exact(near.from_rest),
+        "statement": None if near.proof is None else near.proof.statement.text(),
+        "witness": None if near.witness is None else _witness(near.witness),
+        "boxes": near.boxes,
+        "reason": near.reason or None,
     }
 
 

@@ -15,6 +15,7 @@ from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.compute import by_forms, epsilon, proof_of, put_together
 from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.nearby import Limits, nearby
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
@@ -46,9 +47,13 @@ def kept_epsilon(
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
+    limits: Limits | None = None,
     on_progress: Progress | None = None,
 ) -> EpsilonResult:
-    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds; same arguments."""
+    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds; same arguments.
+
+    What is asked within limits is not kept.
+    """
     budget: dict[str, Any] = {
         "max_boxes": max_boxes,
         "ranges": ranges,
@@ -57,13 +62,21 @@ def kept_epsilon(
         "seed": seed,
     }
     if seconds is not None:  # what was found in so many seconds, another run of so many may better
-        return epsilon(gain_set, model, jobs=jobs, seconds=seconds, on_progress=on_progress, **budget)
+        return epsilon(
+            gain_set, model, jobs=jobs, seconds=seconds, limits=limits, on_progress=on_progress, **budget
+        )
     asked = question(gain_set, model, **budget)
     result = read(store.take(asked), gain_set, model, ranges, jobs)
     if result is None:
         result = epsilon(gain_set, model, jobs=jobs, on_progress=on_progress, **budget)
         store.put(asked, written(result))
-    return result
+    if limits is None:
+        return result
+    more: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs, "ranges": ranges, "seed": seed}
+    return replace(
+        result,
+        nearby=nearby(gain_set, model, limits, result.certified, on_progress=on_progress, **more),
+    )
 
 
 def question(

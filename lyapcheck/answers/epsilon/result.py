@@ -9,11 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.epsilon.annotations import annotations_of
 from lyapcheck.answers.epsilon.data import result_data
-from lyapcheck.answers.epsilon.words import KINDS, notes, number_cell, ratio_text, remarks, title
+from lyapcheck.answers.epsilon.words import (
+    KINDS,
+    NEARBY_HEADS,
+    nearby_row,
+    notes,
+    number_cell,
+    ratio_text,
+    remarks,
+    title,
+)
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.output.annotations import Annotation
@@ -23,7 +33,7 @@ if TYPE_CHECKING:
 
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
 NOT_IN_RECORDS = ("corner", "findings", "assumptions")
-PARTS = ("witness", "weighted")
+PARTS = ("witness", "weighted", "nearby")
 """What takes several columns where there is any."""
 
 
@@ -60,6 +70,7 @@ class EpsilonResult(Answer):
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
+        nearby: the ε₀ of states within limits of speed and of error, where they were asked for.
     """
 
     schema = "lyapcheck/epsilon/1"
@@ -83,6 +94,7 @@ class EpsilonResult(Answer):
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
     seed: int = 0
+    nearby: NearbyResult | None = None
 
     @property
     def name(self) -> str:
@@ -146,7 +158,9 @@ class EpsilonResults(Answer):
         rows = tuple(self._row(result, time) for result, time in self._timed())
         heads = HEADS if self.seconds is None else (*HEADS, "seconds")
         behind = [Section(result.name, (Bullets(tuple(remarks(result))),)) for result in self.results]
-        return Document(title(self.results), (Table(heads, rows), *behind), tuple(notes(self.results)))
+        near = [nearby_row(result) for result in self.results if result.nearby is not None]
+        tables = (Table(heads, rows), *([Table(NEARBY_HEADS, tuple(near))] if near else []))
+        return Document(title(self.results), (*tables, *behind), tuple(notes(self.results)))
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``."""

@@ -64,10 +64,15 @@ class Decreasing(Total):
 
     def text(self) -> str:
         """The statement in one line."""
-        weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
         return (
             "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
-            "asymptotically stable by Lyapunov's direct method: for "
+            f"asymptotically stable by Lyapunov's direct method: for {self.loop_text()}"
+        )
+
+    def loop_text(self) -> str:
+        """Of which closed loop and V."""
+        weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
+        return (
             f"B = {friction_text(self.viscous)}, h = {member_text(self.family, self.m)}, "
             f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
             f"ε₀ = {number_text(self.eps0)}{weights} and {mass_text(self.mass, self.parameters)}"
@@ -136,6 +141,16 @@ def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
 @rule(Decreasing, StateWitness)
 def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
     """Soundness: dV/dt > 0 in balls, by the plain chain rule, at one state of one arm within the ranges."""
+    require_rising(statement, proof)
+    return Accepted("refuted", "enclosure")
+
+
+def require_rising(statement: Decreasing, proof: StateWitness) -> None:
+    """dV/dt > 0 is shown at a state of an arm within the ranges.
+
+    Raises:
+        Refused: it is not.
+    """
     require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
     _require_within("viscous", proof.viscous, statement.viscous)
     _require_within("parameters", proof.parameters, statement.parameters)
@@ -148,7 +163,6 @@ def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
     state = State(proof.q, proof.e, proof.w)
     if not confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state):
         raise Refused("state", "", "does not show dV/dt > 0")
-    return Accepted("refuted", "enclosure")
 
 
 def closed_loop_of(statement: Decreasing) -> ClosedLoop:

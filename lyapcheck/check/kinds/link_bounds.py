@@ -48,7 +48,7 @@ class LinkBounds(RateProof):
         inertia: M ≼ U, kg·m².
         rising: ½ ∂M/∂q_j ≼ Q_j for the second and each further joint, kg·m².
         falling: −½ ∂M/∂q_j ≼ Q_j, with the same Q_j.
-        tree: boxes of |e_1|, …, |e_n|, each from 0 to the R of the closed loop.
+        tree: boxes of |e_1|, …, |e_n|, each from 0 to ``farthest`` of the closed loop.
         scales: for each box in turn the multiplier l and the expected sizes of w and of p, as signs.
     """
 
@@ -91,7 +91,7 @@ class LinkBounds(RateProof):
         count = self.tree.count(".")
         if len(self.scales) != size * count or not set(self.scales) <= set(SCALE):
             return False
-        start: Box = ((0.0, loop.radius),) * loop.n
+        start: Box = tuple((0.0, far) for far in loop.farthest)
         rows = (self.scales[k * size : (k + 1) * size] for k in range(count))
         with precision(BITS):
             form = BoxForm(loop, self.inertia.prices, [bound.prices for bound in self.rising])

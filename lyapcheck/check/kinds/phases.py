@@ -265,9 +265,9 @@ def _require_lightest(statement: StaysWithin, proof: FallingPhases) -> list[str]
     return grades
 
 
-def lightened(mass: Mass, joint: int, inertia: Fraction) -> Mass:
-    """M with a number taken from one entry of its diagonal."""
-    constant = (0,) * (2 * len(mass)), -inertia
+def lightened(mass: Mass, joint: int, inertia: Fraction, parameters: int = 0) -> Mass:
+    """M, a polynomial in so many parameters, with a number taken from one entry of its diagonal."""
+    constant = (0,) * (2 * len(mass) + parameters), -inertia
     return tuple(
         tuple((*entry, constant) if i == j == joint else entry for j, entry in enumerate(row))
         for i, row in enumerate(mass)

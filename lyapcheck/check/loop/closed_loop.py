@@ -43,6 +43,7 @@ class ClosedLoop:
         coupling: diagonal of Λ in y = w − εΛh, dimensionless; none for (13), where Λ = I.
         within: bounds of |e_i|, rad, where only such states are asked about, with ε = ε₀ at each of them;
             none for all states, with ε = ε₀/(1 + ‖e‖).
+        nearby: bounds of |e_i|, rad, where only such states are asked about, with ε = ε₀/(1 + ‖e‖).
     """
 
     arm: Arm
@@ -55,6 +56,7 @@ class ClosedLoop:
     viscous: tuple[Range, ...] = ()
     coupling: tuple[Fraction, ...] = ()
     within: tuple[Fraction, ...] = ()
+    nearby: tuple[Fraction, ...] = ()
 
     @property
     def n(self) -> int:
@@ -173,10 +175,12 @@ class ClosedLoop:
         """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
         ranges = (*self.parameters, *self.friction)
         sizes = {self.n, len(self.kp), len(self.kv), len(self.friction), len(self.Lambda)}
-        sizes |= {len(self.within)} if self.within else set()
+        sizes |= {len(bounds) for bounds in (self.within, self.nearby) if bounds}
         if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
             return False
         if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
+            return False
+        if min(self.nearby, default=1) <= 0 or (self.within and self.nearby):
             return False
         powers = {len(p) for row in self.mass for entry in row for p in entry}
         return self.inertia.symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
@@ -187,10 +191,15 @@ class ClosedLoop:
         return tuple((low, high) for low, high in (*self.parameters, *self.friction) if low < high)
 
     @property
+    def farthest(self) -> list[float]:
+        """Doubles that |e_i| need not exceed: bounds that are asked for, and R."""
+        near = [math.nextafter(float(x), math.inf) for x in self.within or self.nearby]
+        return near if self.within else [min(self.radius, x) for x in near] or [self.radius] * self.n
+
+    @property
     def start(self) -> Box:
         """The box of the angles that matter, the errors, in rad, and what is uncertain."""
-        far = [math.nextafter(float(x), math.inf) for x in self.within] or [self.radius] * self.n
-        errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(far)]
+        errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(self.farthest)]
         uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 

@@ -66,9 +66,11 @@ def slowed(loop: ClosedLoop, floors: Sequence[Fraction]) -> ClosedLoop:
     L = loop.member.L
     if len(floors) != loop.n or not all(0 <= x < L for x in floors):
         raise ValueError("least values of h(w)/w must be from 0 to below L, one a joint")
-    more = tuple(b + x * v for b, x, v in zip(loop.arm.viscous, floors, loop.kv, strict=True))
+    gained = [x * v for x, v in zip(floors, loop.kv, strict=True)]
+    more = tuple(b + x for b, x in zip(loop.arm.viscous, gained, strict=True))
     less = tuple((1 - x / L) * v for x, v in zip(floors, loop.kv, strict=True))
-    return replace(loop, arm=Arm(loop.arm.mass, more), kv=less)
+    ranges = tuple((low + x, high + x) for (low, high), x in zip(loop.friction, gained, strict=True))
+    return replace(loop, arm=Arm(loop.arm.mass, more), viscous=ranges if loop.viscous else (), kv=less)
 
 
 def regraded(level: Fraction, change: Fraction, loop: ClosedLoop, inertia: RadialBounds) -> Fraction:
