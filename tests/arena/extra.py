@@ -56,6 +56,7 @@ from lyapcheck.check.kinds.inertia import (
     PostureWitness,
 )
 from lyapcheck.check.kinds.loop_property import FACTS, LoopProperty
+from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import Resting
@@ -69,8 +70,10 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
+from lyapcheck.search.schur import Problem
 
 Row = tuple[str, Statement, Proof | None]
 
@@ -274,6 +277,19 @@ def linked() -> Proof:
     return PositiveAndDecreasing(LinksAtCorners((LINKS, HEAVIER)), rate)
 
 
+NO_ARM = (F(0),), (), (F(1),)
+NEARBY = DecreasingNearby(decreasing(UNIT, F(5, 4)), (F(1),), (F(1),), F(2, 5))
+"""With an ε₀ at which V rises in faster motions."""
+
+
+def nearer() -> Proof:
+    """With boxes for the friction that slow motions have."""
+    floors = (F(3, 4),)
+    found = certify(Problem(nearby_loop(NEARBY, floors)), 1_000)
+    assert found.proved
+    return SlowerAndNearer(Bisection(), floors, BoxTree(found.tree), (F(9, 10),), (Bisection(),))
+
+
 def of_the_loop() -> Iterator[Row]:
     """Statements of (11), of V and of what is left of the errors."""
     h: tuple[Tree, Tree, Tree] = ("h", 1, X), ("dh", 1, X), ("potential", 1, X)
@@ -282,9 +298,13 @@ def of_the_loop() -> Iterator[Row]:
     yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
     yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
     yield "linked", LINKED, linked()
-    yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness((F(0),), (), (F(1),))
+    yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness(*NO_ARM)
     at = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
     yield "eps0-too-large", decreasing(UNIT, F(10)), at
+    yield "nearby", NEARBY, nearer()
+    faster = replace(NEARBY, everywhere=decreasing(UNIT, F(3)), energy=None)
+    yield "not-nearby", faster, replace(at, e=(F(0),), w=(F(1),))
+    yield "nearby-no-arm", replace(NEARBY, everywhere=decreasing(MINUS, F(1))), PostureWitness(*NO_ARM)
     yield "settling", SETTLING, LEVELS
     slower = ((F(0), F(1, 4)), (F(400), F(1, 8)), (F(800), F(1, 16)))
     pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)

@@ -56,6 +56,12 @@ def _at_once(statement: Document) -> bool:
     return True
 
 
+def _rising(statement: Document) -> bool:
+    """An ε₀ at which V rises at e = 0 for any w, as h′(0) = 1."""
+    statement["everywhere"]["eps0"] = "1000000007"
+    return statement["everywhere"]["family"] == "tanh"
+
+
 def _swapped(statement: Document) -> bool:
     relation = statement["conclusion"]
     relation["left"], relation["right"] = relation["right"], relation["left"]
@@ -106,6 +112,7 @@ FALSE: dict[str, Callable[[Document], bool]] = {
     "Settling": _settling,
     "StaysWithin": _at_once,
     "ComesToRest": _frictionless,
+    "DecreasingNearby": _rising,
     "ForSmall": _swapped,
     "TrigonometricPositive": _not_positive,
     "LoopProperty": _no_force,
@@ -157,6 +164,16 @@ def _anything(statement: Document) -> bool:
     return True
 
 
+def _elsewhere(statement: Document) -> bool:
+    """Limits so narrow that the state is none of those asked about."""
+    statement["speeds"] = [f"1/{LARGE}"] * len(statement["everywhere"]["kp"])
+    return True
+
+
+def _unit_mass_nearby(statement: Document) -> bool:
+    return _unit_mass(statement["everywhere"])
+
+
 def _by_symbols(statement: Document) -> bool:
     statement["printed"] = []
     return True
@@ -175,6 +192,8 @@ TRUE: dict[tuple[str, str], Callable[[Document], bool]] = {
     ("GravityBelow", "posture"): _bound("high", LARGE),
     ("MassAbove", "posture"): _unit_mass,
     ("Decreasing", "posture"): _unit_mass,
+    ("DecreasingNearby", "posture"): _unit_mass_nearby,
+    ("DecreasingNearby", "state"): _elsewhere,
     ("Resting", "state of rest"): _anything,
     ("ComesToRest", "state of rest"): _anything,
     ("TrigonometricBound", "witness of an entry"): _loose,
@@ -221,6 +240,28 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
     ("Decreasing", "state"): [
         (("w",), ["0"], "the origin"),
         (("w",), [], "a state without rates"),
+        (("viscous",), [LARGE], "a friction out of its range"),
+    ],
+    ("DecreasingNearby", "slower and nearer"): [
+        (("inertia",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
+        (("floors",), [], "no floor for a joint"),
+        (("floors",), ["-1"], "a negative floor"),
+        (("floors",), ["1"], "a floor as high as L"),
+        (("floors",), ["99/100"], "a floor that the speed undercuts"),
+        (("floors",), ["0"], "without what slow motions add to the damping"),
+        (("rate",), {"rule": "bisection"}, "no proof of dV/dt < 0"),
+        (("rate", "tree"), "", "no tree of boxes"),
+        (("lightest",), [], "motions without a least inertia"),
+        (("lightest",), ["-1"], "a negative inertia"),
+        (("lightest",), ["1/2"], "a least inertia that lets the speed exceed its limit"),
+        (("lightest",), [LARGE], "a least inertia above M"),
+        (("lightness",), [], "no proof of a least inertia"),
+    ],
+    ("DecreasingNearby", "state"): [
+        (("w",), ["0"], "the origin"),
+        (("w",), [], "a state without rates"),
+        (("w",), ["1000000008/1000000007"], "a speed just beyond its limit"),
+        (("e",), ["2"], "an error beyond its limit"),
         (("viscous",), [LARGE], "a friction out of its range"),
     ],
     ("DampingBelow", "damping above the bound"): [

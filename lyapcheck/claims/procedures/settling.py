@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from lyapcheck.check.kinds.nearby import DecreasingNearby
 from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import Settling
@@ -26,6 +27,13 @@ def find_settling(statement: Settling | StaysWithin) -> SearchResult:
     """Always open: the levels of V are chosen together with the bounds."""
     advice = "lyapcheck bounds FILE --certificates DIR finds bounds with the levels of V that prove them"
     return still_open(f"times and errors are not searched for here; {advice}", "levels of V")
+
+
+@procedure(DecreasingNearby)
+def find_nearby(statement: DecreasingNearby) -> SearchResult:
+    """Always open: ε₀ is searched together with its boxes."""
+    advice = "lyapcheck epsilon FILE --max-speed --max-error --certificates DIR finds an ε₀ with its boxes"
+    return still_open(f"ε₀ within limits is not searched for here; {advice}", "boxes of (q, e)")
 
 
 @procedure(Resting, ComesToRest)
