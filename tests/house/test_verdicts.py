@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -12,13 +13,22 @@ from tests.house.test_house import modules
 WORDS = ("proved", "refuted", "accepted", "rejected", "certified", "stable")
 MAKERS = ("Verdict", "Judgement", "Accepted")
 """What makes a verdict of a word that need not stand in the source."""
+FIELDS = ("verdict", "shown")
+"""Where what the checker said is kept."""
+QUOTED = re.compile(rf"""["'](?:{"|".join(WORDS)})["']""")
+"""A verdict inside a text, as in JSON that is written by hand."""
+LOOKED_AT = (ast.expr, ast.ImportFrom, ast.Assign, ast.AugAssign)
+LOOKING_UP = ("getattr", "setattr", "vars", "attrgetter", "methodcaller", "import_module")
+GENERIC = ("Mapping", "dict", "list", "tuple", "Callable", "Iterable", "Iterator", "Sequence")
+TEXTUAL = {"str": str, "bytes": bytes, "chr": chr, "map": map, "reversed": reversed}
+"""What may make a text of constants."""
 HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts are shown", "colours of words"
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
     "answers.bounds.answer": (1, HEADING),
     "answers.bounds.certificates": (1, CERTIFICATE),
-    "answers.check.proof": (2, SORTING),
+    "answers.check.proof": (3, SORTING),
     "answers.epsilon.annotations": (4, "the name of a rule"),
     "answers.epsilon.certificates": (4, CERTIFICATE),
     "answers.epsilon.words": (1, HEADING),
@@ -33,6 +43,7 @@ SAID = {
     "claims.search_result": (3, "what a search proposes, which the rules are asked about before it is shown"),
     "claims.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
     "claims.smallest": (1, CERTIFICATE),
+    "cli.commands.simulate": (1, "the word of an option"),
     "cli.eps0": (4, "the word of an option"),
     "cli.task": (1, "the word of an option"),
     "control.conditions": (2, "names handed on"),
@@ -47,7 +58,7 @@ SAID = {
     "report.kept": (2, "what a fresh process of the checker must say"),
     "report.model": (2, SORTING),
     "report.page.claims": (2, SORTING),
-    "report.verdict": (3, GATHERED),
+    "report.verdict": (2, GATHERED),
     "simulate.batch_numpy": (1, "steps of an integrator"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
@@ -58,37 +69,126 @@ def made(source: str) -> Iterator[str]:
     """The places of a source that write a verdict down, other than to compare with it or to look it up."""
     tree = ast.parse(source)
     above = {part: node for node in ast.walk(tree) for part in ast.iter_child_nodes(node)}
-    for node in ast.walk(tree):
-        if _says(node) and not _asks(node, above):
+    for node in above:
+        if (
+            isinstance(node, LOOKED_AT)
+            and _says(node, above)
+            and not _asks(node, above)
+            and not _says(above[node], above)
+        ):
             yield f"{node.lineno}: {ast.unparse(above[node])[:90]}"  # type: ignore[attr-defined]
 
 
-def _says(node: ast.AST) -> bool:
+def _says(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
     """Whether a node is a verdict, or makes one of something else."""
+    return _is_word(node, above) or _makes(node, above) or _overwrites(node)
+
+
+def _is_word(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
+    """A verdict by its name, as text that constants make in whatever way, or quoted inside one."""
     if isinstance(node, (ast.Name, ast.Attribute)):
         name = node.id if isinstance(node, ast.Name) else node.attr
+        if not name.isupper() or name.lower() not in WORDS:
+            return False
         is_exit = isinstance(node, ast.Attribute) and ast.unparse(node.value) == "Exit"
-        return name.isupper() and name.lower() in WORDS and not is_exit
-    if isinstance(node, (ast.Constant, ast.BinOp, ast.JoinedStr)):
-        return _text(node).lower() in WORDS
-    called = node.func if isinstance(node, ast.Call) else None
-    if isinstance(node, ast.Subscript):
-        called = node.value
-    if called is not None and ast.unparse(called).rpartition(".")[2] in MAKERS:
-        return True
-    made_of = isinstance(node, ast.Call) and ast.unparse(node.func) in ("getattr", "setattr", "vars")
-    return made_of and any(ast.unparse(part).rpartition(".")[2] in MAKERS for part in node.args)  # type: ignore[attr-defined]
+        return not is_exit or isinstance(above.get(node), ast.Attribute)  # Exit.PROVED.name is a word again
+    text = "" if isinstance(above.get(node), ast.Expr) else _text(node)  # documentation
+    return text.lower() in WORDS or bool(QUOTED.search(text))
 
 
 def _text(node: ast.AST) -> str:
-    """The text that constants make together; empty where it is none."""
+    """What constants alone make; empty where it is no text."""
     if isinstance(node, ast.Constant):
-        return node.value if isinstance(node.value, str) else ""
-    if isinstance(node, ast.BinOp):
-        return _text(node.left) + _text(node.right)
-    if isinstance(node, ast.JoinedStr):
-        return "".join(map(_text, node.values))
-    return _text(node.value) if isinstance(node, ast.FormattedValue) else ""
+        value: object = node.value
+    elif isinstance(node, (ast.BinOp, ast.JoinedStr, ast.Call, ast.Subscript)):
+        if not _may_be_text(_first(node)):  # most are calls of other things, and need no longer look
+            return ""
+        if not all(_may_be_text(part) for part in ast.walk(node)):
+            return ""
+        if not any(isinstance(part, ast.Constant) and isinstance(part.value, str) for part in ast.walk(node)):
+            return ""
+        whole = compile(ast.Expression(node), "", "eval")
+        try:
+            value = eval(whole, {"__builtins__": TEXTUAL})
+        except Exception:
+            return ""
+    else:
+        return ""
+    return (
+        value.decode("utf-8", "replace")
+        if isinstance(value, bytes)
+        else value
+        if isinstance(value, str)
+        else ""
+    )
+
+
+def _may_be_text(node: ast.AST) -> bool:
+    return not isinstance(node, ast.Name) or node.id in TEXTUAL
+
+
+def _first(node: ast.AST) -> ast.AST:
+    """What stands first in an expression."""
+    for key in ("func", "value", "left"):
+        if isinstance(below := getattr(node, key, None), ast.AST):
+            return _first(below)
+    return node
+
+
+def _makes(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
+    """One of the makers in any other place than a type: called, handed on, or under another name."""
+    if isinstance(node, ast.ImportFrom):
+        return any(part.asname and part.name in (*MAKERS, "Exit") for part in node.names)
+    if isinstance(node, ast.Constant):
+        user = above[node]
+        looked_up = isinstance(user, ast.Subscript) and isinstance(user.value, (ast.Call, ast.Attribute))
+        return node.value in MAKERS and (looked_up or _called(user) in LOOKING_UP)
+    if isinstance(node, ast.Call):
+        of_type = isinstance(node.func, ast.Call) and _called(node.func) == "type"
+        return _called(node) == "__class__" or (of_type and "verdict" in ast.unparse(node.func))
+    name = node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
+    if name not in MAKERS or _is_type(node, above):
+        return False
+    user = above[node]
+    return not (isinstance(user, ast.Attribute) and user.attr.isupper())
+
+
+def _called(node: ast.AST) -> str:
+    """The last name of what a call calls."""
+    function = node.func if isinstance(node, ast.Call) else None
+    return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
+
+
+def _is_type(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
+    """Whether a name stands in an annotation, or to ask what something is."""
+    below = node
+    while (user := above.get(below)) is not None and not isinstance(below, ast.stmt):
+        if isinstance(user, ast.AnnAssign) and below is user.annotation:
+            return True
+        if isinstance(user, ast.arg) or (isinstance(user, ast.FunctionDef) and below is user.returns):
+            return True
+        if isinstance(user, ast.ClassDef) and below in user.bases:
+            return True
+        if isinstance(user, ast.Call) and below in user.args:
+            return isinstance(user.func, ast.Name) and user.func.id in ("isinstance", "issubclass", "cast")
+        if isinstance(user, ast.Assign):  # Kinds = Mapping[str, Verdict] is a type as well
+            return isinstance(below, ast.Subscript) and ast.unparse(below.value) in GENERIC
+        below = user
+    return False
+
+
+def _overwrites(node: ast.AST) -> bool:
+    """The verdict of what the checker has said, put in from elsewhere."""
+    called = _called(node)
+    if called == "replace":
+        return any(part.arg in FIELDS for part in node.keywords)  # type: ignore[attr-defined]
+    if called in ("setattr", "__setattr__"):
+        return any(_text(part) in FIELDS for part in node.args)  # type: ignore[attr-defined]
+    if isinstance(node, (ast.Assign, ast.AugAssign)):
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        of_others = (one for one in targets if isinstance(one, ast.Attribute))
+        return any(one.attr in FIELDS and ast.unparse(one.value) != "self" for one in of_others)
+    return False
 
 
 def _asks(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
@@ -99,8 +199,8 @@ def _asks(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
             return True
         if isinstance(whole, ast.Dict) and below in whole.keys:
             return True
-        if isinstance(whole, ast.Subscript) and below is whole.slice and not _says(whole):
-            return True
+        if isinstance(whole, ast.Subscript) and below is whole.slice and not _makes(whole.value, above):
+            return not _makes(node, above)
         if isinstance(whole, ast.keyword) and whole.arg == "kind":
             return True
         if isinstance(whole, (ast.Call, ast.Lambda, ast.IfExp, ast.comprehension)):
@@ -130,6 +230,30 @@ DISGUISES = {
     "a lambda": "verdict = lambda gap: 'proved' if gap > 0 else ''",
     "an update": "row.update(verdict='proved')",
     "made of a word of others": "found = verdicts.Verdict(text)",
+    "an alias": "V = Verdict\nfound = V(text)",
+    "a mapped maker": "found = list(map(Verdict, words))",
+    "a partial": "make = partial(Judgement, statement)",
+    "renamed as an exit code": "from lyapcheck.verdicts import Verdict as Exit\nfound = Exit.PROVED",
+    "renamed": "from lyapcheck.control.judgement import Judgement as J\nfound = J(statement, None, word)",
+    "by its members": "found = Verdict.__members__[name]",
+    "the first of them": "found = next(iter(Verdict))",
+    "of its class": "found = row.verdict.__class__(word)",
+    "of its type": "found = type(row.verdict)(word)",
+    "by getattr of a module": "found = getattr(verdicts, 'Verdict')(word)",
+    "by globals": "found = globals()['Verdict'](word)",
+    "by replace": "found = dataclasses.replace(judgement, shown=word)",
+    "by object": "object.__setattr__(judgement, 'shown', word)",
+    "joined": "text = ''.join(['pro', 'ved'])",
+    "formatted": "text = '{}ved'.format('pro')",
+    "by percent": "text = 'pro%s' % 'ved'",
+    "backwards": "text = 'devorp'[::-1]",
+    "cut out": "text = 'unproved'[2:]",
+    "split off": "text = 'not proved'.split()[1]",
+    "from bytes": "text = bytes.fromhex('70726f766564').decode()",
+    "as bytes": "text = b'proved'",
+    "json by hand": 'text = \'{"verdict": "proved"}\'',
+    "json with a hole": 'text = f\'{{"id": "{name}", "verdict": "proved"}}\'',
+    "an exit code's name": "text = Exit.PROVED.name.lower()",
     "from a mapping": "WORDS = {True: 'proved', False: 'refuted'}",
 }
 
@@ -150,6 +274,9 @@ def test_a_maker_of_verdicts_is_found_in_any_disguise(name: str) -> None:
         "raise typer.Exit(Exit.PROVED)",
         '"""proved"""\nx = 1',
         "ok = Verdict.PROVED in found",
+        "def f(row: Judgement) -> Verdict:\n    return row.verdict",
+        "ok = isinstance(found, Judgement)",
+        "ok = replace(row, name=name)",
     ],
 )
 def test_who_only_asks_is_left_alone(source: str) -> None:
