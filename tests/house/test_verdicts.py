@@ -30,7 +30,7 @@ SAID = {
     "answers.bounds.certificates": (1, CERTIFICATE),
     "answers.check.proof": (3, SORTING),
     "answers.epsilon.annotations": (4, "the name of a rule"),
-    "answers.epsilon.certificates": (4, CERTIFICATE),
+    "answers.epsilon.certificates": (6, CERTIFICATE),
     "answers.epsilon.words": (1, HEADING),
     "answers.gate.answer": (5, GATHERED),
     "answers.gate.judge": (2, GATHERED),
@@ -69,14 +69,10 @@ def made(source: str) -> Iterator[str]:
     """The places of a source that write a verdict down, other than to compare with it or to look it up."""
     tree = ast.parse(source)
     above = {part: node for node in ast.walk(tree) for part in ast.iter_child_nodes(node)}
-    for node in above:
-        if (
-            isinstance(node, LOOKED_AT)
-            and _says(node, above)
-            and not _asks(node, above)
-            and not _says(above[node], above)
-        ):
-            yield f"{node.lineno}: {ast.unparse(above[node])[:90]}"  # type: ignore[attr-defined]
+    looked_at = ((node, user) for node, user in above.items() if isinstance(node, LOOKED_AT))
+    for node, user in looked_at:
+        if _says(node, above) and not _asks(node, above) and not _says(user, above):
+            yield f"{node.lineno}: {ast.unparse(user)[:90]}"
 
 
 def _says(node: ast.AST, above: dict[ast.AST, ast.AST]) -> bool:
