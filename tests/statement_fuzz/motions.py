@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -63,9 +64,13 @@ ASKED = (
 )
 
 
-@lru_cache(maxsize=len(ASKED))
-def found(index: int) -> tuple[Settling, Any]:
-    """The statement and the proof that the search finds for one of ``ASKED``."""
+UNDISTURBED = tuple(k for k, asked in enumerate(ASKED) if asked.torque == asked.dry == "0")
+"""Those of which a settling time in phases is asked."""
+
+
+@lru_cache(maxsize=2 * len(ASKED))
+def found(index: int, in_phases: bool = False) -> tuple[Settling | StaysWithin, Any]:
+    """The statement and the proof that the search finds for one of ``ASKED``, at one ε₀ or in phases."""
     asked = ASKED[index]
     n = len(asked.mass)
     each = [Fraction(getattr(asked, name)) for name in ("viscous", "kp", "kv", "torque", "dry")]
@@ -78,20 +83,22 @@ def found(index: int) -> tuple[Settling, Any]:
     if any(torque) or any(dry):
         shown = disturbance_bound(controlled, *start, torque, dry, max_boxes=MAX_BOXES).shown
     else:
-        shown = settling_bound(controlled, *start, 0.1, in_phases=False, max_boxes=MAX_BOXES).shown
+        shown = settling_bound(controlled, *start, 0.1, in_phases=in_phases, max_boxes=MAX_BOXES).shown
     if shown is None:
         raise LookupError(f"the search finds no bound for {asked}")
     return shown.statement, shown.proof
 
 
-def decide_settling(statement: Settling) -> Any:
+def decide_settling(statement: Settling | StaysWithin) -> Any:
     """Proved, if the checker takes one of the proofs that were found for as many joints."""
-    reason = "no proof of this many joints"
+    reason, in_phases = "no proof of this many joints", isinstance(statement, StaysWithin)
     for index, asked in enumerate(ASKED):
+        if in_phases and index not in UNDISTURBED:
+            continue
         if len(asked.mass) == len(statement.mass) and asked.family == statement.family:
             try:
                 statement.require_well_formed()
-                verify(statement, found(index)[1])
+                verify(statement, found(index, in_phases)[1])
                 return SimpleNamespace(
                     verdict=Verdict.PROVED, method="falling levels", reason="", witness=None
                 )

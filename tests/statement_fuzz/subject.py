@@ -29,10 +29,12 @@ from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
+from lyapcheck.check.kinds.phases import DiesOut, StaysWithin
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stopping import ComesToRest
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
@@ -53,12 +55,14 @@ __all__ = [
     "Case",
     "Certificate",
     "ClosedLoop",
+    "ComesToRest",
     "Constant",
     "CoriolisAtRest",
     "CoriolisBelow",
     "CoriolisTorque",
     "DampingBelow",
     "Decreasing",
+    "DiesOut",
     "EveryN",
     "ExactNumbers",
     "ForAll",
@@ -88,6 +92,7 @@ __all__ = [
     "SignIdentity",
     "Stable",
     "Statement",
+    "StaysWithin",
     "Sturm",
     "Supremum",
     "Theorem",
@@ -102,4 +107,4 @@ __all__ = [
 
 def decide(statement: Any) -> Any:
     """The verdict that the search proposes and the rules of the checker accept."""
-    return decide_settling(statement) if isinstance(statement, Settling) else propose(statement)
+    return decide_settling(statement) if isinstance(statement, Settling | StaysWithin) else propose(statement)

@@ -71,6 +71,7 @@ def _load() -> None:
         loop_properties,
         moving_arms,
         norms,
+        phases,
         printed,
         resting,
         settling,

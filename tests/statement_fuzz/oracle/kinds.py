@@ -65,6 +65,7 @@ def _load() -> None:
         decreasing,
         every_n,
         loop_properties,
+        phases,
         printed,
         relations,
         resting,

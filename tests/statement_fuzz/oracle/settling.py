@@ -24,19 +24,24 @@ STEEPEST = 5.0
 
 
 class Motion:
-    """Many motions at once: angles, errors and rates in columns."""
+    """Many motions at once: angles, errors and rates in columns.
 
-    def __init__(self, statement: Any, random: Random) -> None:
+    They start at the corners of what the statement lets them start from, or of ``errors`` and ``rates``.
+    """
+
+    def __init__(self, statement: Any, random: Random, errors: Any = None, rates: Any = None) -> None:
         generator = np.random.default_rng(random.getrandbits(32))
         n = len(statement.mass)
         corners = generator.choice((-1.0, 1.0), (3, n, MOTIONS))
         corners[:, :, :2] = 1.0
         corners[1, :, 1] = -1.0
-        sizes = ([float(x) for x in part] for part in (statement.errors_at_start, statement.rates_at_start))
+        starts = errors or statement.errors_at_start, rates or statement.rates_at_start
+        sizes = ([float(x) for x in part] for part in starts)
         self.e, self.w = (sign * np.array(size)[:, None] for sign, size in zip(corners, sizes, strict=False))
         self.q = generator.uniform(-np.pi, np.pi, (n, MOTIONS))
-        self.torque = corners[2] * np.array([[float(x)] for x in statement.torque])
-        self.dry = np.array([[float(x)] for x in statement.dry])
+        torque, dry = (getattr(statement, name, (0,) * n) for name in ("torque", "dry"))
+        self.torque = corners[2] * np.array([[float(x)] for x in torque])
+        self.dry = np.array([[float(x)] for x in dry])
         self.steep = STEEPEST / max(0.1, float(np.max(self.dry)))
         self.dry = np.where(generator.random(MOTIONS) < 0.5, 1.0, 0.0) * self.dry
         self.loop: Loop = loop_of(statement, statement.viscous, ())
