@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -13,8 +14,12 @@ import pytest
 
 from lyapcheck import load_robot, named_family
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.answers.gate.stability import remarks
+from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.loop import proves
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
@@ -51,6 +56,30 @@ def scalar() -> dict[str, GateResult]:
 @pytest.fixture(scope="module")
 def everywhere() -> dict[str, GateResult]:
     return judged(TABLE2, "global", "19")
+
+
+# --- dry friction --------------------------------------------------------------------------------
+
+
+def test_what_dry_friction_does_is_what_the_checker_accepts(tmp_path: Path) -> None:
+    """One joint is held anywhere, the others within angles that are said, and that are tight."""
+    path = gain_file(tmp_path / "g.toml", 'robot = "buap3"', "[0.1, 0.1, 0.1]")
+    path.write_text(path.read_text().replace("kp = [1, 1]", "kp = [0.025, 60, 5]"))
+    answer = gate(read_gain_file(path))
+    made = certificates(answer).certificates
+    anywhere, rest = made["a.held.base.json"], made["a.rest.json"].statement
+    assert isinstance(rest, Resting)
+    for one in (anywhere, made["a.rest.json"]):
+        assert verify(one.statement, one.proof).verdict == one.verdict == "proved"
+    assert not {"a.held.shoulder.json", "a.held.elbow.json"} & set(made)
+    assert rest.errors[0] is None
+    said = " ".join(remarks(answer[0]))
+    for joint, error in zip(("shoulder", "elbow"), rest.errors[1:], strict=True):
+        assert error is not None
+        assert f"{joint} {np.degrees(float(error)):.1f}°" in said
+    nearer = (None, *(error * Fraction(98, 100) for error in rest.errors[1:] if error is not None))
+    with pytest.raises(Refused):
+        verify(replace(rest, errors=nearer), AtBounds())
 
 
 # --- the scalar certificate --------------------------------------------------------------------
@@ -388,7 +417,7 @@ def test_recheck_accepts_a_certificate_for_each_check(tmp_path: Path, words: tup
     made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}
     of_gravity = {"reyes-kelly2.k_g1.json", "reyes-kelly2.k_g2.json"}
     assert {"tau_m1.10.json", "tau_m1.10p.shoulder.json", "tau_m3.19.elbow.json", *of_gravity} <= made.keys()
-    assert len(made.keys() - of_gravity) == 3 * (7 if len(words) == 3 else 6)
+    assert len(made.keys() - of_gravity) == 3 * (8 if len(words) == 3 else 7)  # one of dry friction
     for document in made.values():
         assert document["claim"]["proof"] == "gate"
     code, said = recheck(tmp_path / "made")

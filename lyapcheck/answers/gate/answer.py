@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from lyapcheck.answers.gate.bench import friction_lines, held_anywhere
+from lyapcheck.answers.gate.friction import friction_lines, held
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.answers.gate.words import (
@@ -171,7 +171,7 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     asked = "the gains meet " + ", ".join(f"({name})" for name in result.deciding)
     yield said(level, "gate", asked, "; ".join(known) if level is not Level.PASSED else "")
     model = result.limits.model
-    stuck = held_anywhere(result.gains, model) if model is not None and level is Level.PASSED else []
+    stuck = list(held(result.gains, model)) if model is not None and level is Level.PASSED else []
     if model is not None and stuck:
         lines = friction_lines(result.gains, model, stuck)[: len(stuck)]
         yield said(Level.REMARK, "dry-friction", "γ k_p exceeds the dry friction", "; ".join(lines))

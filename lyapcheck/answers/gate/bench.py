@@ -1,15 +1,14 @@
-"""What an engineer at the bench should know of gains that theory accepts: how they swing, where they stop.
+"""What an engineer at the bench should know of gains that theory accepts, in floating point.
 
 Near the goal a joint that moves alone obeys J ë + b ė + k_v h(ė) + k_p h(e) = 0. With h(x) = L x, which it is
 at most, the damping ratio is ζ = (b + L k_v)/(2 √(J L k_p)), J the largest M_ii. Dry friction f holds the
-joint wherever k_p |h(e)| ≤ f: everywhere, where γ k_p ≤ f.
+joint wherever k_p |h(e)| ≤ f; ``friction`` has the checker judge how far that is.
 
 References: (6), (11) of reyes2019family.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import degrees, exp, pi, sqrt
@@ -20,11 +19,9 @@ from flint import arb
 from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.family.registry import named
-from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.check.numbers.members import Member
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
@@ -36,51 +33,9 @@ FARTHEST = 50.0
 """rad: a joint held so far away is held anywhere."""
 
 
-def at_the_bench(result: GateResult) -> list[str]:
-    """What is said of a gain set: damping, and dry friction where the arm has a known one; floating point."""
-    model, gains = result.limits.model, result.gains
-    if model is None:
-        return []
-    return [*friction_lines(gains, model, held_anywhere(gains, model)), *_damping(gains, model)]
-
-
-def held_anywhere(gains: GainSet, model: RobotModel) -> list[int]:
-    """The joints, from 0, that dry friction holds wherever they stop: γ k_p ≤ f."""
-    gamma = named(gains.family, gains.m).constants().gamma
-    if gamma is None:
-        return []
-    return [
-        i
-        for i, (kp, f) in enumerate(zip(gains.kp, dry_friction(model), strict=True))
-        if 0 < kp * gamma.upper <= f
-    ]
-
-
 def dry_friction(model: RobotModel) -> list[Fraction]:
     """Coulomb torques in N·m; 0 where nothing is known."""
     return [Fraction(0) if number is None else number.value for number in model.coulomb]
-
-
-def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:
-    """Where a joint rests anywhere, and how far from the goal the others may."""
-    friction = dry_friction(model)
-    if not any(friction):
-        return []
-    assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    result = [
-        f"γ k_p of {model.joints[i]} does not exceed its dry friction of {decimal_text(friction[i])} N·m"
-        f"{assumed}: the joint rests wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
-        for i in stuck
-    ]
-    errors = rest_errors(gains, model)
-    far = [
-        f"{joint} {degrees(e):.1f}°"
-        for joint, e, f in zip(model.joints, errors, friction, strict=True)
-        if f and e is not None
-    ]
-    if far:
-        result.append(f"dry friction{assumed} may leave, at most: {', '.join(far)} from the goal")
-    return result
 
 
 def rest_errors(gains: GainSet, model: RobotModel) -> list[float | None]:
@@ -111,7 +66,8 @@ def _held(member: Member, ratio: float) -> float | None:
     return high
 
 
-def _damping(gains: GainSet, model: RobotModel) -> list[str]:
+def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
+    """How gains swing; floating point."""
     if not small(model.fixed()):
         return []
     ratios = damping_ratios(gains, model)
@@ -120,7 +76,7 @@ def _damping(gains: GainSet, model: RobotModel) -> list[str]:
     end = ""
     if least < SWINGS:
         over = 100 * exp(-pi * least / sqrt(1 - least**2))
-        end = f": without dry friction it swings, by up to {over:.0f} % of a step"
+        end = f": without dry friction it swings, by about {over:.0f} % of a step"
     soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
     return [f"damping ratio{soft}, at the posture of most inertia: {text}{end}"]
 

@@ -12,6 +12,7 @@ from functools import cache, lru_cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.words import RULES, joint_name
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.kinds.gravity import GravityBelow
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from lyapcheck.control.conditions import Check
 
 PROOF = "gate"
+HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
+REST = "how far from the goal dry friction may leave the joints"
 FEW = 3
 """Joints up to which boxes may show a bound of gravity."""
 
@@ -69,6 +72,7 @@ def certificates(results: Sequence[GateResult]) -> Certified:
                     "--certificates", result.name, "names gain sets of two files", "judge one file at a time"
                 )
             made.certificates[_file(outcome)] = outcome
+        made.certificates |= {_file(one): one for one in _of_friction(result)}
     made.granted = list(dict.fromkeys(made.granted))
     return made
 
@@ -99,6 +103,19 @@ def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) 
     return Certificate(
         about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses, versions()
     )
+
+
+def _of_friction(result: GateResult) -> Iterator[Certificate]:
+    """What is said of dry friction beside the checks."""
+    model, gains = result.limits.model, result.gains
+    if model is None or not result.explained:
+        return
+    rows = [(f"held.{model.joints[i]}", HELD, one) for i, one in held(gains, model).items()]
+    rest = resting(gains, model)
+    for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest)])]:
+        if one.proof is not None:
+            about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
+            yield Certificate(about, one.statement, one.shown, one.grade, one.proof, {}, versions())
 
 
 @lru_cache(maxsize=16)

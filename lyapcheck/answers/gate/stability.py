@@ -6,7 +6,8 @@ Stability is said only of what was proved in this run for this arm and these gai
 
 from __future__ import annotations
 
-from lyapcheck.answers.gate.bench import at_the_bench
+from lyapcheck.answers.gate.bench import damping_lines
+from lyapcheck.answers.gate.friction import friction_lines, held
 from lyapcheck.answers.gate.judge import CERTIFICATES, GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.files.decimals import decimal_text
@@ -36,7 +37,10 @@ def remarks(result: GateResult) -> list[str]:
         outcome.append(_SINGLE.format(_flags(result, {"10p": "10i"})))
     elif joints == REJECTED and result.stable is not None:
         outcome.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
-    return [*outcome, *(at_the_bench(result) if result.explained else [])]
+    model, gains = result.limits.model, result.gains
+    if not result.explained or model is None:
+        return outcome
+    return [*outcome, *friction_lines(gains, model, list(held(gains, model))), *damping_lines(gains, model)]
 
 
 def _without_19(result: GateResult) -> list[str]:
