@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 from base64 import b64decode, b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
@@ -23,7 +24,7 @@ from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report.bench import map_eps0, map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
-from lyapcheck.report.model import Witness
+from lyapcheck.report.model import Data, Witness
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.temporary import temporary_folder
@@ -31,8 +32,8 @@ from lyapcheck.temporary import temporary_folder
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
 
-HALF = ("published", "tracking")
-"""The folders of certificates that one process judges while another judges the rest."""
+HALF = ("published", "scalar", "tracking")
+"""The folders of certificates that one process judges while another judges the rest, about as long."""
 JUDGED = ("verdict", "id", "m", "rules", "granted")
 """What a row has from the checker."""
 
@@ -73,7 +74,9 @@ def read(kept: Any, subject: Subject) -> Computed | None:
         }
         lists = {name: tuple(kept[name]) for name in ("claims", "others", "epsilon", "runs")}
         result = Computed(**{**kept, **lists, "figures": figures, "small": small})
-        return result if _of(subject, result) and _holds(result) else None
+        with _judging(result.certificates) as judged:
+            said = _of(subject, result) and _as_said(result)
+            return result if said and _decided(result, judged()) else None
     except (InputError, KeyError, TypeError, ValueError):
         return None
 
@@ -90,28 +93,33 @@ def _of(subject: Subject, result: Computed) -> bool:
     return all(stated(path, row["name"]) for row in result.epsilon for path in row["certificates"].values())
 
 
-def _holds(result: Computed) -> bool:
-    """Whether a fresh checker decides all of it as it says."""
-    judged = _judged(result.certificates)
-    digests = {path: json.loads(text)["digest"] for path, text in result.certificates.items()}
+def _as_said(result: Computed) -> bool:
+    """Whether each claim shows the statement of its certificate, and the grade ``kernel`` where it has it."""
+    texts = {json.loads(text)["digest"]: text for text in result.certificates.values()}
+    for row in _decided_rows(result):
+        certificate, _ = certificate_of(texts[row["digest"]].encode())
+        by_coq = accepted_before(certificate.statement, certificate.proof, certificate.verdict)
+        if by_coq != (row["grade"] == GRADE) or row["statement"] != statement_text(certificate.statement):
+            return False
+    return True
 
-    texts = {digests[path]: text for path, text in result.certificates.items()}
+
+def _decided_rows(result: Computed) -> list[Data]:
+    return [row for row in (*result.claims, *result.others) if row["verdict"] in ("proved", "refuted")]
+
+
+def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
+    """Whether a fresh checker decides all of it as it says."""
+    digests = {path: json.loads(text)["digest"] for path, text in result.certificates.items()}
 
     def verdict(path: str | None) -> str | None:
         return None if path is None else judged.get(digests[path], {}).get("verdict")
 
-    for row in (*result.claims, *result.others):
-        if row["verdict"] not in ("proved", "refuted"):
-            continue
+    for row in _decided_rows(result):
         answer = judged.get(row["digest"], {})
-        said = [answer.get(key) for key in JUDGED]
-        if said != [row[key] for key in JUDGED]:
+        if [answer.get(key) for key in JUDGED] != [row[key] for key in JUDGED]:
             return False
-        certificate, _ = certificate_of(texts[row["digest"]].encode())
-        by_coq = accepted_before(certificate.statement, certificate.proof, certificate.verdict)
-        if row["grade"] != (GRADE if by_coq else answer["grade"]):
-            return False
-        if row["statement"] != statement_text(certificate.statement):
+        if row["grade"] not in (GRADE, answer["grade"]):
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
@@ -133,16 +141,22 @@ def _eps0(certificate: str) -> Fraction:
     return Fraction(json.loads(certificate)["statement"]["eps0"])
 
 
-def _judged(certificates: Mapping[str, str]) -> dict[str, Any]:
-    """What two fresh processes of the checker say, by the digest of each certificate."""
+@contextmanager
+def _judging(certificates: Mapping[str, str]) -> Iterator[Callable[[], dict[str, Any]]]:
+    """Two fresh processes of the checker at work; what they say, by the digest of each certificate."""
     halves: tuple[list[str], list[str]] = ([], [])
     for path, text in certificates.items():
         halves[path.split("/")[1] in HALF].append(text)
+
+    def judged() -> dict[str, Any]:
+        answers = [job.result() for job in jobs]
+        if any(answer["alarms"] for answer in answers):
+            return {}
+        return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}
+
     with ThreadPoolExecutor(len(halves)) as pool:
-        answers = list(pool.map(_answer, filter(None, halves)))
-    if any(answer["alarms"] for answer in answers):
-        return {}
-    return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}
+        jobs = [pool.submit(_answer, half) for half in halves if half]
+        yield judged
 
 
 def _answer(certificates: list[str]) -> dict[str, Any]:

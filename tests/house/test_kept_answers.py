@@ -194,7 +194,8 @@ def reported() -> tuple[Subject, dict[str, Any]]:
     paths = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
     files = {path: text for path, text in paths.items() if ".scalar." not in path}
     files[PATH] = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
-    answer = kept_report._judged({PATH: files[PATH]})[json.loads(files[PATH])["digest"]]
+    with kept_report._judging({PATH: files[PATH]}) as judged:
+        answer = judged()[json.loads(files[PATH])["digest"]]
     row = {
         key: answer[key] for key in ("verdict", "grade", "id", "m", "rules", "granted", "statement", "digest")
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 from fractions import Fraction
 from pathlib import Path
 
@@ -49,8 +50,9 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
     found = kept.read(json.loads(text), subject)
     assert found is not None
     assert found.figures == computed.figures
-    judged = kept._judged(report.certificates)
-    monkeypatch.setattr(kept, "_judged", lambda certificates: judged)
+    with kept._judging(report.certificates) as judged:
+        answers = judged()
+    monkeypatch.setattr(kept, "_judging", lambda certificates: nullcontext(lambda: answers))
     for change in (
         lambda data: data["claims"][0].update(verdict="refuted"),
         lambda data: data["others"][-1].update(grade="none"),
