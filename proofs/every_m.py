@@ -12,10 +12,13 @@ left of which p is smaller, so it lies right of (4m)^(1/m); there h² is (1 + 1/
 
 ρ_m: from below it is the slope where p = e^(−3/(2m)). Where p ≥ 1 the slope is at most m − 1/2, rising or
 falling. Left of that, with p = e^(−s), h' is (2m + e^(s/m) (2m − 1 − e^(−s)))/(4 cosh²(s/2)): for s ≤ m
-polynomials enclose what is not algebraic, and for s ≥ m the slope is at most 4m e^(1−m).
+polynomials enclose what is not algebraic, and for s ≥ m the slope is at most 4m e^(1−m). E.rho.form and
+E.rho.far say so of every real m.
 
 L_m: from below it is h/x where p = 3m/2, with asinh y ≤ asinh 1 + (y − 1)/√2 for y = sinh x ≥ 1. From above:
-right of x = asinh 1 it is less than coth x/x, which falls; left of that h_m is at most h_2.
+right of x = asinh 1 it is less than coth x/x, which falls; left of that h_m is at most h_2 (E.L.below).
+
+As m grows, h_m(x) falls to 0 for |x| < asinh 1 = 50.5° and tends to coth x beyond: a dead zone.
 """
 
 from fractions import Fraction
@@ -207,9 +210,35 @@ def _():
     )
 
 
-@proof.claim("E.rho.far", "4m e^(1−m) < m − 1/2, every real m ≥ 3")
+@proof.claim(
+    "E.rho.form",
+    "with y = e^(s/2), p = y^(−2) and q = 1/u: h_m' is (2m + q(2m − 1 − p))/(4 cosh²(s/2))",
+    uses=["E.form.u"],
+)
 def _():
-    return for_all(4 * M * exp(1 - M) < M - Fraction(1, 2), 3, variable="m")
+    y, q = var("y"), var("q")
+    p, cosh_half = 1 / y**2, (y + 1 / y) / 2
+    slope = (2 * M + q * (2 * M - 1 - p)) / (4 * cosh_half**2)
+    return identity(slope, slope_in(M, p, 1 / q), positive("m", "y", "q"))
+
+
+@proof.claim(
+    "E.rho.far",
+    "|h_m'| ≤ 4m p q where q ≥ 1; for s ≥ m at most 4m e^(1−m), less than m − 1/2 for every real m ≥ 3",
+    uses=["E.rho.form"],
+)
+def _():
+    """p q = e^(−s(m − 1)/m) with s = m + more."""
+    k, p, q, more = var("k"), var("p"), 1 + var("over"), var("more")
+    m = 1 + k
+    slope = p * (2 * m + q * (2 * m - 1 - p)) / (1 + p) ** 2
+    free = nonnegative("k", "p", "over")
+    return all_of(
+        rising=implies(free, (), slope <= 4 * m * p * q),
+        falling=implies(free, (), -slope <= 4 * m * p * q),
+        exponent=implies(nonnegative("k", "more"), (), -(m + more) * (m - 1) / m <= 1 - m),
+        small=for_all(4 * M * exp(1 - M) < M - Fraction(1, 2), 3, variable="m"),
+    )
 
 
 proof.section("L")
@@ -245,13 +274,28 @@ def _():
 
 
 @proof.claim(
+    "E.L.below",
+    "p/(1 + p), the share of coth x that h_m is, is less than 1, and rises with p",
+)
+def _():
+    """So h_m < coth x; and h_m ≤ h_2 where u < 1 and m ≥ 2, as p = u^m ≤ u²."""
+    less, p = var("less"), var("p")
+    return all_of(
+        share=implies(positive("p"), (), p / (1 + p) < 1),
+        rises=implies(positive("p", "less"), (less < p,), less / (1 + less) < p / (1 + p)),
+    )
+
+
+@proof.claim(
     "E.L.bound",
-    "coth x/x falls for x > 0, and h_2(x) ≤ 9/10 x, which is less than x √2/asinh 1",
+    "coth x/x falls for x > 0, from √2/asinh 1 at asinh 1; h_2(x) ≤ 9/10 x, less than x √2/asinh 1",
+    uses=["E.L.below"],
 )
 def _():
     x = var("x")
     return all_of(
         falls=for_all(-(x + sinh(x) * cosh(x)) / (x * sinh(x)) ** 2 < 0, 0, open_low=True),
+        there=identity(sqrt(1 + 1 / expr(1)), ROOT2),
         left=for_all(h(2, x) <= Fraction(9, 10) * x, 0),
         limit=Constant(expr(Fraction(9, 10)) < ROOT2 / ASINH1),
     )
@@ -264,6 +308,20 @@ proof.section("The limit")
 def _():
     u, d = var("u"), var("d")
     return ForSmall("p", positive("u", "d"), (), (1 + u) * P**2 < d * u * (1 + P) ** 2)
+
+
+@proof.claim(
+    "E.limit.falls",
+    "h_m(x) falls as m grows where u < 1: ∂h_m/∂m = coth x · p ln u/(1 + p)² < 0, as ∂p/∂m = p ln u",
+)
+def _():
+    log_u, coth = var("log_u"), var("coth")
+    moving = [(M, expr(1)), (P, P * log_u), (coth, expr(0)), (log_u, expr(0))]
+    moves = every_n(
+        rate(coth * P / (1 + P)), coth * P * log_u / (1 + P) ** 2, rates=moving, positive=[P, coth]
+    )
+    down = -coth * P * var("minus_log_u") / (1 + P) ** 2
+    return all_of(moves=moves, falls=implies(positive("p", "coth", "minus_log_u"), (), down < 0))
 
 
 @proof.claim("E.limit.outside", "h_m² → 1 + 1/u = coth²x where u > 1, as 1/p → 0")

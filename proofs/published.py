@@ -73,25 +73,13 @@ def _(robot):
     return all_of(symmetric=mass_symmetric(robot), positive=mass_positive(robot))
 
 
-@proof.claim("2.2", "a constant β_M bounds ‖M(q)‖", "Property 2.2, (2)")
-def _(robot):
-    return mass_bounded(robot)
-
-
+proof.add("2.2", "a constant β_M bounds ‖M(q)‖", mass_bounded, "Property 2.2, (2)")
 proof.add("2.3", "C(q, 0) = 0", coriolis_at_rest, "Property 2.3")
-
-
 proof.add("2.4", "Ṁ(q) = C(q,q̇)ᵀ + C(q,q̇), and both are symmetric", rate_of_mass, "Property 2.4, (3)")
-
-
 proof.add(
     "2.5", "½ q̇ᵀ[Ṁ − 2C]q̇ = 0, and Ṁ − 2C is skew-symmetric", rate_less_twice_coriolis, "Property 2.5, (4)"
 )
-
-
-@proof.claim("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", "Property 2.6, (5)")
-def _(robot):
-    return coriolis_bounded(robot)
+proof.add("2.6", "a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖", coriolis_bounded, "Property 2.6, (5)")
 
 
 @proof.claim("2.7", "0 < λmin(B)‖q̇‖² ≤ q̇ᵀBq̇ ≤ λmax(B)‖q̇‖² for q̇ ≠ 0", "Property 2.7")
@@ -749,66 +737,62 @@ for figure, name, joint, torque in FIGURES:
 proof.section("Section 5: conclusions")
 
 
-def responses(m, name):
-    """|k_pi h_m(q̃_i)| in N·m for each joint at the printed final errors of a gain set, with its gains."""
-    rows = zip(TABLE_2[name][1], STEADY[name], strict=False)
+def proportional_torques(m):
+    """|k_pi h_m(q̃_i)| in N·m for each joint at the printed final errors, with the printed gains."""
+    _, kp, _ = TABLE_2[f"m{m}"]
+    rows = zip(kp, STEADY[f"m{m}"], strict=False)
     return [expr(k) * h(m, abs(Fraction(e_i)) * pi / 180) for k, e_i in rows]
 
 
-proof.add(
-    "S5.norm",
-    "the norm of the steady-state error falls as m grows: 0.5934, 0.5539, 0.5193",
-    all_of(
-        from_1_to_2=Constant(expr(STEADY["m2"][3]) < STEADY["m1"][3]),
-        from_2_to_3=Constant(expr(STEADY["m3"][3]) < STEADY["m2"][3]),
+def for_each_joint(holds):
+    """What holds of a joint's number and of m, from 1 to 2 and from 2 to 3."""
+    steps = [(i, k) for i in range(len(JOINTS)) for k in (1, 2)]
+    return all_of(**{f"{JOINTS[i]}_from_{k}_to_{k + 1}": Constant(holds(i, k)) for i, k in steps})
+
+
+def final_error(m, i):
+    """|q̃_i| as printed, in degrees."""
+    return expr(abs(Fraction(STEADY[f"m{m}"][i])))
+
+
+FINAL = {m: expr(STEADY[f"m{m}"][3]) for m in (1, 2, 3)}
+CONCLUSIONS = (
+    (
+        "norm",
+        "the norm of the steady-state error falls as m grows: 0.5934, 0.5539, 0.5193",
+        all_of(from_1_to_2=Constant(FINAL[2] < FINAL[1]), from_2_to_3=Constant(FINAL[3] < FINAL[2])),
     ),
-    "Section 5",
-)
-proof.add(
-    "S5.joints",
-    "so does that of each joint",
-    all_of(
-        **{
-            f"{joint}_from_{k}_to_{k + 1}": Constant(
-                expr(abs(Fraction(STEADY[f"m{k + 1}"][i]))) < abs(Fraction(STEADY[f"m{k}"][i]))
-            )
-            for i, joint in enumerate(JOINTS)
-            for k in (1, 2)
-        }
+    (
+        "joints",
+        "so does that of each joint",
+        for_each_joint(lambda i, m: final_error(m + 1, i) < final_error(m, i)),
     ),
-    "Section 5",
-)
-proof.add(
-    "S5.stiffness",
-    "as the controllers become stiffer at the goal: K_p h_m(q̃) at the printed final errors grows with m",
-    all_of(
-        **{
-            f"{joint}_from_{k}_to_{k + 1}": Constant(
-                responses(k, f"m{k}")[i] < responses(k + 1, f"m{k + 1}")[i]
-            )
-            for i, joint in enumerate(JOINTS)
-            for k in (1, 2)
-        }
+    (
+        "stiffness",
+        "as the controllers become stiffer at the goal: K_p h_m(q̃) at the printed final errors grows with m",
+        for_each_joint(lambda i, m: proportional_torques(m)[i] < proportional_torques(m + 1)[i]),
     ),
-    "Section 5",
-)
-proof.add(
-    "S5.flat",
-    "the proportional torque at the printed final errors is above 0.28 N·m at the base for m = 1, and at "
-    "every joint below 3.1·10⁻⁵ N·m for m = 2 and 3·10⁻¹⁰ N·m for m = 3: less than any dry friction",
-    all_of(
-        base=Constant(expr("0.28") < responses(1, "m1")[0]),
-        **{
-            f"m2_{joint}": Constant(torque < "31/1000000")
-            for joint, torque in zip(JOINTS, responses(2, "m2"), strict=True)
-        },
-        **{
-            f"m3_{joint}": Constant(torque < "3/10000000000")
-            for joint, torque in zip(JOINTS, responses(3, "m3"), strict=True)
-        },
+    (
+        "grows",
+        "at any error up to 45° the same gains give a larger torque for a larger m: h_m(q̃) ≤ h_{m+1}(q̃)",
+        lambda m: for_all(h(m, x) <= h(m + 1, x), 0, above(pi / 4)),
     ),
-    "Section 5",
+    (
+        "flat",
+        "the proportional torque at the printed final errors is above 0.28 N·m at the base for m = 1, and at "
+        "every joint below 3.1·10⁻⁵ N·m for m = 2 and 3·10⁻¹⁰ N·m for m = 3: less than any dry friction",
+        all_of(
+            base=Constant(expr("0.28") < proportional_torques(1)[0]),
+            **{
+                f"m{m}_{joint}": Constant(torque < most)
+                for m, most in ((2, "31/1000000"), (3, "3/10000000000"))
+                for joint, torque in zip(JOINTS, proportional_torques(m), strict=True)
+            },
+        ),
+    ),
 )
+for name, says, statement in CONCLUSIONS:
+    proof.add(f"S5.{name}", says, statement, "Section 5")
 
 # Remark II: tracking --------------------------------------------------------------------------------------
 
