@@ -14,7 +14,6 @@ import numpy as np
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
-    from lyapcheck.check.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
@@ -23,8 +22,8 @@ MOST = 8
 POSTURES = 13
 SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
 """k_v of the map, N·m."""
-BOXES = 20_000
-"""Budget of branch and bound for one place of the map."""
+BOXES = 5_000
+"""Budget of branch and bound for one place of the map: every report has all its certificates judged again."""
 DIGITS = 3
 
 
@@ -67,10 +66,10 @@ def bench(
 
 @dataclass(frozen=True)
 class Cell:
-    """A place of the map: what the page shows, and the certificate of its ε₀ where one is proved."""
+    """A place of the map: what the page shows, and the text of the certificate of its ε₀ if one is proved."""
 
-    data: dict[str, Any]
-    certificate: Certificate | None
+    data: Data
+    certificate: str | None
 
 
 def gain_map(
@@ -100,7 +99,7 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
     from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.simulate.closed_loop import simulate
 
-    gains = replace(one, kv=(kv,) * model.n)
+    gains = _at(one, kv, model)
     result = epsilon(gains, model, max_boxes=BOXES)
     run = simulate(gains, model, goal, stop=False)
     times = [math.nan if t is None else float(t) for t in run.settling]
@@ -116,7 +115,7 @@ def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) 
         "within_19": result.published is not None,
     }
     made = certificates(result).items()
-    return Cell(data, next((one for name, one in made if name.endswith(".certified.json")), None))
+    return Cell(data, next((one.text() for name, one in made if name.endswith(".certified.json")), None))
 
 
 def map_eps0(value: Fraction) -> str:
@@ -126,10 +125,46 @@ def map_eps0(value: Fraction) -> str:
     return f"{float(round_down(value, DIGITS)):.{DIGITS}g}"
 
 
-def kept_map(model: RobotModel) -> list[Data]:
-    """The map of the paper's arm as the study wrote it; none for another arm."""
+def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[Cell]:
+    """The map of the paper's arm as the study wrote it, where the checker accepts what it rests on.
+
+    None for another arm or K_p; as of all gains, no ε₀ is shown that is not proved.
+
+    Args:
+        model: the arm.
+        sets: a gain set for each m, as for ``gain_map``.
+    """
+    from lyapcheck.check.judging import judged
     from lyapcheck.report.experiment import arm_digest, study_file
 
     path = study_file("gain_map")
     result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return list(result["map"]) if result and result["arm"] == arm_digest(model) else []
+    if not result or result["arm"] != arm_digest(model):
+        return []
+    texts = result["certificates"]
+    cells = [Cell(data, texts.get(map_path(data))) for data in result["map"] if data["m"] in sets]
+    holds = all(
+        holds_of(one.data, one.certificate, model, sets)
+        and (one.certificate is None or judged(one.certificate.encode()).verdict == "proved")
+        for one in cells
+    )
+    return cells if holds else []
+
+
+def holds_of(cell: Data, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
+    """Whether a certificate, if it is one, is of the ε₀ that a place shows, for this arm and these gains."""
+    from lyapcheck.check.codec import to_json
+    from lyapcheck.check.kinds.decreasing import statement_of
+    from lyapcheck.search.controlled_arm import ControlledArm
+
+    if certificate is None or cell["m"] not in sets:
+        return cell["eps0"] is None
+    stated = json.loads(certificate)["statement"]
+    eps0 = Fraction(stated["eps0"])
+    loop = ControlledArm(_at(sets[cell["m"]], Fraction(cell["kv"]), model), model).loop(eps0)
+    return bool(map_eps0(eps0) == cell["eps0"] and to_json(statement_of(loop)) == stated)
+
+
+def _at(one: GainSet, kv: Fraction, model: RobotModel) -> GainSet:
+    """The gains of a place."""
+    return replace(one, kv=(kv,) * model.n)

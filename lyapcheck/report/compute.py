@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.proof import main_unnamed
-from lyapcheck.report.bench import Cell, kept_map, map_path
+from lyapcheck.report.bench import Cell, map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -77,8 +77,8 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     for part in (*proofs.proofs, *parts):
         certificates |= part.certificates
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
-    places: list[Cell] = jobs.map.result() if jobs.map else []
-    certificates |= {map_path(one.data): one.certificate.text() for one in places if one.certificate}
+    places: list[Cell] = jobs.map.result()
+    certificates |= {map_path(one.data): one.certificate for one in places if one.certificate}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
@@ -93,7 +93,7 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        cells=[one.data for one in places] or kept_map(load(subject.robot)),
+        cells=[one.data for one in places],
         figures=figures,
         certificates=certificates,
     )
@@ -117,14 +117,14 @@ class Jobs:
     Args:
         sets: ε₀ and simulation of each gain set.
         proofs: the claims of the paper and of the other proofs, with small witnesses.
-        map: the map over m and k_v, where it is asked for.
+        map: the map over m and k_v, computed where that is asked for.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
     """
 
     sets: list[Job]
     proofs: Job
-    map: Job | None
+    map: Job
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
 
@@ -142,7 +142,7 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     proofs = start("claims", proofs_job, *about, notes, subject.own)
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
-    cells = start("map", map_job, subject.robot, subject.of_family) if subject.map else None
+    cells = start("map", map_job, subject.robot, subject.of_family, subject.map)
     return Jobs(sets, proofs, cells, labels, dict.fromkeys(sets, draw_set))
 
 

@@ -60,6 +60,7 @@ class ReportAnswer(Answer):
             *_findings(report),
             Section("ε₀ from both sides", tuple(four_epsilons(report))),
             *((Section("Claims", tuple(_claims(report))), *evidence(report)) if self.appendix else ()),
+            *known(report),
             *rests(report),
         )
         return Document(f"Proof check: {subject}", blocks)
@@ -312,6 +313,12 @@ def rests(report: Report) -> Iterator[Section]:
     budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
     blocks.append(Paragraph(f"{versions}. Seed {report.seed}.{budget}"))
     yield Section(f"What this rests on: {report.robot['title']}", tuple(blocks))
+
+
+def known(report: Report) -> Iterator[Section]:
+    """What was known before the paper, and what is new."""
+    if not report.own:
+        yield Section("What was known, and what is new", (Bullets(report.notes.known[1:]),))
 
 
 def _kernel(report: Report) -> Iterator[Block]:

@@ -190,13 +190,13 @@ def goal_of(model: RobotModel) -> list[float]:
     return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
 
 
-def map_job(robot: str, sets: Mapping[int, GainSet]) -> list[Cell]:
-    """The map over m and k_v."""
-    from lyapcheck.report.bench import gain_map
+def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> list[Cell]:
+    """The map over m and k_v, computed or that of the study."""
+    from lyapcheck.report.bench import gain_map, kept_map
     from lyapcheck.robots import load
 
     model = load(robot)
-    return gain_map(model, sets, goal_of(model))
+    return gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
 
 
 def _run_data(run: Run) -> RunData:

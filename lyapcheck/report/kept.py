@@ -21,7 +21,7 @@ from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
-from lyapcheck.report.bench import map_eps0, map_path
+from lyapcheck.report.bench import holds_of, map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
 from lyapcheck.report.model import Data, Witness
@@ -82,7 +82,7 @@ def read(kept: Any, subject: Subject) -> Computed | None:
 
 
 def _of(subject: Subject, result: Computed) -> bool:
-    """Whether each ε₀ has certificates of the arm and gains that it is shown for."""
+    """Whether each ε₀, also of the map, has certificates of the arm and gains that it is shown for."""
     arm, sets = load(subject.robot), [one for file in subject.gain_files for one in file.gains]
 
     def stated(path: str, name: str) -> bool:
@@ -90,7 +90,10 @@ def _of(subject: Subject, result: Computed) -> bool:
         of = (ControlledArm(gains, arm).loop(Fraction(one["eps0"])) for gains in sets if gains.name == name)
         return any(to_json(statement_of(loop)) == one for loop in of)
 
-    return all(stated(path, row["name"]) for row in result.epsilon for path in row["certificates"].values())
+    texts, family = result.certificates, subject.of_family
+    return all(
+        stated(path, row["name"]) for row in result.epsilon for path in row["certificates"].values()
+    ) and all(holds_of(cell, texts.get(map_path(cell)), arm, family) for cell in result.cells)
 
 
 def _as_said(result: Computed) -> bool:
@@ -123,11 +126,7 @@ def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
-    places = [(path, cell["eps0"]) for cell in result.cells if (path := map_path(cell)) in digests]
-    if any(
-        verdict(path) != "proved" or map_eps0(_eps0(result.certificates[path])) != eps0
-        for path, eps0 in places
-    ):
+    if any(cell["eps0"] is not None and verdict(map_path(cell)) != "proved" for cell in result.cells):
         return False
     return all(
         verdict(path) == ("refuted" if kind == "falsified" else "proved")

@@ -69,7 +69,8 @@ def witness_words(row: Data) -> str:
 
 def span_words(ends: Sequence[str], digits: int = 6) -> str:
     """An enclosure in a few digits; a range where its ends differ by more."""
-    low, high = (f"{float(end):.{digits}g}" for end in ends)
+    short = (f"{float(end):.{digits}g}" for end in ends)
+    low, high = (f"−{one[1:]}" if one.startswith("-") else one for one in short)
     return low if low == high else f"{low} to {high}"
 
 

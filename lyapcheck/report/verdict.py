@@ -124,19 +124,19 @@ def _theorem(report: Report) -> str:
     size = (
         "every number of joints n" if joints == {None} else f"n = {and_list(sorted(map(str, joints)))} joints"
     )
-    members = f"for h_m with m = {and_list(list(map(str, report.ms)))}"
+    members = f"h_m with m = {and_list(list(map(str, report.ms)))}"
     if any(row["m"] is None for row in rows):
-        members += ", and for every odd bounded function of its class"
+        members += " as for every odd bounded function of its class"
         if set(report.verdicts(BOUNDS, Path(CLASS).stem)) == {"proved"}:
             members += ", whose bounds h_m keeps for every real m ≥ 1"
-    sentence = (
-        f"The proposition is true: proved, with certificates, for every arm with Properties 2.1 to 2.7, "
-        f"{size} and all positive gains: {members}."
+    arm = ""
+    if set(report.verdicts((THIS_ARM,), "scalar")) == {"proved"}:
+        name, n = report.robot["name"], len(report.robot["joints"])
+        arm = f"; on {name} (n = {n}) with the gains of Table 2, with an explicit ε₀"
+    return (
+        f"The proposition is true: proved with certificates for every arm with Properties 2.1 to 2.7, {size},"
+        f" all positive gains, and {members}{arm}. {report.notes.known[0]}"
     )
-    if set(report.verdicts((THIS_ARM,), "scalar")) != {"proved"}:
-        return sentence
-    arm = f"{report.robot['name']} (n = {len(report.robot['joints'])})"
-    return f"{sentence} For {arm} with the gains of Table 2 it is proved with an explicit ε₀ as well."
 
 
 def _proof(report: Report) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.json import laid_out
-from lyapcheck.report.bench import BOXES, gain_map
+from lyapcheck.report.bench import BOXES, gain_map, map_path
 from lyapcheck.report.experiment import arm_digest
 from lyapcheck.robots import load
 from lyapcheck.simulate.printed import PAPER_ARM
@@ -20,8 +20,14 @@ def main() -> None:
     """A few minutes."""
     model = load(PAPER_ARM)
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
-    cells = [cell.data for cell in gain_map(model, sets, PAPER_TASK.q_d)]
-    result = {"arm": arm_digest(model), "boxes": BOXES, "map": cells}
+    cells = gain_map(model, sets, PAPER_TASK.q_d)
+    certificates = {map_path(cell.data): cell.certificate for cell in cells if cell.certificate}
+    result = {
+        "arm": arm_digest(model),
+        "boxes": BOXES,
+        "map": [cell.data for cell in cells],
+        "certificates": certificates,
+    }
     RESULTS.write_text(laid_out(result) + "\n", encoding="utf-8")
 
 

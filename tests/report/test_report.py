@@ -30,7 +30,7 @@ from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.findings import findings
 from lyapcheck.report.model import Report, anchor, applies
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.page.graph import graph, layout, tied
+from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.report.write import render, require_folder, write
@@ -371,6 +371,12 @@ def test_claims_stand_right_of_what_they_use() -> None:
     assert len(set(places.values())) == 3
 
 
+def test_every_box_of_the_graph_has_a_title_that_fits(report: Report) -> None:
+    titles = report.notes.titles
+    assert {row["id"] for row in tied(report.claims)} <= set(titles)
+    assert max(map(len, titles.values())) <= LETTERS
+
+
 def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
     about = {"comment": "<b>", "broken": []}
     rows = [
@@ -378,10 +384,12 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
         {"id": "b", "verdict": "proved", "grade": "enclosure", "uses": ["a"], **about},
         {"id": "c", "verdict": "refuted", "grade": "enclosure", "uses": ["a"], **about, "broken": ["a"]},
     ]
-    drawn = graph(rows, "words")
+    drawn = graph(rows, "words", {"a": "short"})
     boxes = ElementTree.fromstring(drawn).findall("a")
     assert [(box.get("href"), box.get("class")) for box in boxes] == [
         ("#a", "box proved exact"), ("#b", "box proved enclosure"), ("#c", "box refuted enclosure")
     ]  # fmt: skip
+    said = [[text.text for text in box.findall("text")] for box in boxes]
+    assert said == [["✓ a", "short"], ["✓ b"], ["✗ c"]]
     assert drawn.count("edge broken") == 1
     assert "<b>" not in drawn

@@ -29,8 +29,8 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> No
     ]  # fmt: skip
     for cell in cells:
         assert cell.certificate is not None
-        (tmp_path / Path(map_path(cell.data)).name).write_text(cell.certificate.text(), encoding="utf-8")
-        statement = json.loads(cell.certificate.text())["statement"]
+        (tmp_path / Path(map_path(cell.data)).name).write_text(cell.certificate, encoding="utf-8")
+        statement = json.loads(cell.certificate)["statement"]
         assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(cell.data["kv"])]
         assert map_eps0(Fraction(statement["eps0"])) == cell.data["eps0"]
     outcome = recheck(gather([str(tmp_path)]))

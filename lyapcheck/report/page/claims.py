@@ -80,7 +80,12 @@ def _graph(report: Report) -> Markup:
         "click one to read it."
     )
     folded = element(
-        "div", graph(chosen, words), class_="scroll", tabindex="0", role="region", aria_label="Graph"
+        "div",
+        graph(chosen, words, report.notes.titles),
+        class_="scroll",
+        tabindex="0",
+        role="region",
+        aria_label="Graph",
     )
     return element(
         "details",

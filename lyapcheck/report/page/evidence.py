@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import blocks
-from lyapcheck.report.document import evidence, four_epsilons, rests
+from lyapcheck.report.document import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.drawing import figure
 
@@ -20,7 +20,10 @@ def evidence_section(report: Report) -> Markup:
         element("h2", "Evidence"),
         element("h3", "ε₀ between what is proved and what a state refutes"),
         shown(report, four_epsilons(report)),
-        [_fold(report, section.title, section.blocks) for section in (*evidence(report), *rests(report))],
+        [
+            _fold(report, section.title, section.blocks)
+            for section in (*known(report), *evidence(report), *rests(report))
+        ],
         id="evidence",
     )
 

@@ -8,18 +8,21 @@ from lyapcheck.output.elements import Markup, element
 from lyapcheck.report.model import Data
 from lyapcheck.report.text import SYMBOLS
 
-WIDE, HIGH = 96, 22
-ACROSS, DOWN = 138, 29
+WIDE, HIGH = 138, 34
+ACROSS, DOWN = 184, 42
 MARGIN = 8
+LETTERS = 22
+"""The longest title that fits a box."""
 Place = tuple[float, float]
 
 
-def graph(rows: Sequence[Data], words: str) -> Markup:
+def graph(rows: Sequence[Data], words: str, titles: Mapping[str, str]) -> Markup:
     """Each claim that uses another or is used, right of all it uses; a thick line is a link that breaks.
 
     Args:
         rows: the claims of one proof for one m.
         words: what it shows, for who cannot see it.
+        titles: of claims, in at most ``LETTERS`` letters.
     """
     chosen = tied(rows)
     places = layout(chosen)
@@ -27,7 +30,7 @@ def graph(rows: Sequence[Data], words: str) -> Markup:
     width = max((x for x, _ in at.values()), default=0.0) + WIDE + MARGIN
     height = max((y for _, y in at.values()), default=0.0) + HIGH + MARGIN
     lines = [_line(at[used], at[row["id"]], used, row) for row in chosen for used in row["uses"]]
-    boxes = [_box(at[row["id"]], row) for row in chosen]
+    boxes = [_box(at[row["id"]], row, titles.get(row["id"], "")) for row in chosen]
     view = f"0 0 {width:g} {height:g}"
     return element(
         "svg",
@@ -49,12 +52,18 @@ def _line(start: Place, end: Place, used: str, row: Data) -> Markup:
     return element("path", d=path, class_=f"edge{broken}", data_from=used, data_to=row["id"])
 
 
-def _box(place: Place, row: Data) -> Markup:
+def _box(place: Place, row: Data, short: str) -> Markup:
     x, y = place
     rests = f"Rests on {', '.join(row['uses'])}." if row["uses"] else "Rests on no other claim."
     title = element("title", f"{row['id']}, {row['verdict']} [{row['grade']}]: {row['comment']} {rests}")
     shape = element("rect", x=f"{x:g}", y=f"{y - HIGH / 2:g}", width=WIDE, height=HIGH, rx=4)
-    words = element("text", f"{SYMBOLS[row['verdict']]} {row['id']}", x=f"{x + WIDE / 2:g}", y=f"{y + 4:g}")
+    middle = f"{x + WIDE / 2:g}"
+    words = [
+        element(
+            "text", f"{SYMBOLS[row['verdict']]} {row['id']}", x=middle, y=f"{y - (3 if short else -4):g}"
+        ),
+        element("text", short, x=middle, y=f"{y + 11:g}", class_="short") if short else None,
+    ]
     return element(
         "a",
         title,
