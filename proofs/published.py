@@ -2,6 +2,9 @@
 
 Every claim says what the paper says and states it as data; what comes of it is computed.
 Ids follow the numbers of the paper's equations; e is q̃ and w is q̇.
+
+What the proposition says is classical by LaSalle's theorem (``kelly_santibanez.py``). Here it is about the
+printed proof of it; where that breaks, ``scalar.py`` and ``every_function.py`` go round.
 """
 
 from fractions import Fraction

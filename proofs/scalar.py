@@ -11,8 +11,9 @@ The section "Every arm" concludes for all robots with Properties 2.1 to 2.7 and 
 for the robot and the gains at hand, with numbers for β_M, k_c and ε₀.
 
 That all positive gains do is classical by LaSalle's theorem, even without friction (``kelly_santibanez.py``).
-What is shown here is that V of (13) is strict, with explicit constants. For m ≥ 2, h'(0) = 0, so near the
-goal convergence is not exponential. For every n and every function at once it is in ``every_function.py``.
+What is shown here is that V of (13) is strict, with explicit constants; the second reference has strict
+functions for such laws with linear damping. For m ≥ 2, h'(0) = 0, so near the goal convergence is not
+exponential. For every n and every function at once it is in ``every_function.py``.
 
 References: ``reyes2019family``, ``santibanez1997strict``, ``takegaki1981feedback``.
 """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from contextlib import nullcontext
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,11 +12,13 @@ import pytest
 
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
-from lyapcheck.control.gains import GainSet
-from lyapcheck.report import kept
-from lyapcheck.report.bench import gain_map, map_eps0, map_path
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.report import experiment, kept
+from lyapcheck.report.bench import gain_map, kept_map, map_eps0, map_path
 from lyapcheck.report.build import Subject
 from lyapcheck.report.computed import Computed
+from lyapcheck.report.experiment import study_file
 from lyapcheck.report.model import Report
 from lyapcheck.robots import load
 
@@ -63,3 +66,24 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
         data = json.loads(text)
         change(data)
         assert kept.read(data, subject) is None
+
+
+@pytest.mark.slow
+def test_the_map_of_the_papers_arm_is_shown_where_the_checker_accepts_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """For the paper's arm and K_p alone, and not if one ε₀ is larger than its certificate says."""
+    model = load("buap3")
+    sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
+    cells = kept_map(model, sets)
+    assert {cell.data["m"] for cell in cells} == {1, 2, 3}
+    assert all(cell.certificate for cell in cells)
+    other = {1: replace(sets[1], kp=sets[2].kp)}
+    assert kept_map(model, other) == []
+    assert kept_map(load("reyes-kelly2"), sets) == []
+    study = json.loads(study_file("gain_map").read_text(encoding="utf-8"))
+    study["map"][0]["eps0"] = "0.9"
+    file = tmp_path / "gain_map.json"
+    file.write_text(json.dumps(study), encoding="utf-8")
+    monkeypatch.setattr(experiment, "study_file", lambda name: file)
+    assert kept_map(model, sets) == []

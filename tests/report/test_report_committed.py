@@ -1,0 +1,84 @@
+"""The committed report is about what today's code asks: statements, gains, gate, words and page."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck.check.codec import to_json
+from lyapcheck.check.kinds.decreasing import statement_of
+from lyapcheck.claims.ask import ask
+from lyapcheck.claims.handover import Request
+from lyapcheck.claims.run import paper_given
+from lyapcheck.claims.script import find_script
+from lyapcheck.cli.commands.report import _subject
+from lyapcheck.report.build import _gate, _table
+from lyapcheck.report.jobs import BOXES, OTHERS, PROOF
+from lyapcheck.report.notes import published_notes
+from lyapcheck.report.page.shell import raw
+from lyapcheck.robots import load
+from lyapcheck.search.controlled_arm import ControlledArm
+
+FOLDER = Path(__file__).parents[2] / "reports"
+REPORT: dict[str, Any] = json.loads((FOLDER / "report.json").read_text(encoding="utf-8"))
+PAGE = (FOLDER / "index.html").read_text(encoding="utf-8")
+REPAIR = "make report, and commit reports/"
+
+
+@pytest.mark.usefixtures("in_this_process")
+@pytest.mark.parametrize("proof", [PROOF, *OTHERS])
+def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
+    ms = REPORT["m"]
+    script = find_script(proof)
+    handover = ask(Request(str(script), script.name, tuple(paper_given(m) for m in ms)))
+    claims = {claim.id: claim for claim in handover.claims}
+    rows = [row for row in (*REPORT["claims"], *REPORT["others"]) if row["proof"] == handover.name]
+    assert {row["id"] for row in rows} == set(OTHERS.get(proof, ()) or claims), REPAIR
+    for row in rows:
+        claim = claims[row["id"]]
+        assert (row["comment"], row["place"], tuple(row["uses"])) == (claim.says, claim.place, claim.uses), (
+            REPAIR
+        )
+        if row["certificate"]:
+            stated = handover.stated(claim.answers[ms.index(row["m"] or ms[0])])
+            assert _certificate(row["certificate"])["statement"] == to_json(stated), (row["id"], REPAIR)
+
+
+def test_arm_gains_gate_and_table_are_those_of_today() -> None:
+    subject, arm = _subject("", None, None), load(REPORT["robot"]["name"])
+    assert (subject.robot, list(subject.ms)) == (arm.name, REPORT["m"])
+    assert REPORT["gate"] == json.loads(json.dumps(_gate(subject))), REPAIR
+    assert REPORT["table"] == json.loads(json.dumps(_table(subject.ms))), REPAIR
+
+
+def test_every_eps0_is_of_the_arm_and_gains_of_today() -> None:
+    arm = load(REPORT["robot"]["name"])
+    sets = {one.name: one for file in _subject("", None, None).gain_files for one in file.gains}
+    assert [row["name"] for row in REPORT["epsilon"]] == list(sets), REPAIR
+    for row in REPORT["epsilon"]:
+        assert row["boxes"] == BOXES, REPAIR
+        for path in row["certificates"].values():
+            stated = _certificate(path)["statement"]
+            loop = ControlledArm(sets[row["name"]], arm).loop(Fraction(stated["eps0"]))
+            assert to_json(statement_of(loop)) == stated, (path, REPAIR)
+
+
+def test_words_and_page_are_those_of_today() -> None:
+    notes = published_notes()
+    assert REPORT["paper"] == notes.paper.citation, REPAIR
+    for finding in REPORT["findings"]:
+        for note in notes.findings:
+            if set(note.claims) & set(finding["claims"]):
+                said = [finding[key] for key in ("title", "argument", "fails", "consequence", "repair")]
+                assert said == [note.title, note.argument, note.fails, note.consequence, note.repair], REPAIR
+    for name in ("style.css", "page.js", "bench.js"):
+        assert raw(name) in PAGE, REPAIR
+
+
+def _certificate(path: str) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads((FOLDER / path).read_text(encoding="utf-8"))
+    return result
