@@ -32,7 +32,8 @@ class Parser(argparse.ArgumentParser):
         """Add an argument or an option; its default is told at the end of its help."""
         default = settings.get("default")
         # argparse hides the defaults of arguments without a name while it reads them among options
-        if default is not None and default is not False and names[0].startswith("-"):
+        shown = default is not None and default is not False and default != []
+        if shown and names[0].startswith("-"):
             help += " [%(default)s]"  # noqa: A001
         action = super().add_argument(*names, help=help, **settings)
         self.actions.append(action)

@@ -20,12 +20,22 @@ def evidence_section(report: Report) -> Markup:
         element("h2", "Evidence"),
         element("h3", "ε₀ between what is proved and what a state refutes"),
         shown(report, four_epsilons(report)),
+        _certificates(report),
         [
             _fold(report, section.title, section.blocks)
             for section in (*known(report), *evidence(report), *rests(report))
         ],
         id="evidence",
     )
+
+
+def _certificates(report: Report) -> Markup | None:
+    """Links to what each ε₀ rests on."""
+    parts: list[Markup | str] = []
+    for row in report.epsilon:
+        for kind, path in row["certificates"].items():
+            parts += [", " if parts else "", element("a", f"{row['name']} {kind}", href=path)]
+    return element("p", "Certificates: ", parts, ".") if parts else None
 
 
 def _fold(report: Report, title: str, inner: Iterable[Block]) -> Markup:
