@@ -32,7 +32,7 @@ from lyapcheck.temporary import temporary_folder
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
 
-HALF = ("published", "scalar", "tracking")
+HALF = ("published", "scalar", "tracking", "every_function")
 """The folders of certificates that one process judges while another judges the rest, about as long."""
 JUDGED = ("verdict", "id", "m", "rules", "granted")
 """What a row has from the checker."""
