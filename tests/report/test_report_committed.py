@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -48,10 +49,16 @@ def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
             assert _certificate(row["certificate"])["statement"] == to_json(stated), (row["id"], REPAIR)
 
 
+def decided(row: Mapping[str, Any]) -> list[Any]:
+    """What the gate decides about gains, without its advice."""
+    keys = ("id", "joint", "verdict", "value", "limit")
+    return [row["name"], row["m"], row["verdict"], [[one[key] for key in keys] for one in row["checks"]]]
+
+
 def test_arm_gains_gate_and_table_are_those_of_today() -> None:
     subject, arm = _subject("", None, None), load(REPORT["robot"]["name"])
     assert (subject.robot, list(subject.ms)) == (arm.name, REPORT["m"])
-    assert REPORT["gate"] == json.loads(json.dumps(_gate(subject))), REPAIR
+    assert [decided(row) for row in REPORT["gate"]] == [decided(row) for row in _gate(subject)], REPAIR
     assert REPORT["table"] == json.loads(json.dumps(_table(subject.ms))), REPAIR
 
 
