@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import cached_property
 from itertools import product
 
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.constants.harmonics import Harmonics, derivative, harmonics
+from lyapcheck.check.numbers.harmonics import Harmonics, christoffel, derivative, harmonics
 from lyapcheck.constants.torus import Torus
 from lyapcheck.robots import trig
 from lyapcheck.robots.plant import Plant
@@ -37,15 +36,9 @@ class ArmHarmonics:
     @cached_property
     def symbols(self) -> Torus:
         """The Christoffel symbols c_ijk = c_ikj with k ≤ j."""
-        return Torus([self._symbol(*place) for place in self.triples], self.n)
-
-    def _symbol(self, i: int, j: int, k: int) -> Harmonics:
-        total: Harmonics = {}
-        parts = ((i, j, k, 1), (i, k, j, 1), (j, k, i, -1))
-        for row, column, angle, sign in parts:
-            for wave, value in derivative(self.harmonics[max(row, column), min(row, column)], angle).items():
-                total[wave] = total.get(wave, Fraction(0)) + value * sign / 2
-        return {wave: value for wave, value in total.items() if value}
+        joints = range(self.n)
+        known = christoffel([[self.harmonics[max(i, j), min(i, j)] for j in joints] for i in joints])
+        return Torus([known.get(place, {}) for place in self.triples], self.n)
 
     def matrix(self, entries: Array) -> Array:
         """The symmetric matrices of the entries on and below the diagonal."""

@@ -1,64 +1,23 @@
-"""The functions of which polynomials are sums, at many states: products a joint, or sines of sums of angles.
-
-For parallel axes the sines and cosines of sums k·q are fewer and do not lose that the angles add up; for a
-general arm the products are far fewer.
-"""
+"""The functions of which polynomials are sums, at many states: cosines and sines of sums of angles."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.constants.harmonics import Harmonic
+from lyapcheck.check.numbers.harmonics import Harmonics
 
 Rows = list[dict[int, Fraction]]
-_MOST_SUMS = 20_000
 
 
-class Values(Protocol):
-    """The functions at some states."""
-
-    values: Array
-
-    def bent(self, turn: Array) -> tuple[Array, Array]:
-        """Middle and radius of what the functions are beyond their linear part, where they turn that far.
-
-        Args:
-            turn: how far at most in rad, not above π; one number a function.
-        """
-
-    def slopes(self, i: int) -> Array:
-        """Their derivatives with respect to q_i."""
-
-
-class Basis(Protocol):
-    """Functions of coordinates p with q = back p, where back is whole and of determinant ±1.
-
-    ``frequency`` bounds how fast each turns with each coordinate, (functions, n).
-    """
-
-    frequency: Array
-    back: Array
-
-    def at(self, p: Array) -> Values:
-        """The functions at coordinates (count, n)."""
-
-
-def basis_of(entries: Sequence[Mapping[Harmonic, Fraction]], n: int) -> tuple[Basis, Rows]:
+def basis_of(entries: Sequence[Harmonics], n: int) -> tuple[Sums, Rows]:
     """A basis for some polynomials, and each of them as its numbers by the row of the function."""
-    result = sorted({wave for entry in entries for wave in entry}) or [(0,) * n]
-    if sum(2 ** sum(factor > 0 for factor in wave) for wave in result) > _MOST_SUMS:
-        rows = {wave: row for row, wave in enumerate(result)}
-        return Products(np.array(result, dtype=np.intp)), [
-            {rows[w]: x for w, x in e.items()} for e in entries
-        ]
-    sums = [_sums(entry, n) for entry in entries]
+    sums = [{(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries]
     keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
     places = {key: row for row, key in enumerate(keys)}
     rows_of = [{places[key]: x for key, x in entry.items()} for entry in sums]
@@ -88,18 +47,23 @@ def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
 
 
 class Sums:
-    """cos(k·p) and sin(k·p)."""
+    """cos(k·p) and sin(k·p) of coordinates p with q = back p, where back is whole and of determinant ±1.
+
+    ``frequency`` bounds how fast each turns with each coordinate, (functions, n).
+    """
 
     def __init__(self, multiples: Array, sine: NDArray[np.bool_], back: Array) -> None:
         self.multiples, self.sine, self.back = multiples, sine, back
         self.frequency: Array = np.abs(multiples)
 
-    def at(self, p: Array) -> Values:
+    def at(self, p: Array) -> SumsAt:
         """The functions at coordinates (count, n)."""
-        return _SumsAt(self, p @ self.multiples.T)
+        return SumsAt(self, p @ self.multiples.T)
 
 
-class _SumsAt:
+class SumsAt:
+    """The functions at some states."""
+
     def __init__(self, basis: Sums, angle: Array) -> None:
         sine, cosine = np.sin(angle), np.cos(angle)
         self.values: Array = np.where(basis.sine, sine, cosine)
@@ -107,83 +71,17 @@ class _SumsAt:
         self._multiples = basis.multiples
 
     def bent(self, turn: Array) -> tuple[Array, Array]:
-        """v cos d + u sin d at the distance d, v itself and u its slope: what is left of it without u d."""
+        """Middle and radius of what the functions are beyond their linear part, where they turn that far.
+
+        v cos d + u sin d at the distance d, v itself and u its slope: what is left of it without u d.
+
+        Args:
+            turn: how far at most in rad, not above π; one number a function.
+        """
         least = np.cos(turn)
         radius = np.abs(self.values) * 0.5 * (1 - least) + np.abs(self._turned) * (turn - np.sin(turn))
         return self.values * 0.5 * (1 + least), radius
 
     def slopes(self, i: int) -> Array:
+        """Their derivatives with respect to the i-th coordinate."""
         return np.asarray(self._turned * self._multiples[:, i])
-
-
-class Products:
-    """Products of one factor a joint."""
-
-    def __init__(self, harmonics: NDArray[np.intp]) -> None:
-        self.harmonics = harmonics
-        self.frequency: Array = ((harmonics + 1) // 2).astype(np.float64)
-        self.back: Array = np.eye(harmonics.shape[1])
-
-    def at(self, p: Array) -> Values:
-        """The functions at coordinates (count, n)."""
-        return _ProductsAt(self.harmonics, p)
-
-
-class _ProductsAt:
-    def __init__(self, harmonics: NDArray[np.intp], q: Array) -> None:
-        self._harmonics, n = harmonics, q.shape[1]
-        self._basis = _factors(q, int(harmonics.max()))
-        self._factors = [self._basis[harmonics[:, i], :, i].T for i in range(n)]
-        self.values: Array = np.prod(self._factors, axis=0)
-
-    def bent(self, turn: Array) -> tuple[Array, Array]:
-        """Along any line the second derivative is at most the square of the frequency."""
-        return self.values, 0.5 * turn * turn
-
-    def slopes(self, i: int) -> Array:
-        basis = self._basis[:, :, i]
-        codes = np.arange(len(basis))
-        turned = np.where(codes % 2, np.minimum(codes + 1, len(basis) - 1), np.maximum(codes - 1, 0))
-        sign = np.where(codes % 2, 1.0, -1.0) * ((codes + 1) // 2)
-        slope = (basis[turned] * sign[:, None])[self._harmonics[:, i]].T
-        others = [factor for j, factor in enumerate(self._factors) if j != i]
-        return np.asarray(slope * np.prod(others, axis=0) if others else slope)
-
-
-def _factors(q: Array, last: int) -> Array:
-    """1, sin q, cos q, sin 2q, cos 2q …, up to at least the factor ``last`` and always to a cosine."""
-    rows = [np.ones_like(q)]
-    for k in range(1, (last + 1) // 2 + 1):
-        rows += [np.sin(k * q), np.cos(k * q)]
-    return np.stack(rows)
-
-
-def _sums(entry: Mapping[Harmonic, Fraction], n: int) -> dict[tuple[Harmonic, int], Fraction]:
-    """The polynomial in cos(k·q), marked 0, and sin(k·q), marked 1; each k leads with a positive entry."""
-    total: dict[tuple[Harmonic, int], Fraction] = {}
-    for wave, value in entry.items():
-        partial: dict[tuple[Harmonic, int], Fraction] = {((0,) * n, 0): value}
-        for i, factor in enumerate(wave):
-            if factor:
-                partial = _times(partial, i, (factor + 1) // 2, factor % 2 == 1)
-        for key, x in partial.items():
-            total[key] = total.get(key, Fraction(0)) + x
-    return {key: x for key, x in total.items() if x}
-
-
-def _times(
-    terms: Mapping[tuple[Harmonic, int], Fraction], i: int, k: int, sine: bool
-) -> dict[tuple[Harmonic, int], Fraction]:
-    """The product with sin(k q_i) or cos(k q_i), i beyond all angles so far: the sum and the difference."""
-    result: dict[tuple[Harmonic, int], Fraction] = {}
-    for (multiples, odd), x in terms.items():
-        for step, sign in ((k, 1), (-k, -1)):
-            place = (*multiples[:i], step, *multiples[i + 1 :])
-            # cos a cos b and sin a cos b keep the kind; cos a sin b = ½(sin(a+b) − sin(a−b));
-            # sin a sin b = ½(cos(a−b) − cos(a+b))
-            kind = odd ^ int(sine)
-            number = x / 2 * (1 if not sine else (-sign if odd else sign))
-            if not any(multiples) and step < 0:
-                place, number = (*multiples[:i], k, *multiples[i + 1 :]), (-number if kind else number)
-            result[place, kind] = result.get((place, kind), Fraction(0)) + number
-    return {key: x for key, x in result.items() if x}

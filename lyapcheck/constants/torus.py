@@ -1,8 +1,8 @@
 """Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
 
-Over a box with half widths r a wave with frequencies k turns by at most d = Σ k_i r_i from its value in the
-middle. It moves by at most d within [−1, 1], and by at most d²/2 from its linear part. Waves that turn far
-are bounded by the former, waves that hardly turn by their slope and the square, or by something sharper.
+Over a box with half widths r a harmonic cos(k·q) or sin(k·q) turns by at most d = Σ |k_i| r_i from its value
+in the middle. It moves by at most d within [−1, 1], and by at most d²/2 from its linear part. Harmonics that
+turn far are bounded by the former, those that hardly turn by their slope and what is sharper than the square.
 
 Soundness: floating point with the error bounded beforehand: every value is trusted within ``SLACK`` times
 the sum of the sizes of all coefficients, far more than the rounding of sines, products and sums amounts to.
@@ -10,20 +10,19 @@ the sum of the sizes of all coefficients, far more than the rounding of sines, p
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.check.numbers.harmonics import Harmonics
 from lyapcheck.constants.basis import basis_of
-from lyapcheck.constants.harmonics import Harmonic
 
 PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
 _NEAR = 0.5
-"""Waves that turn by less than this many radians over half a box are bounded by their slope."""
+"""Harmonics that turn by less than this many radians over half a box are bounded by their slope."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class Torus:
         n: number of joints.
     """
 
-    def __init__(self, entries: Sequence[Mapping[Harmonic, Fraction]], n: int) -> None:
+    def __init__(self, entries: Sequence[Harmonics], n: int) -> None:
         self.n = n
         self._basis, rows = basis_of(entries, n)
         coefficients = np.zeros((len(self._basis.frequency), len(entries)))

@@ -18,6 +18,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
+from lyapcheck.check.numbers.harmonics import Harmonics
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.spectrum import smallest_eigenvalue
 from lyapcheck.constants.storage import lift
@@ -111,16 +112,16 @@ def _nodes() -> list[list[fmpq]]:
     return rows
 
 
-def _harmonics(slacks: Sequence[Exact]) -> list[dict[tuple[int, ...], Fraction]]:
+def _harmonics(slacks: Sequence[Exact]) -> list[Harmonics]:
     """The entries as trigonometric polynomials of degree 4, from their values at the nodes."""
     values = fmpq_mat([[slack[i, j] for i, j in _PLACES] for slack in slacks])
     result = fmpq_mat(_nodes()).solve(values)
+
+    def number(row: int, column: int) -> Fraction:
+        return Fraction(int(result[row, column].p), int(result[row, column].q))
+
     return [
-        {
-            (k,): Fraction(int(result[k, c].p), int(result[k, c].q))
-            for k in range(2 * _DEGREE + 1)
-            if result[k, c]
-        }
+        {(k,): (number(2 * k, c), number(2 * k - 1, c) if k else Fraction(0)) for k in range(_DEGREE + 1)}
         for c in range(len(_PLACES))
     ]
 
