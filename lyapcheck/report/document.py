@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
+from lyapcheck.answers.tune.effect import Effect, effect_section
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
@@ -196,6 +199,7 @@ def evidence(report: Report) -> Iterator[Section]:
     yield Section("The family and its constants", tuple(_constants(report)))
     yield Section("The gate", tuple(_gate(report)))
     yield Section("The closed loop", tuple(_runs(report)))
+    yield from _members(report)
     if report.sensitivity:
         yield Section("The printed experiment and what is assumed", tuple(_study(report, report.sensitivity)))
 
@@ -278,6 +282,35 @@ def _runs(report: Report) -> Iterator[Block]:
     yield from _figure(report, "indices", "The L2 index (20), simulated and measured")
     for row in report.runs:
         yield from _figure(report, f"{file_stem(row['name'])}_errors", f"{row['name']}: position errors")
+
+
+def _members(report: Report) -> Iterator[Section]:
+    """What m does in these runs, where each member has one gain set."""
+    members = sorted(
+        (row for row in report.runs if row["m"] is not None and row["complete"]), key=lambda row: row["m"]
+    )
+    if len(members) > 1 and len({row["m"] for row in members}) == len(members):
+        first = members[0]
+        section = effect_section([_effect(row) for row in members], first["target"], first["time"])
+        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
+
+
+OWN_GAINS = (
+    "Each m has the gains of its own gain set. Floating point, one motion; lyapcheck tune --m compares "
+    "members at the largest gains of each."
+)
+
+
+def _effect(row: Data) -> Effect:
+    known = [peak / most for peak, most in zip(row["peak_torque"], row["torque_limit"], strict=True) if most]
+    return Effect(
+        row["m"],
+        row["L2"],
+        max(map(abs, row["final_error"])),
+        max(known, default=math.nan),
+        row["top_speed"],
+        math.inf if row["rest"] is None else row["rest"],
+    )
 
 
 def _study(report: Report, study: Data) -> Iterator[Block]:

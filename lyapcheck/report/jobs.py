@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -49,9 +49,10 @@ class ProofData:
 
 @dataclass(frozen=True)
 class RunData:
-    """One simulated run: its facts as plain data, its signals as arrays for the figures."""
+    """One simulated run: its facts as plain data, its top speed, its signals as arrays for the figures."""
 
     facts: dict[str, Any]
+    speed: float
     t: Any
     e: Any
     tau: Any
@@ -139,7 +140,18 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     model = load(robot)
     row, files = _epsilon(gain_set, model, seed)
     eps0 = float(row["certified"] or row["scalar"] or 0.0)
-    return GainData(row, _run_data(_simulated(gain_set, model, eps0)), files)
+    run = _run_data(_simulated(gain_set, model, eps0))
+    return GainData(row, replace(run, facts=run.facts | _at_the_bench(run, gain_set, model)), files)
+
+
+def _at_the_bench(run: RunData, gain_set: GainSet, model: RobotModel) -> dict[str, float | None]:
+    """The top speed of a run, rad/s, and how far off dry friction may hold a joint, degrees or anywhere."""
+    from lyapcheck.answers.gate.bench import rest_errors
+
+    rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gain_set, model))
+    shown = {"top_speed": run.speed, "rest": None if math.isinf(rest) else rest}
+    result: dict[str, float | None] = shortened(shown)
+    return result
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[dict[str, Any], dict[str, str]]:
@@ -205,7 +217,7 @@ def _run_data(run: Run) -> RunData:
     (facts,) = SetPointRuns((run,)).data()["results"]
     for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
         del facts[name]
-    return RunData(shortened(facts), run.t, run.e, run.tau, run.V, run.dV)
+    return RunData(shortened(facts), float(abs(run.w).max()), run.t, run.e, run.tau, run.V, run.dV)
 
 
 def shortened(value: Any) -> Any:

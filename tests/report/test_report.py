@@ -6,6 +6,7 @@ import csv
 import json
 import pickle
 import re
+from dataclasses import replace
 from fractions import Fraction
 from html.parser import HTMLParser
 from io import BytesIO, StringIO
@@ -21,8 +22,10 @@ from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.report.build import Subject, build
+from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
 from lyapcheck.report.figures.motion import draw_errors, draw_torques
@@ -393,3 +396,20 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
     assert said == [["✓ a", "short"], ["✓ b"], ["✗ c"]]
     assert drawn.count("edge broken") == 1
     assert "<b>" not in drawn
+
+
+def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None:
+    assert not [one for one in evidence(report) if one.title == "What m does"]
+    (first,) = report.runs
+    slower = {**first, "name": "another", "m": 2, "L2": 77.0, "top_speed": 0.125, "rest": None}
+    (section,) = (
+        one for one in evidence(replace(report, runs=(slower, first))) if one.title == "What m does"
+    )
+    table, *_ = section.blocks
+    assert isinstance(table, Table)
+    assert [row[0] for row in table.rows] == ["1", "2"]
+    assert table.rows[0][1] == f"{first['L2']:.2f}"
+    assert table.rows[0][4] == f"{first['top_speed']:.2f}"
+    assert table.rows[1][1::4] == ("77.00", "anywhere")
+    twice = replace(report, runs=(slower, {**first, "m": 2}))
+    assert not [one for one in evidence(twice) if one.title == "What m does"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -74,7 +75,7 @@ class Tuning(Answer):
         if self.task is not None and len(self.effects) > 1:
             from lyapcheck.answers.tune.effect import effect_section
 
-            blocks.append(effect_section(self.effects, self.task))
+            blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
         return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
 
     def data(self) -> dict[str, Any]:

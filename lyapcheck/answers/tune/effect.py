@@ -63,8 +63,8 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
     return tuple(result)
 
 
-def effect_section(result: Sequence[Effect], task: Task) -> Section:
-    """The runs beside each other, and what they show in one sentence."""
+def effect_section(result: Sequence[Effect], target: Sequence[float], time: float) -> Section:
+    """Runs to a target, degrees, in a time, s, beside each other, and what they show in one sentence."""
     rows = tuple(
         (
             str(one.m),
@@ -76,10 +76,10 @@ def effect_section(result: Sequence[Effect], task: Task) -> Section:
         )
         for one in result
     )
-    goal = ", ".join(f"{math.degrees(x):g}" for x in task.q_d)
+    goal = ", ".join(f"{x:g}" for x in target)
     first, last = result[0], result[-1]
     says = (
-        f"In {task.T:g} s from rest to ({goal})°, without dry friction, from m = {first.m} to m = {last.m}: "
+        f"In {time:g} s from rest to ({goal})°, without dry friction, from m = {first.m} to m = {last.m}: "
         f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°, the error at the end from {first.final:.1f}° to "
         f"{last.final:.1f}°, the top speed from {first.speed:.1f} to {last.speed:.1f} rad/s. For m ≥ 2 h is "
         "flat at the goal."
