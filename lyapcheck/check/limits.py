@@ -8,6 +8,8 @@ MAX_BYTES = 50_000_000
 """Of a file."""
 MAX_NESTING = 400
 """Levels of objects and lists; an expression may have 300 of them."""
+MAX_ARM = 9
+"""Joints of an arm."""
 SHOWN = 300
 """Characters of a statement, or of its author's words, unless the whole is asked for."""
 

@@ -16,6 +16,7 @@ from math import prod
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
@@ -25,7 +26,6 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
-MAX_ARM = 9
 MAX_POWER = 40
 MAX_PARAMETERS = 16
 MAX_HARMONICS = 2_000_000

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
-from lyapcheck.check.kinds.inertia import MAX_ARM
+from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import require
