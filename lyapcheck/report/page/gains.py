@@ -97,7 +97,7 @@ def _cell(report: Report, cell: Data, largest: float) -> Markup:
         eps0 = element("a", eps0, href=map_path(cell))
     settling = "not settled" if cell["settling"] is None else f"{cell['settling']:.2f} s"
     share = "" if cell["share"] is None else f", {100 * cell['share']:.0f} %"
-    shade = round(60 * float(cell["eps0"] or 0) / largest)
+    shade = round(45 * float(cell["eps0"] or 0) / largest)
     style = f"background:color-mix(in srgb,var(--good) {shade}%,var(--paper))"
     return element(
         "td",
