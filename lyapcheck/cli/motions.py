@@ -36,6 +36,7 @@ class Output:
     csv: str | None
     plot: Path | None
     form: str
+    certificates: Path | None = None
 
     def write(self, answer: Simulation[Any], samples: Callable[[], str]) -> Exit:
         """Samples to their file or to standard output, else the answer there; what went wrong to the other.
@@ -101,13 +102,16 @@ def _telling(advance: Advance, done: int, cases: int, name: str) -> Advance:
 
 def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
     """The set-point task, by the equations or on the bench."""
+    from lyapcheck.answers.simulate.certificates import breach_certificate
     from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.answers.simulate.samples import runs_csv
+    from lyapcheck.files.names import file_stem
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
     from lyapcheck.simulate.trial import experiment
 
     runs: list[Run] = []
+    broken: dict[str, str] = {}
     mover = experiment if bench else partial(simulate, stop=stop)
     for done, (gain_set, arm) in enumerate(job.cases):
         tell = _telling(job.advance, done, len(job.cases), gain_set.name)
@@ -119,9 +123,16 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
             if not isinstance(failure, PromiseBroken):
                 job.fail(gain_set, failure.reason)
             runs += [] if failure.partial is None else [failure.partial]
+        if job.output.certificates is not None and not bench and runs:
+            certificate = breach_certificate(runs[-1], gain_set, arm)
+            if certificate is not None and runs[-1].name == gain_set.name:
+                broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate.text()
     if job.output.plot is not None:
         for number, run in enumerate(runs, start=1):
             plot_run(run, number, job.output.plot)
+    if job.output.certificates is not None:
+        for name, text in broken.items():
+            write_whole(job.output.certificates / name, text)
     answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file)
     return job.output.write(answer, lambda: runs_csv(runs))
 

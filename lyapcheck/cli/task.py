@@ -48,6 +48,9 @@ _CLASHES = (
     ("--runs", "--vary"),
     ("--reference", "--vary"),
     ("--experiment", "--keep-going"),
+    ("--experiment", "--certificates"),
+    ("--reference", "--certificates"),
+    ("--runs", "--certificates"),
 )
 
 

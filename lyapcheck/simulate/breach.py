@@ -48,7 +48,11 @@ class Breach:
         state = [f"q = {_row(self.at.q)} rad", f"e = {_row(self.at.e)} rad", f"w = {_row(self.at.w)} rad/s"]
         if self.at.speed:
             state.append(f"q̇_d = {_row(self.at.speed)} rad/s")
-        grade = "confirmed in balls" if self.confirmed else "seen in floating point"
+        grade = (
+            "a simulated state; there it is confirmed in balls"
+            if self.confirmed
+            else "simulated, in floating point"
+        )
         result = f"{self.value:.6g} {self.unit}, at most {self.limit:.6g} was promised"
         return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
+from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.cli.main import main
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -185,6 +186,16 @@ def test_random_starts_in_words_and_rows(lyapcheck):
     rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()
     assert len(rows) == 1 + 3 * 12
     assert rows[1].startswith("tau_m1,1,yes,")
+
+
+def test_states_at_which_v_rises_have_certificates(lyapcheck, tmp_path):
+    lyapcheck(TABLE2, "--eps0", 50, "--certificates", tmp_path)
+    certificates = sorted(tmp_path.iterdir())
+    assert [path.name for path in certificates] == [f"tau_m{m}.breach.json" for m in (1, 2, 3)]
+    for path in certificates:
+        certificate = read(parse(path.read_text(encoding="utf-8")))
+        assert judge(certificate).verdict == "refuted"
+        assert certificate.statement.eps0 == 50
 
 
 def test_a_run_of_a_batch_is_the_run_by_itself():

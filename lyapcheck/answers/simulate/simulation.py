@@ -20,8 +20,10 @@ if TYPE_CHECKING:
 PROMISES, FINISHED = "promises", "finished"
 MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
 NUMERIC = (
-    "Runs are integrated in floating point: what they show are observations, never proofs; only a broken "
-    "promise that balls confirm is proved, at its state."
+    "Runs are integrated in floating point: what they show is simulated, not proved. Where balls confirm a "
+    "broken promise, this much is shown: at exactly that state V rises, or the torque (6) is beyond its "
+    "limit; not that a motion comes there. --certificates writes the states at which V rises; for torques "
+    "there is no certificate."
 )
 BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
 

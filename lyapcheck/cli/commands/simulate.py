@@ -9,7 +9,8 @@ from lyapcheck.cli.arm import robot_name
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.eps0 import Eps0, eps0_of
 from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
-from lyapcheck.cli.options import add_format, add_gain_file, add_robot, add_vary, varies
+from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
+from lyapcheck.cli.output import open_folder
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
 
@@ -51,6 +52,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--csv", metavar="FILE", help=about)
     about = "Draw figures into this directory: SVG, PNG, their data as CSV."
     parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
+    add_certificates(parser, "Write a certificate there of each state at which V rises")
     add_format(parser)
 
 
@@ -72,6 +74,7 @@ def run(
     keep_going: bool,
     csv: str | None,
     plot: Path | None,
+    certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
     """Simulate the closed loop of every gain set in FILE and report its performance.
@@ -88,6 +91,7 @@ def run(
       lyapcheck simulate gains.toml --target 30,-45,60 --csv run.csv
       lyapcheck simulate gains.toml --runs 1000 --spread 90
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
+      lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
@@ -110,6 +114,7 @@ def run(
         "--vary": vary,
         "--keep-going": keep_going or None,
         "--plot": plot,
+        "--certificates": certificates,
     }
     wrong.reading(check_options, [name for name, value in given.items() if value is not None])
     wrong.reading(check_places, csv, plot)
@@ -125,8 +130,9 @@ def run(
     wrong.tell()
     name = robot_name(robot, [gain_file])
     arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("simulate") as advance:
-        job = Job(gain_file, model, Output(csv, plot, format), advance, varied=arms)
+        job = Job(gain_file, model, Output(csv, plot, format, folder), advance, varied=arms)
         stop = not keep_going
         if path is not None and request is not None:
             code = follow(job, path, request, stop=stop)
