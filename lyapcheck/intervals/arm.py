@@ -51,9 +51,9 @@ class ArmBox:
     def __init__(self, arm: ArmIntervals, q: list[Interval], parameters: Sequence[Interval] = ()) -> None:
         self.arm = arm
         self._parameters = parameters
-        self._wide = _columns(arm, q)
+        self.wide = _columns(arm, q)
         centre = [Interval(x.mid, x.mid) for x in q]
-        self._centre = _columns(arm, centre)
+        self.centre = _columns(arm, centre)
         self._offset = [x - c for x, c in zip(q, centre, strict=True)]
 
     def mass(self) -> list[list[Interval | float]]:
@@ -69,20 +69,21 @@ class ArmBox:
     def _enclosed(self, entry: Uncertain) -> Interval:
         total: Interval | None = None
         for powers, terms in entry.items():
-            part = self._part(terms)
+            part = self.part(terms)
             for parameter, power in zip(self._parameters, powers, strict=True):
                 for _ in range(power):
                     part = part * parameter
             total = part if total is None else total + part
         return Interval.exact(0.0) if total is None else total
 
-    def _part(self, terms: Harmonics) -> Interval:
-        natural = _combine(terms, self._wide)
-        mean = _combine(terms, self._centre)
+    def part(self, terms: Harmonics) -> Interval:
+        """One power of the parameters, without these."""
+        natural = combine(terms, self.wide)
+        mean = combine(terms, self.centre)
         for i in self.arm.angles:
             slope = derivative(terms, i)
             if slope:
-                mean = mean + _combine(slope, self._wide) * self._offset[i]
+                mean = mean + combine(slope, self.wide) * self._offset[i]
         return natural.meet(mean)
 
 
@@ -113,7 +114,7 @@ def _angle(k: Harmonic, q: list[Interval]) -> Interval:
     return sum(parts[1:], parts[0])
 
 
-def _combine(terms: Mapping[Harmonic, Gaussian], columns: Columns) -> Interval:
+def combine(terms: Mapping[Harmonic, Gaussian], columns: Columns) -> Interval:
     """Σ a cos + b sin, with exact coefficients enclosed."""
     total: Interval | None = None
     for k, (a, b) in terms.items():

@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.decreasing import (
@@ -21,7 +22,7 @@ from lyapcheck.check.kinds.decreasing import (
     closed_loop_of,
 )
 from lyapcheck.check.loop import ClosedLoop
-from lyapcheck.check.loop.boxes import Side
+from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
 from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
@@ -29,6 +30,9 @@ from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.harmonics import largest
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
+from lyapcheck.search.cover import cover
+from lyapcheck.search.schur import Problem
+from lyapcheck.search.sides import Splitter
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""
@@ -38,6 +42,7 @@ SLACK = 2.0**-20
 """How much wider than the certificate's the box is, so that it reaches far enough after outward rounding."""
 PIECES = range(2, 7)
 """The members of ``formal/Turns.v``."""
+MOST_BOXES = 1_000_000
 LITERAL = 4000
 """Longer texts overflow the stack of Coq's parser."""
 
@@ -57,6 +62,30 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
         rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
         raise NotPrinted(f"a proof by {rule}")
     return _script(loop, proof.rate.tree)
+
+
+def _finer(loop: ClosedLoop, tree: str) -> str:
+    """A tree whose boxes ranges alone show, as Coq's do: leaves that take slopes are cut further.
+
+    It is only proposed; a text that is no tree, or one with too many boxes, is left as it is.
+    """
+    known: dict[bytes, int] = {}
+    try:
+        for box, side in nodes(loop.start, tree):
+            if side is not None:
+                known[np.array(box).T.tobytes()] = side
+    except BrokenTree:
+        return tree
+    problem = Problem(loop)
+    splitter = Splitter.of(problem)
+
+    def sides(boxes: Array) -> NDArray[np.intp]:
+        result = splitter.sides(boxes)
+        for k, box in enumerate(boxes):
+            result[k] = known.get(box.tobytes(), result[k])
+        return result
+
+    return cover(np.array(loop.start).T[None], problem.proved, sides, MOST_BOXES).tree or tree
 
 
 def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
@@ -94,7 +123,7 @@ def _script(loop: ClosedLoop, tree: str | None) -> str:
         "hI": _range("h", loop.m),
         "dhI": _range("dh", loop.m),
         "more": f"{MORE_HALVINGS}%nat",
-        "tree": _text(tree),
+        "tree": _text(_finer(loop, tree)),
     }
     return _applied("certified_by_boxes", parts)
 

@@ -19,10 +19,10 @@ import numpy as np
 from lyapcheck._types import Progress
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.search import shared
+from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Outcome, cover
 from lyapcheck.search.schur import Problem
 from lyapcheck.search.shared import share_of
-from lyapcheck.search.sides import Splitter
 
 
 def certify(
@@ -45,6 +45,5 @@ def certify(
     if certifies(loop.tail, loop.eps0):
         return Outcome(True, 0, tree=".")
     start = np.array(loop.start).T[None]
-    sides = Splitter.of(problem).sides
-    share = share_of(loop)
-    return cover(start, problem.proved, sides, max_boxes, on_progress, deadline, share, shared.WORTH)
+    prove, sides = judge_of(problem)
+    return cover(start, prove, sides, max_boxes, on_progress, deadline, share_of(loop), shared.WORTH)

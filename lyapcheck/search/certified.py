@@ -11,6 +11,7 @@ from time import monotonic
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.centred import MOST_CENTRED
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.link_bounds import linked_epsilon
@@ -19,7 +20,7 @@ from lyapcheck.search.schur import Problem
 from lyapcheck.search.shared import boxes_shared
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
-"""Shares of the falsified ε₀ that are tried first, one after the other."""
+"""Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""
 SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 """Those that are tried one after the other where not even the first of these is proved."""
 
@@ -81,8 +82,10 @@ def certified_epsilon(
     began, seconds = monotonic(), math.inf if seconds is None else seconds
     with boxes_shared(jobs):
         # no more than half of everything for what may be too much
-        result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
-        result += search.climb(HOPED[1:] if result else shares, max_boxes, began + seconds)
+        first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
+        result = search.climb([first], max_boxes // 2, began + seconds / 2)
+        otherwise = shares if more else (*shares, HOPED[0])
+        result += search.climb(more if result else otherwise, max_boxes, began + seconds)
     while result:
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")

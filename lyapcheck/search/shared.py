@@ -20,9 +20,9 @@ from time import monotonic
 from lyapcheck._types import Array
 from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.proof import main_unnamed
-from lyapcheck.search.cover import Branches, Chooser, Share, explored
+from lyapcheck.search.centred import judge_of
+from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored
 from lyapcheck.search.schur import Problem
-from lyapcheck.search.sides import Splitter
 
 WORTH = 2_048
 """Boxes of a level from which the subtrees below them pay for their way there and back."""
@@ -87,12 +87,11 @@ def share_of(loop: ClosedLoop) -> Share | None:
 
 def branches_of(loop: ClosedLoop, boxes: Array, max_boxes: int, seconds: float) -> Branches:
     """What is found below some boxes of a closed loop, in another process."""
-    problem, choose = _problem(loop)
+    prove, choose = _judge(loop)
     deadline = math.inf if math.isinf(seconds) else monotonic() + seconds
-    return explored(boxes, problem.proved, choose, max_boxes, deadline, few=False)
+    return explored(boxes, prove, choose, max_boxes, deadline, few=False)
 
 
 @lru_cache(maxsize=2)
-def _problem(loop: ClosedLoop) -> tuple[Problem, Chooser]:
-    problem = Problem(loop)
-    return problem, Splitter.of(problem).sides
+def _judge(loop: ClosedLoop) -> tuple[Prover, Chooser]:
+    return judge_of(Problem(loop))

@@ -30,7 +30,7 @@ Document = dict[str, Any]
 def pair() -> tuple[Certificate, Certificate]:
     """The certificates for and against, of one gain set on the two-joint arm."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    made = certificates(epsilon(gains, load("reyes-kelly2"), starts=6, max_boxes=4_000))
+    made = certificates(epsilon(gains, load("reyes-kelly2"), starts=6, max_boxes=8_000))
     return made["tau_m2.certified.json"], made["tau_m2.falsified.json"]
 
 

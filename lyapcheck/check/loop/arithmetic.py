@@ -14,18 +14,27 @@ Value = Any
 
 
 @dataclass(frozen=True)
-class Arithmetic:
-    """Enclosures under +, −, × and ÷, with what those operators cannot say.
+class Ring:
+    """Values under +, − and ×.
 
     Args:
-        value: the enclosure of what a ball holds.
-        square: x², never below 0.
-        meet: what lies in two enclosures of the same quantity.
-        positive: whether all of an enclosure is proved to be above 0.
+        value: the one for a ball.
+        square: x², never below 0 where it encloses.
     """
 
     value: Callable[[arb], Value]
     square: Callable[[Value], Value]
+
+
+@dataclass(frozen=True)
+class Arithmetic(Ring):
+    """Enclosures under +, −, × and ÷, with what those operators cannot say.
+
+    Args:
+        meet: what lies in two enclosures of the same quantity.
+        positive: whether all of an enclosure is proved to be above 0.
+    """
+
     meet: Callable[[Value, Value], Value]
     positive: Callable[[Value], bool]
 

@@ -22,15 +22,24 @@ def leaves(start: Box, tree: str) -> Iterator[Box]:
     Raises:
         BrokenTree: a character is neither a dot nor a side of the box, or there are too few or too many.
     """
+    return (box for box, side in nodes(start, tree) if side is None)
+
+
+def nodes(start: Box, tree: str) -> Iterator[tuple[Box, int | None]]:
+    """Every box of a tree with the side that is cut, ``None`` at a dot.
+
+    Raises:
+        BrokenTree: as `leaves`.
+    """
     stack = [start]
     for mark in tree:
         if not stack:
             raise BrokenTree("the tree ends before its text does")
         box = stack.pop()
-        if mark == ".":
-            yield box
-        else:
-            left, right = halves(box, _side(mark, len(box)))
+        side = None if mark == "." else _side(mark, len(box))
+        yield box, side
+        if side is not None:
+            left, right = halves(box, side)
             stack += (right, left)
     if stack:
         raise BrokenTree("the text ends before its tree does")

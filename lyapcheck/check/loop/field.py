@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Ring
 from lyapcheck.check.loop.boxes import Box, Side, halves
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -136,9 +136,13 @@ class Polynomial:
         of: Arithmetic,
     ) -> Value:
         """The values over a box of angles and parameters."""
+        return self.put_together(lambda part: part.over(wide, centre, offset, of), parameters, of)
+
+    def put_together(self, value_of: Callable[[Part], Value], parameters: Sequence[Value], of: Ring) -> Value:
+        """The values from those of each part."""
         total = of.value(arb(0))
         for powers, part in self.parts:
-            value = part.over(wide, centre, offset, of)
+            value = value_of(part)
             for parameter, power in zip(parameters, powers, strict=True):
                 for _ in range(power):
                     value = value * parameter
@@ -156,12 +160,12 @@ class Part:
 
     def over(self, wide: Values, centre: Values, offset: list[Value], of: Arithmetic) -> Value:
         """The values over a box of angles."""
-        natural = _combined(self.terms, wide, of)
+        natural = combined(self.terms, wide, of)
         if not self.slopes:
             return natural
-        mean = _combined(self.terms, centre, of)
+        mean = combined(self.terms, centre, of)
         for i, slope in self.slopes:
-            mean = mean + _combined(slope, wide, of) * offset[i]
+            mean = mean + combined(slope, wide, of) * offset[i]
         return of.meet(natural, mean)
 
 
@@ -172,7 +176,8 @@ def _lifted(terms: Harmonics) -> Lifted:
     return [(k, to_arb(a), to_arb(b)) for k, (a, b) in terms.items()]
 
 
-def _combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
+def combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
+    """Σ a cos + b sin over the harmonics."""
     total = of.value(arb(0))
     for k, a, b in terms:
         if k in values:

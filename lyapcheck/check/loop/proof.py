@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
+from lyapcheck.check.loop.centred import CentredEvaluator
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.loop.schur import Evaluator
@@ -92,7 +93,7 @@ def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
     if certifies(loop.tail, loop.eps0):
         return all(True for _ in boxes)  # the tree is read to its end, though no box need be judged
     with precision(BITS):
-        evaluators = Evaluator(loop, BALLS), Evaluator(loop, SPANS)
+        evaluators = Evaluator(loop, BALLS), CentredEvaluator(loop), Evaluator(loop, SPANS)
         # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
         mine = (box for k, box in enumerate(boxes) if k // BLOCK % parts == part)
         return all(_shown(evaluators, box) for box in mine)
@@ -106,8 +107,8 @@ def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
     stack = [(box, 0)]
     while stack:
         part, depth = stack.pop()
-        # spans cost several times what balls do: halves are tried in balls first
-        if any(evaluator.proves(part) for evaluator in evaluators[: 1 + (depth > 0)]):
+        # each costs several times what the one before does: halves are tried without spans first
+        if any(evaluator.proves(part) for evaluator in evaluators[: 2 + (depth > 0)]):
             continue
         if depth == MORE_HALVINGS:
             return False

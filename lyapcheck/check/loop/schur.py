@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from lyapcheck.check.loop.arithmetic import Arithmetic
+from lyapcheck.check.loop.arithmetic import Arithmetic, Ring
 from lyapcheck.check.loop.boxes import Box, Side
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import Field, ball
@@ -24,7 +24,7 @@ _KEPT = 1 << 16
 class Errors(NamedTuple):
     """What P needs of a box of errors alone: r², ε, ε/(4 k̃_i), Λh, Λh' and êᵀ/(1+r)."""
 
-    r_squared: arb
+    r_squared: Value
     eps: Value
     weight: list[Value]
     h: list[Value]
@@ -49,7 +49,6 @@ class Evaluator:
         self.exact = [of.value(to_arb(low)) for low, _ in ranges]
         self.fixed = [None if low < high else of.value(to_arb(low)) for low, high in ranges]
         self.compliance = [of.value(1 / (4 * to_arb(k))) for k in loop.stiffness]
-        self.half = of.value(arb(1) / 2)
         self.coupling = [of.value(to_arb(scale)) for scale in loop.coupling]
         entries = [loop.mass[i][j] for i in range(loop.n) for j in range(i + 1)]
         self.field = Field([*entries, *loop.symbols.values()], loop.n, (), loop.angles)
@@ -70,24 +69,9 @@ class Evaluator:
 
     def schur(self, sides: Box, errors: Box, uncertain: Box) -> Rows:
         """P, the entries on and below the diagonal."""
-        n, filled = self.loop.n, self._filled(uncertain)
-        B = filled[len(filled) - n :]
-        known = self.errors(errors)
-        eps, weight = known.eps, known.weight
-        S = self._coupling(*self._arm(sides, uncertain, filled), known)
-        X = [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in range(n)] for i in range(n)]
-        return [
-            [*(self._beside(i, j, S, X, eps, weight) for j in range(i)), self._diagonal(i, X, weight)]
-            for i in range(n)
-        ]
-
-    def _beside(self, i: int, j: int, S: Rows, X: Rows, eps: Value, weight: list[Value]) -> Value:
-        slow = sum((x[i] * x[j] * c for x, c in zip(X, weight, strict=True)), self.zero)
-        return eps * (S[i][j] + S[j][i]) * self.half - slow
-
-    def _diagonal(self, i: int, X: Rows, weight: list[Value]) -> Value:
-        slow = (self.of.square(x[i]) * c for x, c in zip(X, weight, strict=True))
-        return X[i][i] - sum(slow, self.zero)
+        filled, known = self._filled(uncertain), self.errors(errors)
+        B = filled[len(filled) - self.loop.n :]
+        return form(*self._arm(sides, uncertain, filled), known, B, self.of)
 
     def _filled(self, uncertain: Box) -> list[Value]:
         """All parameters and then B: sides of the box where they are uncertain."""
@@ -111,17 +95,6 @@ class Evaluator:
             [self.of.value(unit) * shrink for unit in unit_vector(errors, self.square)],
         )
 
-    def _coupling(self, M: Rows, symbols: Symbols, errors: Errors) -> Rows:
-        """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
-        n, h, dh, along = self.loop.n, errors.h, errors.dh, errors.along
-        mh = [sum((M[i][j] * h[j] for j in range(n)), self.zero) for i in range(n)]
-        rows = [[mh[i] * along[j] - M[i][j] * dh[j] for j in range(n)] for i in range(n)]
-        for (i, j, k), symbol in symbols.items():
-            rows[i][j] = rows[i][j] + symbol * h[k]
-            if k != j:
-                rows[i][k] = rows[i][k] + symbol * h[j]
-        return rows
-
     def _coupled(self, form: Callable[[Side], Value], errors: Box) -> list[Value]:
         """Λh or Λh'."""
         values = [form(side) for side in errors]
@@ -140,10 +113,42 @@ class Evaluator:
         return known
 
     def _new_arm(self, sides: Box, parameters: list[Value]) -> tuple[Rows, Symbols]:
-        result, n = self.field.at(sides, parameters, self.of), self.loop.n
+        return self._entries(self.field.at(sides, parameters, self.of))
+
+    def _entries(self, polynomials: list[Value]) -> tuple[Rows, Symbols]:
+        """M and the symbols from all polynomials of the arm, in their order."""
+        result, n = list(polynomials), self.loop.n
         below = {(i, j): result.pop(0) for i in range(n) for j in range(i + 1)}
         M = [[below[max(i, j), min(i, j)] for j in range(n)] for i in range(n)]
         return M, dict(zip(self.loop.symbols, result, strict=True))
+
+
+def form(M: Rows, symbols: Symbols, errors: Errors, B: list[Value], of: Ring) -> Rows:
+    """P, the entries on and below the diagonal, in any arithmetic."""
+    joints, zero, half = range(len(B)), of.value(arb(0)), of.value(arb(1) / 2)
+    eps, S = errors.eps, _coupling(M, symbols, errors, zero)
+    X = [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in joints] for i in joints]
+
+    def beside(i: int, j: int) -> Value:
+        slow = sum((x[i] * x[j] * c for x, c in zip(X, errors.weight, strict=True)), zero)
+        return eps * (S[i][j] + S[j][i]) * half - slow
+
+    def diagonal(i: int) -> Value:
+        return X[i][i] - sum((of.square(x[i]) * c for x, c in zip(X, errors.weight, strict=True)), zero)
+
+    return [[*(beside(i, j) for j in range(i)), diagonal(i)] for i in joints]
+
+
+def _coupling(M: Rows, symbols: Symbols, errors: Errors, zero: Value) -> Rows:
+    """S = C(q,Λh) + (M Λh) êᵀ/(1+r) − M ΛH'."""
+    joints, h, dh, along = range(len(M)), errors.h, errors.dh, errors.along
+    mh = [sum((M[i][j] * h[j] for j in joints), zero) for i in joints]
+    rows = [[mh[i] * along[j] - M[i][j] * dh[j] for j in joints] for i in joints]
+    for (i, j, k), symbol in symbols.items():
+        rows[i][j] = rows[i][j] + symbol * h[k]
+        if k != j:
+            rows[i][k] = rows[i][k] + symbol * h[j]
+    return rows
 
 
 def square(side: Side) -> arb:

@@ -16,7 +16,7 @@ from functools import lru_cache
 from flint import arb, ctx
 
 from lyapcheck.check.numbers.constants import dh_value, gamma_value, position
-from lyapcheck.check.numbers.critical import peak_of_h, peak_of_secant, peaks_of_dh, power
+from lyapcheck.check.numbers.critical import peak_of_h, peak_of_secant, peaks_of_d2h, peaks_of_dh, power
 from lyapcheck.check.numbers.enclosure import ball_of
 
 Extremes = tuple[tuple[arb, arb], ...]
@@ -47,6 +47,16 @@ def h(m: int, x: arb) -> arb:
 def dh(m: int, x: arb) -> arb:
     """h_m'(x) = (2m-1 + 2m s² - s^(2m)) s^(2m-2) / (1 + s^(2m))² with s = sinh x."""
     return even_range(lambda a: _dh(m, a), _extremes_of_dh(m, ctx.prec), x)
+
+
+def d2h(m: int, x: arb) -> arb:
+    """h_m''(x) = 2 s c s^(2m-4) P(s²) / (1 + s^(2m))³, P that of `critical.peaks_of_dh`."""
+    return odd_range(lambda a: _d2h(m, a), _extremes_of_d2h(m, ctx.prec), x)
+
+
+def bends(m: int) -> tuple[arb, ...]:
+    """The x > 0 at which h_m'' may stop being monotone; between −1 and 1 times the first it is."""
+    return tuple(where for where, _ in _extremes_of_d2h(m, ctx.prec))
 
 
 def potential(m: int, x: arb) -> arb:
@@ -114,6 +124,24 @@ def _dh(m: int, a: arb) -> arb:
     return dh_value(m, a.sinh() ** 2)
 
 
+def _d2h(m: int, a: arb) -> arb:
+    if m == 1:
+        return -2 * _h(1, a) * _dh(1, a)
+    k = 2 * m - 1
+    if a > 1:
+        coth, r = _far(a)
+        v = r * r
+        q = power(v, m - 1)
+        p = q * v
+        curvature = 1 - 2 * m * m * q * (1 - p) - p * (k * (m + 2) - k * (m - 1) * p)
+        return 2 * coth * v * curvature / (1 + p) ** 3
+    s, c = a.sinh_cosh()
+    y = s * s
+    p = power(y, m)
+    curvature = k * (m - 1) + 2 * m * m * y * (1 - p) - p * (k * (m + 2) - p)
+    return 2 * s * c * power(y, m - 2) * curvature / (1 + p) ** 3
+
+
 def _potential(m: int, a: arb) -> arb:
     if a == 0:
         return arb(0)
@@ -148,6 +176,11 @@ def _extremes_of_dh(m: int, bits: int) -> Extremes:
     if m == 1:
         return ()
     return tuple((position(u), dh_value(m, u)) for u in peaks_of_dh(m))
+
+
+@lru_cache(maxsize=256)
+def _extremes_of_d2h(m: int, bits: int) -> Extremes:
+    return tuple((x, _d2h(m, x)) for x in map(position, peaks_of_d2h(m)))
 
 
 @lru_cache(maxsize=256)

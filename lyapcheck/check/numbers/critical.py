@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import asinh, cosh, log, sinh, sqrt
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpz_poly
 
 Equation = Callable[[arb], tuple[arb, arb]]
 """The value and the derivative of a function at a point."""
@@ -70,6 +70,23 @@ def _curvature_guess(m: int, largest: bool) -> float:
         p_large = (b + sqrt(b * b - 4 * a)) / 2
         u = (p_large if largest else a / p_large) ** (1 / m)
     return u
+
+
+def peaks_of_d2h(m: int) -> tuple[arb, ...]:
+    """The u = sinh²x > 0 at which h_m'' may have an extreme, and perhaps others.
+
+    With P of `peaks_of_dh` and p = u^m the third derivative has for x > 0 the sign of the polynomial
+
+        (1 + p)((1 + 2u) P + 2(1 + u)((m-2) P + u P')) - 6m (1 + u) p P,
+
+    all of whose roots flint isolates; those that are not shown to be off the positive axis are handed back.
+    """
+    u, k = fmpz_poly([0, 1]), 2 * m - 1
+    p, one = u**m, 1 + u
+    P = k * (m - 1) + 2 * m * m * u * (1 - p) - k * (m + 2) * p + p * p
+    rise = (1 + p) * ((1 + 2 * u) * P + 2 * one * ((m - 2) * P + u * P.derivative())) - 6 * m * one * p * P
+    roots = (root for root, _ in rise.complex_roots())
+    return tuple(sorted((x.real for x in roots if x.imag.contains(0) and not x.real <= 0), key=float))
 
 
 def peak_of_secant(m: int) -> arb:

@@ -37,6 +37,8 @@ class Member:
         gamma: at least sup h.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
+        d2h: contains h'' over a ball; without it h' has no slopes, and boxes near a worst state are smaller.
+        bends: the x > 0 at which h'' may stop being monotone; from −x to x it does not for the first one.
     """
 
     h: Callable[[arb], arb]
@@ -46,6 +48,8 @@ class Member:
     gamma: Fraction
     rho: Fraction
     L: Fraction
+    d2h: Callable[[arb], arb] | None = None
+    bends: Callable[[], tuple[arb, ...]] = tuple
 
     @property
     def functions(self) -> Functions:

@@ -14,7 +14,9 @@ from lyapcheck.check.numbers.members import Member, require_single
 def create(m: int | None) -> Member:
     """h = arctan x; γ = π/2 in the limit, ρ = L = 1 at 0."""
     require_single("arctan", m)
-    return Member(h, dh, potential, secant, gamma=half_pi().upper, rho=Fraction(1), L=Fraction(1))
+    return Member(
+        h, dh, potential, secant, gamma=half_pi().upper, rho=Fraction(1), L=Fraction(1), d2h=d2h, bends=bends
+    )
 
 
 def h(x: arb) -> arb:
@@ -25,6 +27,21 @@ def h(x: arb) -> arb:
 def dh(x: arb) -> arb:
     """1/(1 + x²), falling away from 0."""
     return balls.even_range(lambda a: 1 / (1 + a * a), (), x)
+
+
+def d2h(x: arb) -> arb:
+    """−2x/(1 + x²)²."""
+    (place,) = bends()
+    return balls.odd_range(_d2h, ((place, _d2h(place)),), x)
+
+
+def bends() -> tuple[arb, ...]:
+    """Where h'' is least."""
+    return (1 / arb(3).sqrt(),)
+
+
+def _d2h(a: arb) -> arb:
+    return -2 * a / (1 + a * a) ** 2
 
 
 def potential(x: arb) -> arb:

@@ -23,4 +23,4 @@ def create(m: int | None) -> Member:
     result = hyperbolic_constants(m)
     bounds = result.gamma.upper, result.rho.upper, result.L.upper
     h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
-    return Member(h, dh, potential, secant, *bounds)
+    return Member(h, dh, potential, secant, *bounds, partial(balls.d2h, m), partial(balls.bends, m))
