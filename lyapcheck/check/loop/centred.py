@@ -30,7 +30,6 @@ from lyapcheck.check.loop.schur import (
     Rows,
     Symbols,
     inverse_one_plus_root,
-    square,
     unit_vector,
 )
 from lyapcheck.check.numbers.members import Member
@@ -65,16 +64,12 @@ class Centred:
 
 def triangle(middle: Sequence[Sequence[Any]]) -> list[list[Any]]:
     """L⁻¹ of L D Lᵀ, for the entries on and below the diagonal in doubles; without its ones and zeros."""
-    n = len(middle)
     rows = [list(row) for row in middle]
-    inverse: list[list[Any]] = [[] for _ in range(n)]
-    for k in range(n):
-        for i in range(k + 1, n):
+    inverse: list[list[Any]] = [[] for _ in middle]
+    for k, row in enumerate(inverse):
+        for i in range(k + 1, len(rows)):
             factor = rows[i][k] / rows[k][k]
-            inverse[i] = [
-                (inverse[i][j] if j < len(inverse[i]) else 0.0) - factor * x
-                for j, x in enumerate([*inverse[k], 1.0])
-            ]
+            inverse[i] = [x - factor * y for x, y in zip([*inverse[i], 0.0], [*row, 1.0], strict=True)]
             for j in range(k + 1, i + 1):
                 rows[i][j] = rows[i][j] - factor * rows[j][k]
     return inverse
@@ -134,39 +129,31 @@ class CentredEvaluator(Evaluator):
 
     def _filled(self, uncertain: Box) -> list[Centred]:
         sides = enumerate(uncertain, start=len(self.loop.start) - len(uncertain))
-        one = arb(1)
-        free = (self._placed(_middle(side), ball(side), [(place, one)]) for place, side in sides)
+        free = (self._placed(_middle(side), ball(side), [(place, arb(1))]) for place, side in sides)
         return [next(free) if value is None else value for value in self.fixed]
 
     def _errors(self, errors: Box) -> Errors:
-        first, squares = len(self.loop.angles), [square(side) for side in errors]
-        middle = [_middle(side) for side in errors]
-        r_squared, at = sum(squares, arb(0)), sum((x * x for x in middle), arb(0)).sqrt()
+        first, r_squared = len(self.loop.angles), sum(map(self.square, errors), arb(0))
         known = [self.of_error(side) for side in errors]
         scales = self.coupling or [self.of.value(arb(1))] * self.loop.n
         h, dh = (
-            [
-                self._placed(x, y, [(first + j, s)]) * scale
-                for j, ((x, y, s), scale) in enumerate(zip(part, scales, strict=True))
-            ]
+            [self._placed(x, y, [(first + j, s)]) * scales[j] for j, (x, y, s) in enumerate(part)]
             for part in zip(*known, strict=True)
         )
-        if self.loop.within:
-            shrink, along = self.zero, [self.zero] * self.loop.n
-        else:
-            shrink, along = self._shrink(errors, r_squared, at, middle)
-        eps = self.eps0 if self.loop.within else self.eps0 * shrink
+        eps, along = self.eps0, [self.zero] * self.loop.n
+        if not self.loop.within:
+            shrink, along = self._shrink(errors, r_squared)
+            eps = eps * shrink
         return Errors(r_squared, eps, [eps * c for c in self.compliance], h, dh, along)
 
-    def _shrink(
-        self, errors: Box, r_squared: arb, at: arb, middle: Sequence[arb]
-    ) -> tuple[Centred, list[Centred]]:
+    def _shrink(self, errors: Box, r_squared: arb) -> tuple[Centred, list[Centred]]:
         """1/(1 + r) and êᵀ/(1 + r), for r > 0."""
+        middle = [_middle(side) for side in errors]
+        at = sum((x * x for x in middle), arb(0)).sqrt()
         first, joints = len(self.loop.angles), range(self.loop.n)
         unit, near = unit_vector(errors, self.square), inverse_one_plus_root(r_squared)
         r = r_squared.lower().sqrt().union(r_squared.upper().sqrt())
-        falls = [(first + k, -unit[k] * near**2) for k in joints]
-        shrink = self._placed(1 / (1 + at), near, falls)
+        shrink = self._placed(1 / (1 + at), near, [(first + k, -unit[k] * near**2) for k in joints])
         turns = [[(first + k, (int(j == k) - unit[j] * unit[k]) / r) for k in joints] for j in joints]
         return shrink, [self._placed(middle[j] / at, unit[j], turns[j]) * shrink for j in joints]
 
@@ -178,11 +165,9 @@ class CentredEvaluator(Evaluator):
         offset = [a - b for a, b in zip(q, middle, strict=True)]
 
         def part(terms: Part) -> Centred:
-            places = ((self.loop.angles.index(i), slope) for i, slope in terms.slopes)
-            slopes = [(place, combined(slope, wide, BALLS)) for place, slope in places]
-            return self._placed(
-                combined(terms.terms, centre, BALLS), terms.over(wide, centre, offset, BALLS), slopes
-            )
+            slopes = [(self.loop.angles.index(i), combined(s, wide, BALLS)) for i, s in terms.slopes]
+            hull = terms.over(wide, centre, offset, BALLS)
+            return self._placed(combined(terms.terms, centre, BALLS), hull, slopes)
 
         return self._entries([entry.put_together(part, parameters, self.of) for entry in self.field.entries])
 
