@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.report.model import Data, Finding, Witness, applies, behind
@@ -42,7 +42,8 @@ def own_findings(
     gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[Data]
 ) -> tuple[Finding, ...]:
     """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
-    result = [*_rejected(gate), *_contradicted(epsilon)]
+    stable = {row["name"] for row in epsilon if row["certified"] is not None}
+    result = [*_rejected(gate, stable), *_contradicted(epsilon)]
     for row in claims:
         if row["verdict"] == "refuted" and row["section"].startswith("Section 2"):
             text = witness_words(row)
@@ -131,7 +132,8 @@ def _ordinary(row: Data) -> Witness | None:
     return Witness(row["m"], row["n"], data["point"], *sides, row["certificate"], False, "")
 
 
-def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
+def _rejected(gate: Sequence[Data], stable: Collection[str]) -> Iterator[Finding]:
+    """What breaks; where that is (19) alone and stability is proved, the gate that asks for the proof."""
     for result in gate:
         deciding = [check for check in result["checks"] if check["id"] in result["deciding"]]
         broken = [check for check in deciding if check["message"]]
@@ -139,6 +141,11 @@ def _rejected(gate: Sequence[Data]) -> Iterator[Finding]:
             first, rest = broken[0]["message"], len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
             title = f"{result['name']} breaks ({broken[0]['id']})"
+            if result["name"] in stable and {check["id"] for check in broken} == {"19"}:
+                more += (
+                    ". (19) is only sufficient, and dV/dt < 0 is proved for these gains: "
+                    "lyapcheck gate --condition 10p --condition global asks for that proof instead"
+                )
             yield Finding("B", f"gains {result['name']}", (), (result["m"],), title, first + more)
 
 

@@ -30,7 +30,7 @@ from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
 from lyapcheck.report.figures.motion import draw_errors, draw_torques
 from lyapcheck.report.figures.plot import Plot
-from lyapcheck.report.findings import findings
+from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Report, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
@@ -413,3 +413,14 @@ def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None
     assert table.rows[1][1::4] == ("77.00", "anywhere")
     twice = replace(report, runs=(slower, {**first, "m": 2}))
     assert not [one for one in evidence(twice) if one.title == "What m does"]
+
+
+@pytest.mark.parametrize(("broken", "certified"), [("19", "0.1"), ("19", None), ("10p", "0.1")])
+def test_gains_that_break_19_alone_are_told_of_the_proof_where_there_is_one(
+    broken: str, certified: str | None
+) -> None:
+    check = {"id": broken, "message": "k_v = 1 breaks", "limit": {"lower": "1", "upper": "1"}}
+    row = {"name": "a", "m": 1, "verdict": "rejected", "deciding": ["10p", "19"], "checks": [check]}
+    eps0 = {"name": "a", "m": 1, "certified": certified, "published": None, "falsified": None}
+    (finding,) = own_findings([row], [eps0], [])
+    assert ("--condition global" in finding.text) == (broken == "19" and certified is not None)

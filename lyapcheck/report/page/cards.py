@@ -27,8 +27,8 @@ def findings_section(report: Report) -> Markup:
 
 def _group(report: Report, weight: str) -> Markup:
     result = report.weighing(weight)
-    words = WEIGHTS[weight] if not report.own else {"A": "must be mended", "B": "conditions not met"}[weight]
-    title = f"{weight} · {words} ({len(result)})"
+    own = {"A": "Must be mended", "B": "Conditions not met"}
+    title = f"{own[weight] if report.own else f'{weight} · {WEIGHTS[weight]}'} ({len(result)})"
     if weight in FOLDED:
         rows = [
             element("tr", element("th", f.subject, scope="row"), element("td", _short(f))) for f in result

@@ -30,7 +30,7 @@ def claims_section(report: Report) -> Markup:
     return element(
         "section",
         element("h2", "Claims"),
-        _switch(report),
+        _switch(report) if len(report.ms) > 1 or not report.own else None,
         _filters(rows),
         None if report.own else _graph(report),
         [_group(report, title, group, used_by) for title, group in _sections(rows)],
@@ -120,6 +120,7 @@ def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, 
         element("th", element("button", words, type="button", class_="sort"), scope="col")
         for words in ("claim", "statement", "verdict", "grade")
     ]
+    each = "; for each m: " if len(report.ms) > 1 else ": "
     table = element(
         "table",
         element("thead", element("tr", heads)),
@@ -129,7 +130,7 @@ def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, 
     summary = element(
         "summary",
         element("h3", title),
-        element("span", plural(len(claims), "claim"), "; for each m: ", Markup(counts), class_="tally"),
+        element("span", plural(len(claims), "claim"), each, Markup(counts), class_="tally"),
     )
     return element("details", summary, table, class_="fold group")
 
