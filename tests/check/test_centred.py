@@ -163,3 +163,9 @@ def test_a_kernel_gets_boxes_that_ranges_alone_show() -> None:
     assert len(finer) > len(tree)
     assert _finer(case, finer) == finer
     assert _finer(case, tree[:-1]) == tree[:-1]
+
+
+def test_members_of_large_m_have_no_second_derivative() -> None:
+    """Its extremes would take minutes; the search and the checker do without."""
+    assert member("hyperbolic", 60).d2h is not None
+    assert member("hyperbolic", 61).d2h is None

@@ -11,6 +11,9 @@ from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.members import Member, unknown
 
+MOST = 60
+"""The m beyond which h_m'' is not used: its extremes are roots of a polynomial of degree 3m, which takes long."""
+
 
 def create(m: int | None) -> Member:
     """h_m = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x).
@@ -23,4 +26,6 @@ def create(m: int | None) -> Member:
     result = hyperbolic_constants(m)
     bounds = result.gamma.upper, result.rho.upper, result.L.upper
     h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
+    if m > MOST:
+        return Member(h, dh, potential, secant, *bounds)
     return Member(h, dh, potential, secant, *bounds, partial(balls.d2h, m), partial(balls.bends, m))
