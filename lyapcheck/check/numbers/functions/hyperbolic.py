@@ -12,7 +12,7 @@ from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.members import Member, unknown
 
 MOST = 60
-"""The m beyond which h_m'' is not used: its extremes are roots of a polynomial of degree 3m, which takes long."""
+"""The m beyond which h_m'' is not used: its extremes are roots of a polynomial of degree 3m."""
 
 
 def create(m: int | None) -> Member:
