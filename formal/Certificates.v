@@ -3,7 +3,7 @@ From Coq Require Export Reals QArith Qreals List Lra Lia Psatz.
 From Coquelicot Require Export Coquelicot.
 From Interval Require Export Tactic.
 Require Export Definitions.
-Require Export Family Bounds Stability.
+Require Export Family Bounds Words Stability.
 Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping.
 Require Export String.
 Export ListNotations.

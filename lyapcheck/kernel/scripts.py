@@ -11,21 +11,26 @@ from functools import singledispatch
 from typing import Any
 
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
-from lyapcheck.check.kinds.all_of import AllOf, OnePart
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness, closed_loop_of
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms
+from lyapcheck.kernel.signs import implication
 from lyapcheck.kernel.statements import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, identifier, rational
+from lyapcheck.kernel.words import every_n_script
 
 THEOREMS = {
     EQUILIBRIUM: "origin_is_only_equilibrium",
@@ -46,7 +51,7 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     if isinstance(statement, DampingBelow) and isinstance(proof, DampingAbove):
         return _above(statement, proof)
     if verdict == "proved":
-        return facts(statement) + proved(statement)
+        return facts(statement) + proved(statement, proof)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
         return script(statement.parts[proof.part][1], proof.proof, verdict)
     if isinstance(statement, Constant):
@@ -111,7 +116,7 @@ def _between(name: str, m: int) -> tuple[Fraction, Fraction]:
 
 
 @singledispatch
-def proved(statement: Statement) -> str:
+def proved(statement: Statement, proof: Proof) -> str:
     """The proof of a statement.
 
     Raises:
@@ -121,37 +126,57 @@ def proved(statement: Statement) -> str:
 
 
 @proved.register
-def _(statement: AllOf) -> str:
-    parts = [f"{{ {proved(part)} }}" for _, part in statement.parts]
+def _(statement: AllOf, proof: Proof) -> str:
+    if not isinstance(proof, EveryPart):
+        raise NotPrinted(f"a conjunction by {proof.rule}")
+    each = zip(statement.parts, proof.parts, strict=True)
+    parts = [f"{{ {proved(part, own)} }}" for (_, part), own in each]
     return (
         "".join(f"split; [|]. {part} " for part in parts[:-1]).replace("split; [|]. ", "split. ") + parts[-1]
     )
 
 
 @proved.register
-def _(statement: Constant) -> str:
+def _(statement: Constant, proof: Proof) -> str:
     return "numbers."
 
 
 @proved.register
-def _(statement: Identity) -> str:
+def _(statement: Identity, proof: Proof) -> str:
     return "identity."
 
 
 @proved.register
-def _(statement: LoopProperty) -> str:
+def _(statement: Implies, proof: Proof) -> str:
+    if not isinstance(proof, SignIdentity):
+        raise NotPrinted(f"an implication by {proof.rule}")
+    return implication(statement, proof)
+
+
+@proved.register
+def _(statement: EveryN, proof: Proof) -> str:
+    return every_n_script(statement, proof)
+
+
+@proved.register
+def _(statement: BoundEveryN, proof: Proof) -> str:
+    return every_n_script(statement, proof)
+
+
+@proved.register
+def _(statement: LoopProperty, proof: Proof) -> str:
     return f"apply {THEOREMS[statement.property]}; lia."
 
 
 @proved.register
-def _(statement: Theorem) -> str:
+def _(statement: Theorem, proof: Proof) -> str:
     if statement.loop.arm is None:
         return "apply proposition_of_the_paper; lia."
     return by_norms(closed_loop_of(on_one_arm(statement.loop)))
 
 
 @proved.register
-def _(statement: ForAll) -> str:
+def _(statement: ForAll, proof: Proof) -> str:
     x, one = identifier(statement.variable), statement.relation
     for side, other, above in ((one.left, one.right, True), (one.right, one.left, False)):
         if side[0] in BOUNDED and side[2] == ("var", statement.variable) and (c := number(other)) is not None:
@@ -180,7 +205,7 @@ def number(tree: Tree) -> Fraction | None:
 
 
 @proved.register
-def _(statement: NormBound) -> str:
+def _(statement: NormBound, proof: Proof) -> str:
     kind = statement.component[0]
     if kind not in BOUNDED or statement.component[2] != X:
         raise NotPrinted("a bound of the norm of another function")

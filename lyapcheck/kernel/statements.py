@@ -10,9 +10,11 @@ from fractions import Fraction
 from functools import singledispatch
 
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
@@ -21,6 +23,7 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.theorems.closed_loop import ClosedLoop
+from lyapcheck.kernel.letters import every_n
 from lyapcheck.kernel.terms import (
     NotPrinted,
     arm,
@@ -102,6 +105,18 @@ def _(statement: Implies) -> str:
     given = [line for variable in statement.variables for line in bound(variable)]
     given += map(relation, statement.hypotheses)
     return quantified([v.name for v in statement.variables], given, relation(statement.conclusion))
+
+
+@proposition.register
+def _(statement: EveryN) -> str:
+    """Also for n = 0, which says more."""
+    return every_n(statement)
+
+
+@proposition.register
+def _(statement: BoundEveryN) -> str:
+    """Also for n = 0, which says more."""
+    return every_n(statement)
 
 
 @proposition.register

@@ -77,7 +77,54 @@ def expression(tree: Tree) -> str:
         return f"({FUNCTIONS[kind]} {expression(parts[0])})"
     if kind in FAMILY:
         return f"({FAMILY[kind]} {int(parts[0])} {expression(parts[1])})"
+    if kind == "dot":
+        return f"(dot n {vector(parts[0])} {vector(parts[1])})"
     raise NotPrinted(f"the operation {kind}")
+
+
+def vector(tree: Tree) -> str:
+    """A term of type vec: a letter, or the function of its entries."""
+    if tree[0] == "vec":
+        return identifier(tree[1])
+    value = entry(tree)
+    return value.removesuffix(" i") if value.startswith("(apply_ ") else f"(fun i => {value})"
+
+
+def entry(tree: Tree) -> str:
+    """The entry i of a vector; the product of a diagonal matrix and a vector is that of their entries."""
+    kind, *parts = tree
+    if kind == "vec":
+        return f"{identifier(parts[0])} i"
+    if kind == "sum":
+        return f"({' + '.join(map(entry, parts))})" if parts else "0"
+    if kind == "scale":
+        return f"({expression(parts[0])} * {entry(parts[1])})"
+    if parts[0][0] == "diag":
+        return f"({identifier(parts[0][1])} i * {entry(parts[1])})"
+    return f"(apply_ n {matrix(parts[0])} {vector(parts[1])}) i"
+
+
+def matrix(tree: Tree) -> str:
+    """A term of type mat: a letter, or the function of its entries."""
+    return identifier(tree[1]) if tree[0] == "mat" else f"(fun i j => {cell(tree, 'i j')})"
+
+
+def cell(tree: Tree, place: str) -> str:
+    """The entry of a matrix at a place.
+
+    Raises:
+        NotPrinted: a diagonal matrix is not applied to a vector.
+    """
+    kind, *parts = tree
+    if kind == "mat":
+        return f"{identifier(parts[0])} {place}"
+    if kind == "sum":
+        return f"({' + '.join(cell(part, place) for part in parts)})" if parts else "0"
+    if kind == "scale":
+        return f"({expression(parts[0])} * {cell(parts[1], place)})"
+    if kind == "transpose":
+        return cell(parts[0], " ".join(reversed(place.split())))
+    raise NotPrinted(f"the matrix {kind} that is not applied")
 
 
 def relation(one: Relation) -> str:

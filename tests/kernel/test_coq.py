@@ -17,7 +17,11 @@ from lyapcheck.answers.kernel import _copied
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, StateWitness
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
@@ -95,14 +99,18 @@ def asked(folder: Path, *places: str) -> dict[str, Kernel]:
 @needs_coq
 @pytest.mark.slow
 def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder: Path) -> None:
-    result = asked(folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.12.json")
+    result = asked(
+        folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.2.2.json"
+    )
     assert {file: one.axioms for file, one in result.items()} == {
         "pub.7g.m1.json": "float",
         "ext.V-is-positive-definite.json": "real",
         "pub.17a.json": "float",
-        "pub.12.json": "",
+        "pub.2.2.json": "",
     }
-    assert result["pub.12.json"].reason == "there is no theorem of Coq's for statements of the kind EveryN"
+    assert (
+        result["pub.2.2.json"].reason == "there is no theorem of Coq's for statements of the kind MassBelow"
+    )
 
 
 @needs_coq
@@ -194,6 +202,35 @@ def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folde
     for false in map(theorem_file, faulty(ONE).values()):
         with pytest.raises(CoqRefused):
             ours.accept("fault", false)
+
+
+def less(one: Certificate) -> Certificate:
+    """The certificate with a hundredth less on the right, of its first part if it has several."""
+    statement, proof = one.statement, one.proof
+    if isinstance(statement, AllOf):
+        assert isinstance(proof, EveryPart)
+        statement, proof = statement.parts[0][1], proof.parts[0]
+    if isinstance(statement, Implies):
+        end = statement.conclusion
+        false = replace(statement, conclusion=replace(end, right=("mul", ("num", "99/100"), end.right)))
+        return replace(one, statement=false, proof=proof)
+    assert isinstance(statement, BoundEveryN | EveryN)
+    return replace(
+        one, statement=replace(statement, right=("mul", ("num", "99/100"), statement.right)), proof=proof
+    )
+
+
+@needs_coq
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["ext.norms", "pub.12", "arc.share"])
+def test_statements_for_every_n_and_implications_are_theorems_of_coqs_and_false_ones_are_none(
+    folder: Path, name: str
+) -> None:
+    one = certificate_of((GOOD / f"{name}.json").read_bytes())[0]
+    ours = Coq(folder, 600)
+    ours.accept("every_n", theorem_file(one))
+    with pytest.raises(CoqRefused):
+        ours.accept("false_every_n", theorem_file(less(one)))
 
 
 DEFINED = """h dh U gamma rho L vec norm Arm certified every_robot_is_stable

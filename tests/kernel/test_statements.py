@@ -74,6 +74,16 @@ def test_another_number_is_another_theorem(place: str) -> None:
     assert shown(other, one.proof, one.verdict) != shown(one.statement, one.proof, one.verdict)
 
 
+def test_a_letter_of_a_certificate_is_not_taken_for_the_vector_of_a_norm() -> None:
+    one = dict(certificates())["ext.norms.json"]
+    diagonal = ((("diag", "x"),), ("num", "2"))
+    asked = shown(replace(one.statement, norms=(diagonal,)), one.proof, "proved")
+    assert "forall x : vec, norm n (fun i => (v_x i * x i)) <= 2 * norm n x" in asked
+    matrix = ((("mat", "v_"),), ("num", "2"))
+    asked = shown(replace(one.statement, norms=(matrix,)), one.proof, "proved")
+    assert "forall x : vec, norm n (apply_ n v_v_5f_ x) <= 2 * norm n x" in asked
+
+
 @pytest.mark.parametrize("name", ["x. Admitted", "x)(", "forall", "α", "x′", "h", "(*", "e_1", "e1"])
 def test_no_name_of_a_variable_is_a_word_of_coqs(name: str) -> None:
     printed = identifier(name)
