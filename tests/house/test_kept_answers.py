@@ -20,7 +20,9 @@ from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
+from lyapcheck.check.judging import certificate_of
 from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
 from lyapcheck.report.build import Subject
 from lyapcheck.report.jobs import rounded
@@ -199,6 +201,9 @@ def reported() -> tuple[Subject, dict[str, Any]]:
     row = {
         key: answer[key] for key in ("verdict", "grade", "id", "m", "rules", "granted", "statement", "digest")
     }
+    shown, _ = certificate_of(files[PATH].encode())
+    if accepted_before(shown.statement, shown.proof, shown.verdict):
+        row["grade"] = GRADE
     ends = {
         kind: rounded(getattr(result, kind), up=kind == "falsified") for kind in ("certified", "falsified")
     }
