@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from lyapcheck.answers.epsilon import StateLimits, epsilon
+from lyapcheck.answers.epsilon.certificates import certificates
+from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness
 from lyapcheck.check.kinds.inertia import Bisection
@@ -18,12 +21,14 @@ from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.nearby import NearbyArm, NearbyProof, falsify_nearby, with_motions
 from tests.arena.run import ARENA
+from tests.helpers.command import invoke
 
 F = Fraction
 SPEEDS, ERRORS = (F(3), F(4)), (F(1), F(3, 2))
@@ -178,3 +183,31 @@ def test_a_proof_without_floors_still_counts_where_only_errors_are_limited():
     plain = SlowerAndNearer(Bisection(), (F(0),), BoxTree("."), (), ())
     assert verdict(whole, plain) == "proved"
     assert verdict(whole, replace(plain, floors=proof.floors)) == "refused"
+
+
+@pytest.mark.parametrize("limit", ["0", "-5", "nan", "inf", "1e9", "10,20,30", ","])
+def test_limits_that_no_motion_has_are_refused_in_words(limit: str):
+    for option in ("--max-speed", "--max-error"):
+        done = invoke("epsilon", str(paper_gain_file("table2_shoulder_elbow")), f"{option}={limit}")
+        assert done.exit_code == 2
+        assert f"{option} = " in str(done.exception)
+
+
+@pytest.mark.slow
+def test_the_command_says_what_holds_within_limits_and_writes_it():
+    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
+    limits = StateLimits(SPEEDS, ERRORS)
+    result = epsilon(file.gains[0], "reyes-kelly2", max_boxes=20_000, limits=limits)
+    near = result.nearby
+    assert near is not None
+    assert near.certified is not None
+    assert near.falsified is not None
+    assert result.certified < near.certified < near.falsified
+    data = result.data()["results"][0]["nearby"]
+    assert data["max_speed"] == ["3", "4"]
+    assert "nothing is said of other states" in data["statement"]
+    made = certificates(result)
+    for name, expected in (("certified", "proved"), ("falsified", "refuted")):
+        certificate = read(parse(made[f"tau_m1.nearby.{name}.json"].text()))
+        assert judge(certificate).verdict == expected
+    assert "no global stability" in result.written("text").replace("\n  ", " ")

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
-from lyapcheck.answers.epsilon.nearby import Limits, nearby
+from lyapcheck.answers.epsilon.nearby import StateLimits, nearby
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
@@ -58,7 +58,7 @@ def epsilon(
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
-    limits: Limits | None = None,
+    limits: StateLimits | None = None,
     on_progress: Progress | None = None,
 ) -> EpsilonResult:
     """All four ε₀ of a gain set.

@@ -15,7 +15,7 @@ from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.epsilon.compute import by_forms, epsilon, proof_of, put_together
 from lyapcheck.answers.epsilon.consistency import Contradiction
-from lyapcheck.answers.epsilon.nearby import Limits, nearby
+from lyapcheck.answers.epsilon.nearby import StateLimits, nearby
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
@@ -47,7 +47,7 @@ def kept_epsilon(
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
-    limits: Limits | None = None,
+    limits: StateLimits | None = None,
     on_progress: Progress | None = None,
 ) -> EpsilonResult:
     """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds; same arguments.

@@ -34,7 +34,7 @@ GUESS = 100
 
 
 @dataclass(frozen=True)
-class Limits:
+class StateLimits:
     """Of |w_i|, rad/s, and of |e_i|, rad, one a joint each; none where there is no limit.
 
     Raises:
@@ -72,7 +72,7 @@ class NearbyResult:
         from_rest: rad; a motion from rest with every |e_i(0)| at most that keeps within the limits.
     """
 
-    limits: Limits
+    limits: StateLimits
     certified: Fraction | None
     falsified: Fraction | None
     proof: NearbyProof | None
@@ -100,7 +100,7 @@ class NearbyResult:
 def nearby(
     gain_set: GainSet,
     model: RobotModel,
-    limits: Limits,
+    limits: StateLimits,
     everywhere: Fraction | None = None,
     *,
     max_boxes: int = MAX_BOXES,
@@ -162,7 +162,7 @@ def nearby(
     )
 
 
-def _nothing(limits: Limits, reason: str) -> NearbyResult:
+def _nothing(limits: StateLimits, reason: str) -> NearbyResult:
     return NearbyResult(limits, None, None, None, None, None, (), (), 0, reason, None)
 
 

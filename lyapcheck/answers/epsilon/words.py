@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.epsilon.nearby import Limits, NearbyResult
+    from lyapcheck.answers.epsilon.nearby import NearbyResult, StateLimits
     from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted
@@ -74,7 +74,7 @@ BUYS = (
     "may have the same. --max-speed and --max-error ask about the states that an arm comes to; lyapcheck "
     "bounds turns such ε₀ into times."
 )
-NEARBY_HEADS = ("gains", "m", "among states with", "certified ε₀", "falsified ε₀", "certified / falsified")
+NEARBY_HEADS = ("gains", "m", "among states with", "certified ε₀", "falsified ε₀", "ratio")
 NEARBY = (
     "Within limits: dV/dt < 0 is proved, or refuted, among the states of the second table alone; nothing is "
     "said there of other states, and no global stability. What it buys: while an arm is as slow and as near "
@@ -115,15 +115,17 @@ def nearby_row(result: EpsilonResult) -> tuple[str, ...]:
     return (*name, limits_text(near.limits), *numbers, ratio_text(near.ratio) or "—")
 
 
-def limits_text(limits: Limits) -> str:
+def limits_text(limits: StateLimits) -> str:
     """The states within them."""
-    speeds = f"|w_i| ≤ ({_degrees(limits.speeds)}) °/s" if limits.speeds else ""
-    errors = f"|e_i| ≤ ({_degrees(limits.errors)})°" if limits.errors else ""
+    speeds = f"|w_i| ≤ {_degrees(limits.speeds)}°/s" if limits.speeds else ""
+    errors = f"|e_i| ≤ {_degrees(limits.errors)}°" if limits.errors else ""
     return " and ".join(filter(None, (speeds, errors)))
 
 
 def _degrees(values: Sequence[Fraction]) -> str:
-    return ", ".join(f"{math.degrees(x):.5g}" for x in values)
+    """One number where all are equal, else all of them in brackets."""
+    shown = [f"{math.degrees(x):.5g}" for x in values]
+    return shown[0] if len(set(shown)) == 1 else f"({', '.join(shown)})"
 
 
 def nearby_remarks(near: NearbyResult) -> list[str]:

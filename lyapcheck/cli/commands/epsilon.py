@@ -26,7 +26,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.answers.epsilon import EpsilonResult, Limits
+    from lyapcheck.answers.epsilon import EpsilonResult, StateLimits
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
@@ -46,7 +46,7 @@ class Budget:
     seconds: float | None
     starts: int
     seed: int
-    limits: Limits | None
+    limits: StateLimits | None
 
 
 def arguments(parser: Parser) -> None:
@@ -157,12 +157,12 @@ def _share(spread: float | None) -> Fraction:
     return Fraction(repr(spread)) / 100
 
 
-def _limits(speed: str | None, error: str | None, joints: tuple[str, ...]) -> Limits | None:
+def _limits(speed: str | None, error: str | None, joints: tuple[str, ...]) -> StateLimits | None:
     """What both options allow, in rad/s and rad, rounded up by less than 10⁻⁶."""
-    from lyapcheck.answers.epsilon import Limits
+    from lyapcheck.answers.epsilon import StateLimits
 
     speeds, errors = _radians("--max-speed", speed, joints), _radians("--max-error", error, joints)
-    return Limits(speeds, errors) if speeds or errors else None
+    return StateLimits(speeds, errors) if speeds or errors else None
 
 
 def _radians(option: str, text: str | None, joints: tuple[str, ...]) -> tuple[Fraction, ...]:
