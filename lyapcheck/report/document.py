@@ -122,12 +122,15 @@ def _front(report: Report) -> Iterator[Block]:
 
 
 def _findings(report: Report) -> Iterator[Section]:
+    drawn: set[str] = set()
     for weight, words in WEIGHTS.items():
         result = report.weighing(weight)
         if not result:
             continue
         if weight in "AB":
-            blocks: tuple[Block, ...] = tuple(Section(one.title, tuple(_card(report, one))) for one in result)
+            blocks: tuple[Block, ...] = tuple(
+                Section(one.title, tuple(_card(report, one, drawn))) for one in result
+            )
         else:
             blocks = (Bullets(tuple(_line(one) for one in result)),)
         title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
@@ -140,7 +143,8 @@ def _line(finding: Finding) -> str:
     return f"{finding.subject}{ms}: {said}{finding.text}"
 
 
-def _card(report: Report, finding: Finding) -> Iterator[Block]:
+def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
+    """One finding; a drawing that two of them share stands at the first."""
     if finding.claims:
         row = next((r for r in report.claims if r["id"] == finding.claims[0]), None)
         says = f": “{row['comment']}”" if row else ""
@@ -156,7 +160,9 @@ def _card(report: Report, finding: Finding) -> Iterator[Block]:
     items = [f"{term}: {text}" for term, text in about.items() if text]
     items.append(f"Witness: {witness_sentence(finding.witness)}" if finding.witness else finding.text)
     yield Bullets(tuple(items))
-    yield from _figure(report, finding.figure, finding.title)
+    if finding.figure not in drawn:
+        yield from _figure(report, finding.figure, finding.title)
+        drawn.add(finding.figure)
 
 
 def witness_sentence(witness: Witness) -> str:
