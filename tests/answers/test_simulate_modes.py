@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
 from typing import NamedTuple
@@ -206,6 +207,15 @@ def test_a_run_of_a_batch_is_the_run_by_itself():
     assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-4)
     assert np.all(found.runs.peak_torque[2] >= np.max(np.abs(alone.tau), axis=0) * (1 - 1e-8))
     assert np.all(np.abs(found.q0) <= 0.5)
+
+
+def test_peaks_of_long_runs_are_those_of_short_ones():
+    model, gain_set = robots.load("buap3"), read_gain_file(TABLE2).gains[0]
+    short, long = (
+        sweep(gain_set, model, replace(PAPER_TASK, T=T), Starts(2, 0.5, 1)).runs for T in (4.0, 30.0)
+    )
+    assert long.t[1] <= 0.01 + 1e-12
+    assert long.peak_torque == pytest.approx(short.peak_torque, rel=1e-4)
 
 
 @pytest.mark.slow
