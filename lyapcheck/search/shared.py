@@ -24,10 +24,10 @@ from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored
 from lyapcheck.search.schur import Problem
 
-WORTH = 2_048
-"""Boxes of a level from which the subtrees below them pay for their way there and back."""
-HANDS = 8
-"""Tasks for each process: some subtrees are far larger than others. Neighbours come into different hands."""
+WORTH = 8_192
+"""Boxes of a level from which the subtrees below them pay for a process: fewer are judged in a second or two."""
+HANDS = 2
+"""Tasks for each process. Neighbours come into different hands, so that these are about as large."""
 
 
 @dataclass
