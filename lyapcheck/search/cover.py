@@ -8,10 +8,10 @@ a level: the tree, the count of boxes and the end are those of one process, whoe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from itertools import zip_longest
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from time import monotonic
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,20 +67,60 @@ class Branches:
         levels: how many boxes were looked at, level by level, from theirs on.
         cuts: of each level the boxes that were cut, the sides, and the halves; the first boxes have the
             first numbers.
-        reason: why the last level was not all proved or cut; empty where it was.
-        point: the point that resisted.
-        waiting: the boxes that were left for others, with their numbers.
+        late: whether the time was up.
+        point: the point of the last level that resisted; none where all of it was proved or cut.
+        waiting: the boxes of a level that was left, with their numbers.
     """
 
     levels: list[int]
     cuts: list[tuple[Indices, Indices, Indices]]
-    reason: str = ""
+    late: bool = False
     point: Array | None = None
     waiting: tuple[Boxes, Indices] | None = None
 
 
-Share = Callable[[Boxes, int, float], Iterator[tuple[slice, Branches]]]
-"""Has others look below boxes of a level, within a budget and a time in s: below which, and what is there."""
+class Share(Protocol):
+    """Has others look below the boxes of a level."""
+
+    @property
+    def hands(self) -> int:
+        """How many they are dealt out to."""
+
+    def below(self, hands: Sequence[Boxes], most: int, seconds: float) -> Iterator[Branches]:
+        """What is below each hand, as far as that many boxes and seconds lead."""
+
+
+@dataclass
+class Hand:
+    """Boxes of a level that others look below, and what they have found.
+
+    Args:
+        boxes: that still wait; none at the end.
+        names: theirs.
+        levels: how many boxes were looked at, level by level.
+        point: of the last of these levels, if one resisted.
+    """
+
+    boxes: Boxes
+    names: Indices
+    levels: list[int] = field(default_factory=list)
+    point: Array | None = None
+
+    @property
+    def open(self) -> bool:
+        """Whether boxes wait."""
+        return len(self.boxes) > 0
+
+    def count(self, depth: int) -> int:
+        """The boxes of a level; of one that waits as well."""
+        return [*self.levels, len(self.boxes)][depth] if depth <= len(self.levels) else 0
+
+    def take(self, part: Branches, nodes: Nodes) -> None:
+        """Take over what was found below the boxes that waited."""
+        names = nodes.graft(self.names, part)
+        boxes, numbers = part.waiting or (self.boxes[:0], self.names[:0])
+        self.boxes, self.names, self.point = boxes, names[numbers], part.point
+        self.levels += part.levels
 
 
 def cover(
@@ -111,37 +151,67 @@ def cover(
     Soundness: halves cover their box; ``prove`` is taken at its word.
     """
     nodes = Nodes()
-    nodes.add(len(start))
-    top = explored(start, prove, choose, max_boxes, deadline, on_progress, worth=worth if share else math.inf)
-    nodes.graft(slice(None), np.arange(len(start)), top)
-    parts, levels, seen = [top], top.levels, 0
-    if top.waiting is not None and share is not None:
-        (boxes, names), parts, seen = top.waiting, [], sum(top.levels)
-        still, whole = float(np.sum(_volumes(boxes))), float(np.sum(_volumes(start)))
-        for which, part in share(boxes, max_boxes - seen, deadline - monotonic()):
-            nodes.graft(which, names, part)
-            parts.append(part)
-            still -= float(np.sum(_volumes(boxes[which])))
-            if on_progress is not None:
-                on_progress(1 - still / whole, f"{seen + sum(sum(p.levels) for p in parts)} boxes")
-        levels = [sum(counts) for counts in zip_longest(*(part.levels for part in parts), fillvalue=0)]
-    if any(part.reason == LATE for part in parts):
-        return Outcome(False, seen + sum(levels), LATE)
-    for depth, count in enumerate(levels):
-        seen += count
-        if seen > max_boxes:
-            return Outcome(False, seen, EXHAUSTED)
-        points = [p.point for p in parts if p.point is not None and len(p.levels) == depth + 1]
-        if points:
-            return Outcome(False, seen, RESISTS, first_of(np.array(points)))
+    names = nodes.add(len(start))
+    until = math.inf if share is None else worth
+    top = explored(start, prove, choose, max_boxes, deadline, on_progress, worth=until)
+    seen = sum(top.levels)
+    hand = Hand(start, names)
+    hand.take(top, nodes)
+    if top.late or top.point is not None:
+        return Outcome(False, seen, LATE if top.late else RESISTS, top.point)
+    if seen + len(hand.boxes) > max_boxes:
+        return Outcome(False, seen + len(hand.boxes), EXHAUSTED)
+    if hand.open and share is not None:
+        return _shared(hand, nodes, share, seen, max_boxes, deadline, on_progress)
     return Outcome(True, seen, tree=nodes.preorder()[0])
+
+
+def _shared(
+    top: Hand,
+    nodes: Nodes,
+    share: Share,
+    seen: int,
+    max_boxes: int,
+    deadline: float,
+    on_progress: Progress | None,
+) -> Outcome:
+    """How the search goes on where others look below boxes: it ends at the level where one process ends.
+
+    No hand runs far ahead: each first has its share of the budget, and a quarter of that.
+    """
+    hands = [Hand(top.boxes[k :: share.hands], top.names[k :: share.hands]) for k in range(share.hands)]
+    most = 5 * (max_boxes - seen) // (4 * share.hands)
+    while True:
+        asked = [hand for hand in hands if hand.open]
+        parts = share.below([hand.boxes for hand in asked], most, deadline - monotonic())
+        for hand, part in zip(asked, parts, strict=True):
+            hand.take(part, nodes)
+            total = seen + sum(sum(one.levels) for one in hands)
+            if part.late:
+                return Outcome(False, total, LATE)
+            if on_progress is not None:
+                done = 1 - sum(one.open for one in hands) / len(hands)
+                on_progress(done, f"{total} boxes below {len(top.boxes)}")
+        total = seen
+        for depth in range(max(len(hand.levels) for hand in hands) + 1):
+            total += sum(hand.count(depth) for hand in hands)
+            if total > max_boxes:
+                return Outcome(False, total, EXHAUSTED)
+            if any(hand.open and len(hand.levels) == depth for hand in hands):
+                break  # what they find at this level is not known
+            points = [h.point for h in hands if h.point is not None and len(h.levels) == depth + 1]
+            if points:
+                return Outcome(False, total, RESISTS, first_of(np.array(points)))
+        else:
+            return Outcome(True, total, tree=nodes.preorder()[0])
+        most = max_boxes - seen
 
 
 def explored(
     boxes: Boxes,
     prove: Prover,
     choose: Chooser,
-    max_boxes: int,
+    most: int,
     deadline: float = math.inf,
     on_progress: Progress | None = None,
     *,
@@ -154,25 +224,25 @@ def explored(
         boxes: of one level.
         prove: see ``cover``, as for the rest.
         choose: the sides.
-        max_boxes: how many boxes may be looked at.
+        most: a level that would make them more boxes than that is left waiting.
         deadline: by the monotonic clock, s.
         on_progress: told the share of the volume decided.
         few: whether no level so far had more than ``FEW`` boxes.
-        worth: a level of so many boxes is left waiting.
+        worth: a level of so many boxes is left waiting as well.
     """
     levels: list[int] = []
     nodes, volume, done = Nodes(), float(np.sum(_volumes(boxes))), 0.0
     names = nodes.add(len(boxes))
     while len(boxes):
-        if len(boxes) >= worth:
+        if len(boxes) >= worth or sum(levels) + len(boxes) > most:
             return Branches(levels, nodes.parts, waiting=(boxes, names))
+        if monotonic() > deadline:
+            return Branches(levels, nodes.parts, late=True)
         levels.append(len(boxes))
-        if sum(levels) > max_boxes or monotonic() > deadline:
-            return Branches(levels, nodes.parts, EXHAUSTED if sum(levels) > max_boxes else LATE)
         few = few and len(boxes) <= FEW
         proved, point = _judged(boxes, prove, few)
         if point is not None:
-            return Branches(levels, nodes.parts, RESISTS, point)
+            return Branches(levels, nodes.parts, point=point)
         done += float(np.sum(_volumes(boxes[proved])))
         boxes, names = boxes[~proved], names[~proved]
         if on_progress is not None:
@@ -207,12 +277,12 @@ class Nodes:
         self.parts.append((names, sides, halves))
         return halves
 
-    def graft(self, which: slice, names: Indices, below: Branches) -> None:
-        """Take over the cuts that others made below some of the boxes with these names."""
-        own = names[which]
-        new = max((int(halves[-1]) + 1 for _, _, halves in below.cuts), default=len(own)) - len(own)
-        renamed = np.concatenate([own, self.add(new)])
+    def graft(self, names: Indices, below: Branches) -> Indices:
+        """Take over the cuts that others made below the boxes with these names; the names of all theirs."""
+        new = max((int(halves[-1]) + 1 for _, _, halves in below.cuts), default=len(names)) - len(names)
+        renamed = np.concatenate([names, self.add(new)])
         self.parts += [(renamed[cut], sides, renamed[halves]) for cut, sides, halves in below.cuts]
+        return renamed
 
     def preorder(self) -> tuple[str, list[int]]:
         """The tree as text, and the names of its leaves in their order."""

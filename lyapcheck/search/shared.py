@@ -8,7 +8,7 @@ certificates made of them, are the same bytes as on one core.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -25,7 +25,7 @@ from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored
 from lyapcheck.search.schur import Problem
 
 WORTH = 8_192
-"""Boxes of a level from which the subtrees below them pay for a process: fewer are judged in a second or two."""
+"""Boxes of a level from which the subtrees below them pay for a process: fewer take a second or two."""
 HANDS = 2
 """Tasks for each process. Neighbours come into different hands, so that these are about as large."""
 
@@ -44,20 +44,34 @@ class Sharing:
     pool: Executor | None = None
     own: bool = field(default=False, init=False)
 
-    def below(
-        self, loop: ClosedLoop, boxes: Array, max_boxes: int, seconds: float
-    ) -> Iterator[tuple[slice, Branches]]:
+    def submit(
+        self, loop: ClosedLoop, hands: Sequence[Array], most: int, seconds: float
+    ) -> Iterator[Branches]:
         """What others find below each hand of boxes; see ``lyapcheck.search.cover.Share``."""
         if self.pool is None:
             # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
             self.pool, self.own = ProcessPoolExecutor(self.jobs, get_context("spawn")), True
-        plain = replace(loop)  # without what it has computed for itself
-        count = self.jobs * HANDS
-        hands = [slice(first, None, count) for first in range(count)]
         with main_unnamed():
-            asked = [self.pool.submit(branches_of, plain, boxes[h], max_boxes, seconds) for h in hands]
-        for hand, one in zip(hands, asked, strict=True):
-            yield hand, one.result()
+            asked = [self.pool.submit(branches_of, loop, boxes, most, seconds) for boxes in hands]
+        for one in asked:
+            yield one.result()
+
+
+@dataclass(frozen=True)
+class LoopShare:
+    """Who looks below boxes of a closed loop."""
+
+    sharing: Sharing
+    loop: ClosedLoop
+
+    @property
+    def hands(self) -> int:
+        """How many boxes are dealt out to."""
+        return self.sharing.jobs * HANDS
+
+    def below(self, hands: Sequence[Array], most: int, seconds: float) -> Iterator[Branches]:
+        """What is below each hand."""
+        return self.sharing.submit(self.loop, hands, most, seconds)
 
 
 _SHARING: ContextVar[Sharing | None] = ContextVar("sharing", default=None)
@@ -82,14 +96,15 @@ def boxes_shared(jobs: int, pool: Executor | None = None) -> Iterator[None]:
 def share_of(loop: ClosedLoop) -> Share | None:
     """What has others look below boxes of a closed loop; none where nothing is shared."""
     sharing = _SHARING.get()
-    return None if sharing is None else lambda boxes, most, seconds: sharing.below(loop, boxes, most, seconds)
+    # without what the loop has computed for itself
+    return None if sharing is None else LoopShare(sharing, replace(loop))
 
 
-def branches_of(loop: ClosedLoop, boxes: Array, max_boxes: int, seconds: float) -> Branches:
+def branches_of(loop: ClosedLoop, boxes: Array, most: int, seconds: float) -> Branches:
     """What is found below some boxes of a closed loop, in another process."""
     prove, choose = _judge(loop)
     deadline = math.inf if math.isinf(seconds) else monotonic() + seconds
-    return explored(boxes, prove, choose, max_boxes, deadline, few=False)
+    return explored(boxes, prove, choose, most, deadline, few=False)
 
 
 @lru_cache(maxsize=2)

@@ -44,7 +44,7 @@ def early(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shared, "WORTH", 16)
 
 
-@pytest.mark.parametrize("budget", [600, 200])
+@pytest.mark.parametrize("budget", [600, pytest.param(450, marks=pytest.mark.slow)])
 def test_subtrees_of_others_change_nothing(early: None, budget: int) -> None:
     alone = certified(budget)
     pool = Here()
@@ -54,16 +54,31 @@ def test_subtrees_of_others_change_nothing(early: None, budget: int) -> None:
     assert len(set(pool.hands)) > 1
 
 
-def test_a_search_that_fails_ends_where_one_process_does(early: None) -> None:
-    """At the same level with the same point and count, whichever subtree resisted."""
-    above = ControlledArm(GAINS, load("reyes-kelly2")).loop(Fraction(85, 100))
-    outcomes = []
+ENDS = [
+    (Fraction(85, 100), 20_000, cover.RESISTS),
+    (Fraction(8, 10), 20_000, ""),
+    *((Fraction(80, 100), most, cover.EXHAUSTED) for most in (150, 250, 346)),
+]
+
+
+@pytest.mark.parametrize(("eps0", "budget", "reason"), ENDS)
+def test_a_search_ends_where_that_of_one_process_does(
+    early: None, eps0: Fraction, budget: int, reason: str
+) -> None:
+    """At the same level with the same point, count and tree, whoever has found which part of it."""
+    loop = ControlledArm(GAINS, load("reyes-kelly2")).loop(eps0)
+    outcomes, rounds = [], []
     for jobs in (1, 2, 3):
-        with shared.boxes_shared(jobs, Here()):
-            one = certify(Problem(above), 20_000)
-        outcomes.append((one.proved, one.boxes, one.reason, one.point is not None and one.point.tolist()))
-    assert outcomes[0][2] == cover.RESISTS
+        pool = Here()
+        with shared.boxes_shared(jobs, pool):
+            one = certify(Problem(loop), budget)
+        point = None if one.point is None else one.point.tolist()
+        outcomes.append((one.proved, one.boxes, one.reason, point, one.tree))
+        rounds.append(len(pool.hands))
+    assert outcomes[0][2] == reason
     assert outcomes[1:] == outcomes[:1] * 2
+    assert rounds[0] == 0
+    assert rounds[2] >= 3 * shared.HANDS
 
 
 @pytest.mark.slow
