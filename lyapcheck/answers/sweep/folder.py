@@ -12,7 +12,7 @@ from lyapcheck.errors import InputError, argument_error
 from lyapcheck.temporary import pending, try_writing
 
 ROWS, PART, TABLE, CERTIFICATES = "rows.jsonl", ".rows.jsonl", "rows.parquet", "certificates"
-GROUP = 10_000
+GROUP = 1_000
 """Rows that are turned into Parquet at a time."""
 
 RECENT = 1_000
