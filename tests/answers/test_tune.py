@@ -283,7 +283,7 @@ def test_only_plain_decimals_are_read(text):
 
 def test_the_written_file_passes_the_gate_command(tmp_path):
     out = tmp_path / "gains.toml"
-    assert run("buap3", "--m", "1:5", "--out", str(out)).exit_code == 0
+    assert run("buap3", "--m", "2:3", "--out", str(out)).exit_code == 0
     assert invoke("gate", str(out)).exit_code == 0
 
 
@@ -293,14 +293,14 @@ def test_an_arm_file_is_named_relative_to_the_gain_file(tmp_path, monkeypatch):
     (tmp_path / "gains").mkdir()
     (tmp_path / "arms" / "mine.toml").write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    assert run("arms/mine.toml", "--out", "gains/mine.toml").exit_code == 0
+    assert run("arms/mine.toml", "--m", "2", "--out", "gains/mine.toml").exit_code == 0
     assert 'robot = "../arms/mine.toml"' in Path("gains/mine.toml").read_text(encoding="utf-8")
-    assert [result.verdict for result in gate(read_gain_file("gains/mine.toml"))] == ["accepted"] * 3
+    assert [result.verdict for result in gate(read_gain_file("gains/mine.toml"))] == ["accepted"]
 
 
 @pytest.mark.parametrize("form", FORMATS)
 def test_formats_are_the_same_bytes_each_time(form):
-    first, second = (run("buap3", "--format", form, "--damping", "0.05") for _ in range(2))
+    first, second = (run("buap3", "--format", form, "--damping", "0.05", "--m", "2") for _ in range(2))
     assert first.exit_code == 0
     assert first.stdout == second.stdout
 
@@ -325,11 +325,11 @@ def test_json_says_what_the_gain_file_says():
 
 
 def test_markdown_tables_have_as_many_cells_as_heads():
-    lines = run("buap3", "--format", "markdown").stdout.splitlines()
+    lines = run("buap3", "--format", "markdown", "--m", "1:2").stdout.splitlines()
     tables = [line.count("|") for line in lines if line.startswith("|")]
-    assert len(tables) == 3 * (5 + 5) + 5
-    assert set(tables[:30]) == {8}
-    assert set(tables[30:]) == {7}
+    assert len(tables) == 2 * (5 + 5) + 4
+    assert set(tables[:20]) == {8}
+    assert set(tables[20:]) == {7}
 
 
 def test_asking_for_help_or_importing_the_api_loads_no_solver():

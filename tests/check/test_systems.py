@@ -322,6 +322,7 @@ def shaken(**changed):
     return input_to_state(goal.under(torque + changed.pop("more", 0 * e)), V, **(own | changed))
 
 
+@pytest.mark.slow
 def test_a_disturbance_is_unknown_and_bounded():
     assert propose(shaken()).verdict.value == "proved"
     r, b = var("norm_e"), var("norm_w")
@@ -445,6 +446,7 @@ def ahead(goal=None, e_share=1, **numbers):
     return statement, at_arm(statement, load("pelican2"), **(given | numbers))
 
 
+@pytest.mark.slow
 def test_what_differs_between_the_arm_and_its_goal():
     """It is granted in proportion to the error, and shown for an arm by the slopes of M."""
     statement, arm = ahead()

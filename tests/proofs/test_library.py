@@ -10,6 +10,9 @@ from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
 from tests.helpers.script_cases import rewriter
+from tests.helpers.shares import but
+
+pytestmark = pytest.mark.usefixtures("in_this_process")
 
 REFUSED = {
     "takegaki_arimoto": {"strict": "refuted", "weightless": "undecided"},
@@ -33,7 +36,7 @@ REASONS = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize("name", but(("takegaki_arimoto", "pd_plus", "slotine_li"), REFUSED))
 def test_each_concludes_and_refuses_what_is_wrong(name):
     rows = run_proof(f"{name}.py", ms=(2,)).claims
     result = {row.id: row.verdict.value for row in rows}
@@ -46,6 +49,7 @@ def test_each_concludes_and_refuses_what_is_wrong(name):
     assert len(Path(find_script(f"{name}.py")).read_text(encoding="utf-8").splitlines()) <= 120
 
 
+@pytest.mark.slow
 def test_the_class_theorem_serves_every_n_and_every_function():
     """One statement whatever n is; its members are of m."""
     rows = {row.id: row for row in run_proof("every_function.py", ms=(2,), n=4).claims}
@@ -188,7 +192,10 @@ def test_a_planted_fault_in_the_cascade_is_not_proved(tmp_path, right, wrong):
 
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),
-    [(name, *fault) for name, faults in FAULTS.items() for fault in faults],
+    but(
+        [(name, *fault) for name in ("takegaki_arimoto", "slotine_li") for fault in FAULTS[name]],
+        [(name, *fault) for name, faults in FAULTS.items() for fault in faults],
+    ),
 )
 def test_a_planted_fault_is_not_proved(tmp_path, name, right, wrong):
     path = rewriter(f"{name}.py", tmp_path)(right, wrong)
