@@ -17,7 +17,7 @@ from lyapcheck import store
 
 # The same properties in both; ``make test-slow`` looks at more examples. No deadlines: how long an example
 # takes says more of the machine than of the code.
-settings.register_profile("fast", deadline=None, max_examples=25)
+settings.register_profile("fast", deadline=None, max_examples=10)
 settings.register_profile("thorough", deadline=None, max_examples=400)
 settings.load_profile("fast")
 

@@ -153,6 +153,7 @@ def test_missing_numbers_are_shown_with_their_reason(case: tuple[GainSet, Epsilo
     assert "no certified ε₀: budget spent." in str(nothing)
 
 
+@pytest.mark.slow
 def test_pd_has_no_published_number() -> None:
     result = epsilon(
         GainSet("pd", None, (F(60), F(5)), (F(2), F(1)), "linear"), ARM, starts=6, max_boxes=20_000
@@ -181,6 +182,7 @@ def run(*arguments: str) -> tuple[int, str]:
     return result.exit_code, result.stdout
 
 
+@pytest.mark.slow
 def test_command_prints_the_same_bytes_twice() -> None:
     arguments = (
         str(paper_gain_file("table2_shoulder_elbow")),
@@ -216,6 +218,7 @@ def test_missing_arm_and_missing_member_are_refused(tmp_path: Path) -> None:
     assert "choose from 1" in text
 
 
+@pytest.mark.slow
 def test_a_spent_budget_is_undecided() -> None:
     path = str(paper_gain_file("table2_shoulder_elbow"))
     code, text = run(path, "--m", "2", "--starts", "3", "--max-boxes", "1")

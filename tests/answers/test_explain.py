@@ -80,6 +80,7 @@ def test_an_unknown_id_is_refused_with_the_likely_ones(written, words):
         explain(written)
 
 
+@pytest.mark.slow
 def test_what_is_printed_answers_the_five_questions():
     out = run("16.9").stdout
     places = [

@@ -206,6 +206,7 @@ torque_limit = 50
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", one_in(2, ["scalar", "global"]))
 @pytest.mark.parametrize("kv", one_in(2, ["[0.1, 0.1]", "[9, 9]"]))
 def test_an_arm_that_cannot_exist_is_never_accepted(tmp_path: Path, name: str, kv: str) -> None:

@@ -38,7 +38,7 @@ def undecided(tmp_path_factory: pytest.TempPathFactory) -> GateAnswer:
     return gate(read_gain_file(path))
 
 
-@pytest.mark.parametrize("name", one_in(4, JudgedFormat))
+@pytest.mark.parametrize("name", one_in(9, JudgedFormat))
 def test_the_same_input_gives_the_same_bytes(name: str) -> None:
     code = "from lyapcheck.cli.main import main; main()"
     words = ["gate", str(paper_gain_file("table2")), "--format", name]

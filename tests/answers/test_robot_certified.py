@@ -116,7 +116,7 @@ def test_a_printed_matrix_of_another_size_is_refused() -> None:
     [
         pytest.param(MassBelow(MASS, (), Fraction(999, 1000)), Bisection(), marks=pytest.mark.slow),
         pytest.param(CoriolisBelow(MASS, (), Fraction(1, 3)), Bisection(), marks=pytest.mark.slow),
-        (GravityBelow(2, (SIN2,), (), Fraction(999, 1000)), Bisection()),
+        pytest.param(GravityBelow(2, (SIN2,), (), Fraction(999, 1000)), Bisection(), marks=pytest.mark.slow),
         (GravityBelow(2, (SIN2,), (), Fraction(1)), PostureWitness((Fraction(0), Fraction(3, 2)), (), ())),
         (CoriolisBelow(MASS, (), Fraction(-1)), Bisection()),
     ],

@@ -241,6 +241,7 @@ def test_panda_with_its_hand() -> None:
     )
 
 
+@pytest.mark.slow
 def test_formats_say_the_same_twice() -> None:
     for form in ("text", "json", "markdown"):
         first, second = (run("pelican2", "--format", form, "--max-boxes", "20") for _ in range(2))

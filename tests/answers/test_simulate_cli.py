@@ -39,6 +39,7 @@ def lyapcheck(monkeypatch, capsys):
     return run
 
 
+@pytest.mark.slow
 def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     done = lyapcheck(TABLE2)
     assert done.returncode == 0
@@ -104,6 +105,7 @@ def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == figures
 
 
+@pytest.mark.slow
 def test_another_arm_and_another_task(lyapcheck):
     gains = str(paper_gain_file("table2_shoulder_elbow"))
     done = lyapcheck(gains, "--target", "-30,60", "--start", "10,-20", "--time", "1", "--format", "json")
@@ -169,6 +171,7 @@ def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(l
     assert result["reached"] < 5.0
 
 
+@pytest.mark.slow
 def test_the_printed_numbers_stand_beside_the_same_experiment_only(lyapcheck):
     results = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
     assert [r["printed"]["L2"] for r in results] == [25.4006, 24.6892, 23.4006]

@@ -67,6 +67,7 @@ def wave(tmp_path):
     return place
 
 
+@pytest.mark.slow
 def test_a_reference_is_followed_and_its_promises_stand_beside_what_was_seen(lyapcheck, sine):
     done = lyapcheck(TABLE2, "--reference", sine, "--time", 1, "--format", "json", "--start", "5,0,0")
     assert done.returncode == 0
@@ -144,6 +145,7 @@ def test_keep_going_tells_of_the_promise_and_goes_on(lyapcheck):
         assert result["breach"]["t"] < 1
 
 
+@pytest.mark.slow
 def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
     strong = tmp_path / "strong.toml"
     strong.write_text('robot = "buap3"\n[[gains]]\nname = "s"\nm = 1\nkp = [99, 60, 5]\nkv = [1, 1, 1]\n')
@@ -156,6 +158,7 @@ def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
     assert lyapcheck(strong, "--experiment", "--time", 0.5).returncode == 0
 
 
+@pytest.mark.slow
 def test_initial_rates_are_degrees_a_second(lyapcheck):
     done = lyapcheck(TABLE2, "--velocity", "90,0,-180", "--time", 0.1, "--csv", "-")
     first = done.stdout.splitlines()[1].split(",")

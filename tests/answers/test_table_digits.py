@@ -40,6 +40,7 @@ def shown():
     return result
 
 
+@pytest.mark.slow
 def test_a_thousand_rows_of_fifty_digits():
     done = subprocess.run(
         [SCRIPT, "table", "--m", "1:1000", "--digits", "50"], capture_output=True, text=True, check=True

@@ -134,6 +134,7 @@ def test_printing_prints_what_the_command_prints():
     assert f"{tune('reyes-kelly2', [5])}\n" == run("reyes-kelly2", "--m", "5").stdout
 
 
+@pytest.mark.slow
 def test_what_m_does_is_shown_in_runs():
     task = Task((0.7, 0.7), (0.0, 0.0), (0.0, 0.0), 5.0)
     tuning = tune("reyes-kelly2", [1, 3], task=task)
@@ -188,6 +189,7 @@ def test_targets_that_are_not_exact_are_refused(share):
         Targets.of(peak_share=share)
 
 
+@pytest.mark.slow
 def test_the_public_names_are_the_functions_themselves():
     code = (
         "import lyapcheck\n"

@@ -37,6 +37,7 @@ def tuned() -> BenchTuning:
     return tune_for("buap3", Bench(WISHES, (PAPER_TASK,)), [1], against=paper)
 
 
+@pytest.mark.slow
 def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     theirs, by_19, by_proof = tuned.sets
     assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
@@ -49,6 +50,7 @@ def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     assert "m = 1: (19) costs a factor of" in str(tuned)
 
 
+@pytest.mark.slow
 def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> None:
     result = tuned.sets[-1]
     run = simulate(result.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
@@ -62,6 +64,7 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> No
         assert float(kp) * math.tanh(math.radians(rest)) == pytest.approx(f, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
     from lyapcheck.answers.tune.bench_file import bench_file_text
 
@@ -71,6 +74,7 @@ def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> N
     assert gate(read_gain_file(tmp_path / "g.toml"), None, ("10p", "scalar"))[1].verdict == "accepted"
 
 
+@pytest.mark.slow
 def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
     bench = Bench(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
     tuning = tune_for("buap3", bench, [2])

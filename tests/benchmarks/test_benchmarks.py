@@ -102,6 +102,7 @@ def test_the_gate_by_hand_gives_the_same_verdicts():
     assert gate.benchmark(runs=1).agreement.startswith("the same 3 verdicts")
 
 
+@pytest.mark.slow
 def test_many_gain_sets_by_hand_give_the_same_verdicts():
     result = gate.many(sets=300, runs=1)
     assert result.agreement.startswith("the same 300 verdicts")
@@ -153,6 +154,7 @@ def test_the_arms_by_hand_are_those_of_lyapcheck(name):
     np.testing.assert_array_equal(arms.VISCOUS[name], model.viscous)
 
 
+@pytest.mark.slow
 def test_every_way_to_the_rates_gives_the_same_values():
     result = list(throughput.benchmark(throughput.Sizes(400, 200, 50)))
     assert {(rate.function, rate.joints) for rate in result} == {

@@ -214,7 +214,8 @@ def survivors(made, changes, places, others):
     return refused, survived
 
 
-@pytest.mark.parametrize("changes", [1, pytest.param(5, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("changes", [1, 5])
 def test_with_a_new_digest_it_is_refused_or_still_true(made, changes):
     """The verdicts that survive are judged again by mpmath; most changes to a proof are refused."""
     refused, survived = survivors(made, changes, numbers, other_numbers)

@@ -60,6 +60,7 @@ def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(
     assert verify(statement, decision.proof).verdict == "refuted"
 
 
+@pytest.mark.slow
 def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) -> None:
     gains = read_gain_file(GAINS).gains[0]
     definite = decreasing(load(str(arm(tmp_path, "0.5"))), gains, "0.001")

@@ -148,6 +148,7 @@ def rate_of(theta, desired=False):
     return rate_bound(KNOWN.loop((tanh(X), 1 - tanh(X) ** 2, tanh(X)), theta, desired=desired))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_tries")
 @pytest.mark.parametrize(
     ("theta", "desired", "terms"), one_in(2, [(REGULATOR, False, 11), (TRACKING, True, 13)])

@@ -49,8 +49,11 @@ proof.add("P", "2 ≤ 3", Constant(expr(2) <= 3), uses=["b"])
 SCHEMAS = Path(__file__).parents[1] / "schemas"
 
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
+
 @pytest.fixture(scope="module")
-def certificates(tmp_path_factory):
+def certificates(in_this_process, tmp_path_factory):
     script = tmp_path_factory.mktemp("script") / "mine.py"
     script.write_text(SCRIPT, encoding="utf-8")
     return {name: one.text() for name, one in run_proof(script, ms=(2, 3), n=1).certificates.items()}

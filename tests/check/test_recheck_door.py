@@ -119,7 +119,7 @@ def test_an_entry_that_is_no_certificate_is_refused_and_the_rest_goes_on(folder,
 
 
 @pytest.mark.parametrize("command", one_in(2, [MODULE, COMMAND]), ids=["module", "command"])
-@pytest.mark.parametrize("what", [what for what in PLANT if what != "directory"])
+@pytest.mark.parametrize("what", one_in(3, [what for what in PLANT if what != "directory"]))
 def test_named_by_itself_it_is_exit_code_2(folder, what, command):
     said = plant(folder, what)
     done = run(folder / "x.json", folder / "good.json", command=command)
@@ -263,6 +263,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow
 def test_what_no_certificate_contains_is_refused_each_for_its_reason(folder):
     for name, (text, _) in REFUSED.items():
         (folder / f"{name}.json").write_text(text, encoding="utf-8")
@@ -322,7 +323,7 @@ def test_what_takes_too_much_memory_is_refused_and_the_rest_goes_on(folder):
     assert result["good.json"][0] == "accepted"
 
 
-@pytest.mark.parametrize("number", ["SIGABRT", "SIGSEGV", "SIGKILL"])
+@pytest.mark.parametrize("number", one_in(3, ["SIGSEGV", "SIGABRT", "SIGKILL"]))
 def test_whatever_ends_the_process_that_judges_ends_no_more_than_that(folder, number):
     """The process is asked for the second time when it is dead already."""
     with Guard(Limits()) as guard:
@@ -334,6 +335,7 @@ def test_whatever_ends_the_process_that_judges_ends_no_more_than_that(folder, nu
         assert not guard.judge(good, False).reason
 
 
+@pytest.mark.slow
 def test_a_large_parent_does_not_count_as_memory_of_the_process_that_judges(folder):
     script = (
         "import sys; from pathlib import Path; from lyapcheck.check.guard import Guard, Limits\n"

@@ -21,6 +21,7 @@ from lyapcheck.family import hyperbolic
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.verdicts import Verdict
+from tests.helpers.shares import one_in
 
 F = Fraction
 CASE = paper_case(2)
@@ -36,7 +37,9 @@ def planar(eps0, kv="0.2", **options):
 
 @pytest.mark.parametrize(
     ("eps0", "verdict", "method"),
-    [("0.005", "proved", "norms"), ("0.05", "proved", "branch and bound"), ("3", "refuted", "a state")],
+    one_in(
+        3, [("0.005", "proved", "norms"), ("0.05", "proved", "branch and bound"), ("3", "refuted", "a state")]
+    ),
 )
 def test_a_growing_eps0_is_decided_by_norms_then_boxes_then_against(eps0, verdict, method):
     decision = propose(planar(eps0))

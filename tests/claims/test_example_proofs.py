@@ -24,7 +24,7 @@ def verdicts(path, **options):
     return {row.id: row.verdict.value for row in rows}
 
 
-@pytest.mark.parametrize("options", one_in(3, [{}, {"n": 1}, {"n": 5}]))
+@pytest.mark.parametrize("options", one_in(3, [{"n": 1}, {}, {"n": 5}]))
 def test_arctan_is_proved_for_any_number_of_joints(options):
     result = verdicts(ARCTAN, **options)
     if options:
@@ -32,6 +32,7 @@ def test_arctan_is_proved_for_any_number_of_joints(options):
     assert set(result.values()) == {"proved"}
 
 
+@pytest.mark.slow
 def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
     result = run_proof(MUST_FAIL, ms=(1,))
     outcome = {row.id: row.verdict.value for row in result.claims}
@@ -85,7 +86,7 @@ CHANGES = [
 ]
 
 
-@pytest.mark.parametrize(("path", "claim", "right", "wrong"), one_in(5, CHANGES))
+@pytest.mark.parametrize(("path", "claim", "right", "wrong"), one_in(6, CHANGES))
 def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, wrong):
     source = path.read_text(encoding="utf-8")
     assert right in source

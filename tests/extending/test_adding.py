@@ -87,6 +87,7 @@ class TestKind:
         for verdict in ("proved", "refuted"):
             assert "lyapcheck.check.kinds.hurwitz" in result["trusted"][verdict]["modules"]
 
+    @pytest.mark.slow
     def test_a_forged_verdict_is_refused(self, made: Workshop) -> None:
         code = (
             "import json; from pathlib import Path; from lyapcheck.check.certificate import digest_of\n"
@@ -109,6 +110,7 @@ class TestKind:
         assert done.returncode == 1
         assert done.stdout.count("Hurwitz: is not a kind that the checker knows") == 2
 
+    @pytest.mark.slow
     def test_a_polynomial_that_is_none_is_undecided(self, furnished: Workshop) -> None:
         text = (furnished.folder / "servo.py").read_text(encoding="utf-8")
         (furnished.folder / "none.py").write_text(text.replace("(1, 3, 2, k)", "(0, 3, 2, k)"))
@@ -234,6 +236,7 @@ print(gate(read_gain_file(paper_gain_file())).written("org"))
         assert "| 2 | 1.053 | 1.674 | 0.8673 |" in done.stdout, done.stderr
         assert done.stdout.count("\n* ") == 1
 
+    @pytest.mark.slow
     def test_every_command_takes_it_and_names_cannot_break_it(self, furnished: Workshop) -> None:
         path = furnished.folder / "gentle.toml"
         path.write_text(path.read_text(encoding="utf-8").replace('"soft"', '"so|ft"'))

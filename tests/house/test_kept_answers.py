@@ -31,6 +31,7 @@ from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.arena.attacks import encoded, sealed
 from tests.arena.run import ARENA
+from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
 BUDGET: dict[str, Any] = {"max_boxes": 300, "starts": 2}
@@ -66,7 +67,7 @@ def computed(ranges: bool) -> tuple[RobotModel, bool, EpsilonResult]:
     return model, ranges, result
 
 
-@pytest.fixture(params=[False, True], ids=["nominal", "ranges"])
+@pytest.fixture(params=one_in(2, [False, True]), ids=["nominal", "ranges"])
 def asked(request: pytest.FixtureRequest) -> tuple[RobotModel, bool, EpsilonResult]:
     return computed(request.param)
 
@@ -232,6 +233,7 @@ def of_less_granted(kept: dict[str, Any]) -> None:
     kept["claims"][0]["granted"] = ["nothing"]
 
 
+@pytest.mark.slow
 def test_a_report_is_found_again(reported: Any) -> None:
     subject, kept = reported
     assert kept_report.read(copy.deepcopy(kept), subject) is not None

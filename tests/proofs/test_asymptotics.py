@@ -28,6 +28,7 @@ def test_every_claim_is_proved_for_small_and_large_m(result):
     assert {row.m for row in result.claims} == set(MEMBERS)
 
 
+@pytest.mark.slow
 def test_every_claim_about_all_m_is_proved_at_once():
     rows = run_proof("every_m.py", (2,)).claims
     assert {row.decision.verdict.value for row in rows} == {"proved"}

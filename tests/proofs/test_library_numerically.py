@@ -17,6 +17,7 @@ from lyapcheck.claims import ArmBounds
 from lyapcheck.claims.script import find_script
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.shares import one_in
 
 GAINS = {"Kp": (30.0, 40.0), "Kv": (7.0, 3.0), "Ki": (2.0, 3.0), "K": (7.0, 3.0), "Lambda": (5.0, 4.0)}
 ROBOT = load("pelican2").fixed()
@@ -207,7 +208,7 @@ def test_differences_of_the_arm_are_within_their_slopes():
         assert CONSTANTS[name] / 4 < value <= CONSTANTS[name]
 
 
-@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize("name", one_in(3, LIBRARY))
 def test_v_falls_along_the_arm_as_its_bound_says(name):
     argument = argument_of(name)
     for now, rate in moments(argument):
@@ -249,7 +250,7 @@ class Sized(Moment):
         return self.y if name == "norm_y_w" else super().letter(kind, name)
 
 
-@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize("name", one_in(3, LIBRARY))
 def test_twice_the_bound_would_be_too_much(name):
     """Negative control: the steps are fine enough to see it."""
     argument = argument_of(name)

@@ -6,12 +6,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.extending.page import CONSOLE, FILE
 from tests.extending.test_adding import is_excerpt
 
 PAGE = (Path(__file__).parents[2] / "docs" / "proof_of_a_paper.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_every_step_prints_what_the_page_says(tmp_path):
     for match in FILE.finditer(PAGE):
         (tmp_path / match["path"]).write_text(match["text"], encoding="utf-8")

@@ -112,6 +112,7 @@ def test_the_constants_of_the_arm_are_above_sampled_ones():
 # ε₀ and arms ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_an_eps0_that_is_too_large_is_refuted_and_takes_the_conclusion_along(altered):
     path = altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(101, 100)")
     outcome = verdicts(path, ("arm.theta", "arm.stable", "arms.stable"))
@@ -144,6 +145,7 @@ def test_without_friction_nothing_is_concluded_about_the_arm():
     assert outcome["arms.all"] == "proved"
 
 
+@pytest.mark.slow
 def test_gains_for_another_number_of_joints_leave_the_arm_open():
     outcome = verdicts("scalar.py", robot="pendulum1")
     assert outcome["arm.stable"] == "undecided"

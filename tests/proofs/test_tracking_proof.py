@@ -133,6 +133,7 @@ def test_every_speed_has_its_eps0(altered, speed):
     assert verdicts(path, ("arm.21",)) == {"arm.21": "proved"}
 
 
+@pytest.mark.slow
 def test_an_eps0_for_a_lower_speed_is_not_enough(altered):
     path = altered(
         "gains.kv))\n    return min(gains.kp), arm.b_min, c, d, arm.kc * SPEED",
@@ -149,6 +150,7 @@ def test_an_eps0_for_a_lower_speed_is_not_enough(altered):
     assert verdicts(path, ("arm.21.theta", "arm.21")) == {"arm.21.theta": "refuted", "arm.21": "undecided"}
 
 
+@pytest.mark.slow
 def test_an_eps0_that_is_too_large_is_refuted(altered):
     path = altered("SHARE = Fraction(99, 100)", "SHARE = Fraction(101, 100)")
     assert verdicts(path, ("arm.21.theta", "21")) == {"arm.21.theta": "refuted", "21": "proved"}

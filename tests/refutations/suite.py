@@ -19,7 +19,7 @@ from tests.refutations.statements import Part, parts
 
 LEAST = 150
 """How many planted faults there must be."""
-FEW = 14
+FEW = 40
 """The fast tests plant faults in one statement of so many of a kind."""
 
 Item = TypeVar("Item")

@@ -12,6 +12,7 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.model import Report
 from lyapcheck.report.write import render, write
+from tests.helpers.once import once
 
 
 @pytest.fixture(scope="session")
@@ -22,15 +23,15 @@ def subject() -> Subject:
 
 
 @pytest.fixture(scope="session")
-def report(subject: Subject) -> Report:
+def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report:
     """What is said about it."""
-    return build(subject)
+    return once(tmp_path_factory, "report", lambda: build(subject))
 
 
 @pytest.fixture(scope="session")
-def everything(report: Report) -> dict[str, str | bytes]:
+def everything(report: Report, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str | bytes]:
     """Its files by their names."""
-    return render(report)
+    return once(tmp_path_factory, "rendered", lambda: render(report))
 
 
 @pytest.fixture(scope="session")

@@ -87,6 +87,7 @@ def test_json_carries_the_study(found: dict[str, Any], files: dict[str, str | by
     assert json.loads(str(files["report.json"]))["sensitivity"] == found
 
 
+@pytest.mark.slow
 def test_figures_draw_what_the_data_beside_them_say(
     found: dict[str, Any], files: dict[str, str | bytes]
 ) -> None:

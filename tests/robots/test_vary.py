@@ -117,6 +117,7 @@ def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
     assert [one.verdict for one in accepted] == ["accepted"] * 3
 
 
+@pytest.mark.slow
 def test_tuning_counts_the_worst_arm() -> None:
     bench = Bench(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
     result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))

@@ -97,6 +97,7 @@ def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pyt
     assert boxes.enclosure.lower <= bound <= 1.3 * boxes.enclosure.upper
 
 
+@pytest.mark.slow
 def test_a_smaller_constant_does_not_hold(tmp_path: Path) -> None:
     bodies, sector = hinges(arm_of("leaning", tmp_path).chain)[0], (0.8, 0.4)
     x = coriolis.solve(coriolis._blocks(bodies, BASIS, sector), 1 + BASIS.each + 17, 1e-5)

@@ -198,6 +198,7 @@ def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
     assert refused(leaning, NoTorque())
 
 
+@pytest.mark.slow
 def test_properties_of_seven_skew_joints_are_decided(tmp_path: Path) -> None:
     """All but the bound of C, whose polynomials are too long; 2.7 and 2.8 too."""
     file = tmp_path / "skew.urdf"

@@ -153,6 +153,7 @@ def test_errors_die_out_as_the_statement_says() -> None:
         assert np.all(np.abs(motion.e[late]) <= allowed + 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 1), ("buap3", 0)]))
 def test_the_time_bound_is_kept_by_the_run(robot: str, index: int) -> None:
     at = controlled(robot, index)
@@ -210,6 +211,7 @@ def test_a_smaller_angle_or_a_farther_start_takes_longer() -> None:
     assert level_within(estimate, F(1, 10)) < level_within(estimate, F(1, 5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("robot", "index"), one_in(2, [("reyes-kelly2", 2), ("buap3", 0)]))
 def test_runs_with_dry_friction_come_inside(robot: str, index: int) -> None:
     at = controlled(robot, index)
@@ -256,6 +258,7 @@ def test_a_torque_that_moves_the_arm_away_from_its_goal_is_bounded() -> None:
     assert np.all(np.abs(motion.e) <= np.array([float(x) for x in result.largest_errors]))
 
 
+@pytest.mark.slow
 def test_a_disturbance_beyond_k_pi_has_no_bound() -> None:
     at = controlled("reyes-kelly2", 0)
     result = disturbance_bound(at, goal(at), dry=[61, 6])

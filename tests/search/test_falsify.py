@@ -104,6 +104,7 @@ def test_one_joint_by_hand() -> None:
     assert 2 < witness.eps0 < 2 * (1 + F(1, 10**4))
 
 
+@pytest.mark.slow
 def test_two_joints_at_zero_error_by_hand() -> None:
     """m = 1: 1/ε₀ = λmax(B^(−½)M(0)B^(−½)), because M is largest with the arm stretched."""
     scale = np.diag(1 / np.sqrt([2.288, 0.175]))
@@ -158,6 +159,7 @@ def test_worst_states_for_a_given_eps0_change_sign_at_the_falsified_one() -> Non
     assert best["optimised"] >= best["sampled"]
 
 
+@pytest.mark.slow
 def test_falsify_repeats_itself() -> None:
     first, again = (falsify(two_joints(3), **FEW) for _ in range(2))
     assert isinstance(first, Witness)

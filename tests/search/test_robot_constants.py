@@ -114,7 +114,7 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
 
 
 @pytest.mark.parametrize("budget", one_in(3, [0, 1, 40, 300]))
-@pytest.mark.parametrize("name", ["buap3", "reyes-kelly2"])
+@pytest.mark.parametrize("name", one_in(2, ["reyes-kelly2", "buap3"]))
 def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str, budget: int) -> None:
     known = {constant.name: constant.enclosure for constant in arm_constants(load(name))}
     for constant in arm_constants(load(name), budget):
@@ -160,7 +160,7 @@ TASKS = {
 
 @pytest.mark.parametrize("size", one_in(3, [1e-3, 0.1, 0.5, 2.0]))
 @pytest.mark.parametrize("constant", TASKS)
-@pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
+@pytest.mark.parametrize("name", one_in(3, ["buap3", "pelican2", "ur5"]))
 def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: float) -> None:
     """Boxes around the state of the largest value would pass even without their linear part; these do not."""
     task: Task = TASKS[constant](ArmHarmonics(arm_of(name)))

@@ -93,6 +93,7 @@ def test_dry_friction_holds_a_joint_that_is_pushed_too_little():
     assert np.max(np.abs(free.q)) > 0.5
 
 
+@pytest.mark.slow
 def test_friction_leaves_an_error_in_steady_state():
     still = experiment(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d)
     assert np.all(np.abs(still.w[-1]) < 5e-3)
@@ -154,6 +155,7 @@ def test_a_stiff_arm_is_resolved(tmp_path):
     assert run.accuracy < 1e-3
 
 
+@pytest.mark.slow
 def test_both_ways_of_moving_the_arm_agree():
     setup = set_up(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, None, None, T=1.0, eps0=None)
     states, torques = stiff_periods(setup, Bench(), 400, 1e-9)

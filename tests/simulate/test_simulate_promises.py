@@ -38,6 +38,7 @@ def broken(gain_set: GainSet, model, *task, **options) -> PromiseBroken:
     return stopped.value
 
 
+@pytest.mark.slow
 def test_an_eps0_above_the_falsified_one_is_stopped_at_its_witness():
     """The state that refutes ε₀ is a start; the promise breaks there and nowhere else is looked at."""
     model, gain_set = robots.load("reyes-kelly2"), TWO_JOINTS[0]
@@ -66,6 +67,7 @@ def test_the_state_that_broke_the_promise_proves_it_on_its_own():
     assert result.value > 0.0 == result.limit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain_set", one_in(3, TABLE2), ids=lambda one: one.name)
 def test_extremes_and_limits_do_not_depend_on_the_samples(gain_set):
     """Two samples, both ends, see no peak: the integrator's steps between them do."""
@@ -78,6 +80,7 @@ def test_extremes_and_limits_do_not_depend_on_the_samples(gain_set):
     assert few.promises.torque_norm == pytest.approx(many.promises.torque_norm, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_limit_that_breaks_between_samples_is_found():
     """The elbow's peak lies inside the run; a motor a little weaker is found too weak, in balls."""
     model = robots.load("buap3")
@@ -112,6 +115,7 @@ def test_a_stopped_run_ends_with_the_breach_and_is_marked():
     assert answer.exit_code is Exit.REFUTED
 
 
+@pytest.mark.slow
 def test_without_stopping_the_whole_run_names_the_same_breach():
     stopped = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
     whole = simulate(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0, stop=False)
@@ -120,6 +124,7 @@ def test_without_stopping_the_whole_run_names_the_same_breach():
     assert whole.breach == stopped.breach
 
 
+@pytest.mark.slow
 def test_a_motor_that_is_asked_for_too_much_stops_the_run():
     """k_p tanh(e) = 28 tanh(π/4) = 18.36 N·m at once, where this motor gives 18."""
     weak = replace(robots.load("buap3"), torque_limit=(Number(Fraction(18)), None, None))
@@ -132,6 +137,7 @@ def test_a_motor_that_is_asked_for_too_much_stops_the_run():
     assert simulate(TABLE2[0], enough, PAPER_TASK.q_d).breach is None
 
 
+@pytest.mark.slow
 def test_a_torque_exactly_at_its_limit_is_no_breach():
     """Balls decide: the limit is the torque of the start, rounded up."""
     at = Sample((0.0,) * 3, PAPER_TASK.q_d, (0.0,) * 3)

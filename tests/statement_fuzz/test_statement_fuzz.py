@@ -22,7 +22,7 @@ from tests.statement_fuzz.run import Tally, run
 from tests.statement_fuzz.shrink import shrunk
 from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
-FEW = 600
+FEW = 150
 MANY = 2_000
 
 x = var("x")
@@ -269,6 +269,7 @@ def test_a_recorded_fault_stands_beside_what_is_said_of_its_statement_today() ->
     assert "Today: refuted, and nothing is against it." in text
 
 
+@pytest.mark.slow
 def test_the_command_counts_and_writes_its_page(tmp_path: Any, capsys: Any) -> None:
     page = tmp_path / "page.md"
     code = main(["--statements", "20", "--seed", "2", "--only", "BoundEveryN", "--report", str(page)])

@@ -270,6 +270,7 @@ def test_only_what_the_paper_ran_is_held_against_it() -> None:
     assert study([SETS["tau_m1"]], load("buap3-small")) is None
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_study() -> None:
     first, second = (study([SETS["tau_m3"]], ARM, spread=16, corners=8, seed=2) for _ in range(2))
     assert first is not None

@@ -81,6 +81,7 @@ def test_what_is_wrong_is_said(plan, text: str, words: str) -> None:
         plan(text)
 
 
+@pytest.mark.slow
 def test_a_long_plan_is_never_in_memory(plan) -> None:
     read = plan(HEAD + GRID.replace("[1]", "[1, 2, 3]").replace("[0.1]", "{from = 1, to = 9000, step = 0.1}"))
     assert read.count > 100_000
