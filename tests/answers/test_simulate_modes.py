@@ -264,6 +264,7 @@ def test_every_problem_of_a_command_line_is_told(lyapcheck, sine, arguments, key
         assert f": {key}" in line
 
 
+@pytest.mark.slow
 def test_gains_beyond_all_sense_end_with_a_message(lyapcheck, tmp_path, sine):
     huge = tmp_path / "huge.toml"
     huge.write_text('robot = "buap3"\n[[gains]]\nname = "h"\nm = 1\nkp = [1e300, 1, 1]\nkv = [1, 1, 1]\n')

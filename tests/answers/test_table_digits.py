@@ -60,6 +60,7 @@ def test_every_digit_shown_is_that_of_an_enclosure_of_120_digits(shown):
             assert Fraction(cell) <= value.lower <= value.upper < Fraction(cell) + unit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("m", SAMPLE)
 def test_findroot_of_mpmath_gives_the_same_digits(m, shown, rows):
     row = runpy.run_path(str(BY_HAND))["row"]

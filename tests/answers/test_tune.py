@@ -281,6 +281,7 @@ def test_only_plain_decimals_are_read(text):
         parse_decimals("--torque", text)
 
 
+@pytest.mark.slow
 def test_the_written_file_passes_the_gate_command(tmp_path):
     out = tmp_path / "gains.toml"
     assert run("buap3", "--m", "2:3", "--out", str(out)).exit_code == 0

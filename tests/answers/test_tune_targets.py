@@ -143,6 +143,7 @@ def test_options_that_do_not_fit_are_refused(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
     for one in tuned.own:
         assert isinstance(one.gains, GainSet)

@@ -87,6 +87,7 @@ def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
         assert min(room) > 0
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10**6), st.sampled_from([1, 2, 3]), st.integers(-4, 4))
 def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> None:

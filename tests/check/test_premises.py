@@ -179,7 +179,7 @@ TIME_VARYING = (
 @pytest.mark.parametrize(
     ("script", "claim", "named"),
     one_in(
-        9,
+        14,
         [
             *(("scalar.py", "arms.all", name) for name in (*PREMISES, "arms.small")),
             ("scalar.py", "arms.stable", "arms.theta"),
@@ -204,6 +204,7 @@ def _found(script):
     return str(Path(find_script("published.py")).parent / script) if "/" in script else script
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "claim",
     one_in(

@@ -48,6 +48,7 @@ def test_a_growing_eps0_is_decided_by_norms_then_boxes_then_against(eps0, verdic
     assert verify(planar(eps0), decision.proof).verdict == verdict
 
 
+@pytest.mark.slow
 def test_the_witness_has_dv_dt_above_zero_in_plain_floating_point_too():
     statement, decision = planar(3), propose(planar(3))
     at = {name: float(F(value)) for name, value in decision.witness["point"].items()}

@@ -533,6 +533,7 @@ def regulator(value, potential, **numbers):
 U = log(cosh(x))
 
 
+@pytest.mark.slow
 def test_members_of_the_class():
     assert propose(regulator(tanh(x), U)).verdict.value == "proved"
     root = sqrt(1 + x**2)

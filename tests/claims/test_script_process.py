@@ -83,6 +83,7 @@ def test_a_false_claim_stays_false_whatever_its_script_patches(write, name, tmp_
     assert verdict(write(ATTACKS[name] + FALSE)) is Verdict.REFUTED
 
 
+@pytest.mark.slow
 def test_a_script_cannot_alter_what_explain_prints(write):
     body = "from lyapcheck.output.answer import Answer\nAnswer.__str__ = lambda self: 'all is well'\n"
     body += "from lyapcheck.check.kinds.constant import Constant\nConstant.text = lambda self: '1 ≤ 2'\n"
@@ -321,6 +322,7 @@ def test_a_hypothesis_that_is_not_among_the_uses_proves_nothing(write):
     assert "not among the uses" in row.decision.reason
 
 
+@pytest.mark.slow
 def test_the_certificates_are_those_that_were_judged_and_no_file_is_left(write, tmp_path, monkeypatch):
     scratch, kept = tmp_path / "scratch", tmp_path / "kept"
     scratch.mkdir()

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.helpers.shares import one_in
+
 ROOT = Path(__file__).parents[2]
 GOOD = 'robot = "buap3"\n\n[[gains]]\nname = "mine"\nm = 1\nkp = [28, 60, 5]\nkv = [0.233, 0.233, 0.233]\n'
 BAD = GOOD.replace("60", "70")
@@ -65,7 +67,7 @@ def test_the_hook_leaves_other_files_alone(name):
 if find_spec("pre_commit"):  # a development tool, not needed to run lyapcheck
 
     @pytest.mark.parametrize(
-        ("gains", "code", "words"), [(GOOD, 0, "Passed"), (BAD, 1, "lower k_p to at most")]
+        ("gains", "code", "words"), one_in(2, [(BAD, 1, "lower k_p to at most"), (GOOD, 0, "Passed")])
     )
     def test_the_real_pre_commit_judges_staged_gains(gains, code, words, tmp_path, environment):
         """Offline: the hook runs in this environment (``system``) instead of one that pre-commit installs."""

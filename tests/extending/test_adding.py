@@ -79,6 +79,7 @@ class TestKind:
         assert furnished.run("lyapcheck check servo.py --certificates made").returncode == 1
         return furnished
 
+    @pytest.mark.slow
     def test_its_certificates_are_accepted_and_rest_on_its_file(self, made: Workshop) -> None:
         done = made.run("lyapcheck recheck made --trusted --format json")
         result = json.loads(done.stdout)

@@ -22,5 +22,5 @@ def but(fast: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
 
 
 def _slow(case: Any) -> Any:
-    values = case if isinstance(case, tuple) else (case,)
+    values = case if type(case) is tuple else (case,)  # a named tuple is one value
     return pytest.param(*values, marks=pytest.mark.slow)

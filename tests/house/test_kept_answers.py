@@ -141,6 +141,7 @@ def computed_once(monkeypatch: pytest.MonkeyPatch) -> kept_motion.Bounds:
     return first
 
 
+@pytest.mark.slow
 def test_bounds_are_found_again(monkeypatch: pytest.MonkeyPatch, computed_once: kept_motion.Bounds) -> None:
     monkeypatch.setattr(kept_motion, "settling_bound", never)
     assert bounds() == computed_once
@@ -239,6 +240,7 @@ def test_a_report_is_found_again(reported: Any) -> None:
     assert kept_report.read(copy.deepcopy(kept), subject) is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [of_another_statement, of_other_gains, of_less_granted])
 def test_a_report_that_was_exchanged_is_made_anew(reported: Any, change: Callable[[Any], None]) -> None:
     subject, kept = reported

@@ -15,6 +15,7 @@ from lyapcheck.check.statement import Relation
 from lyapcheck.kernel.judge import theorem_file
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
+from tests.helpers.shares import one_in
 
 HERE = Path(__file__).parent
 GOOD = HERE.parent / "arena" / "good"
@@ -66,7 +67,9 @@ def numbers_changed(value: object) -> object:
     return value
 
 
-@pytest.mark.parametrize("place", ["pub.7g.m1.json", "pub.T2.pd.base.json", "pub.17a.json", "pub.18.json"])
+@pytest.mark.parametrize(
+    "place", one_in(2, ["pub.7g.m1.json", "pub.T2.pd.base.json", "pub.17a.json", "pub.18.json"])
+)
 def test_another_number_is_another_theorem(place: str) -> None:
     one = dict(certificates())[place]
     name = "conclusion" if hasattr(one.statement, "conclusion") else "relation"

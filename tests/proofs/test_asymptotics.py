@@ -35,6 +35,7 @@ def test_every_claim_about_all_m_is_proved_at_once():
     assert {row.m for row in rows} == {None}
 
 
+@pytest.mark.slow
 def test_the_bounds_hold_for_m_up_to_1000():
     with precision(160):
         root2, asinh1 = arb(2).sqrt(), (1 + arb(2).sqrt()).log()

@@ -136,6 +136,7 @@ def test_another_arm_with_gains_of_its_own():
     assert set(verdicts("scalar.py", robot="reyes-kelly2", gains=gains).values()) == {"proved"}
 
 
+@pytest.mark.slow
 def test_without_friction_nothing_is_concluded_about_the_arm():
     model = load("buap3")
     number = replace(model.viscous[0], value=Fraction(0), low=None, high=None)

@@ -127,6 +127,7 @@ def test_without_the_desired_velocity_the_form_would_not_bound_the_rate():
 # The role of v_d and ε₀ -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", one_in(3, ["Fraction(1000)", "Fraction(0)", "Fraction(1, 10)"]))
 def test_every_speed_has_its_eps0(altered, speed):
     path = altered("SPEED = Fraction(2)", f"SPEED = {speed}")

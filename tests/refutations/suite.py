@@ -19,8 +19,8 @@ from tests.refutations.statements import Part, parts
 
 LEAST = 150
 """How many planted faults there must be."""
-FEW = 40
-"""The fast tests plant faults in one statement of so many of a kind."""
+FEW = 14
+"""Where some faults are enough they are planted in one statement of so many of a kind."""
 
 Item = TypeVar("Item")
 Decide = Callable[[Statement], Verdict]
@@ -56,7 +56,7 @@ def planted() -> Planted:
 
 @lru_cache(maxsize=1)
 def partly_planted() -> Planted:
-    """The same in a few of the statements of each kind: enough for the fast tests."""
+    """The same in a few of the statements of each kind: enough to catch a procedure that is unsound."""
     kinds: dict[type[Statement], list[Part]] = {}
     for part in parts():
         kinds.setdefault(type(part.statement), []).append(part)

@@ -2,17 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.report import compute
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.model import Report
 from lyapcheck.report.write import render, write
 from tests.helpers.once import once
+from tests.helpers.one_process import one_process
+
+
+class AtOnce(Executor):
+    """Does what it is handed before it returns."""
+
+    def __init__(self, *anything: object) -> None:
+        pass
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        result: Future[Any] = Future()
+        result.set_result(fn(*args, **kwargs))
+        return result
 
 
 @pytest.fixture(scope="session")
@@ -24,8 +41,14 @@ def subject() -> Subject:
 
 @pytest.fixture(scope="session")
 def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report:
-    """What is said about it."""
-    return once(tmp_path_factory, "report", lambda: build(subject))
+    """What is said about it, with all computations in this process; tests of processes make their own."""
+
+    def made() -> Report:
+        with one_process() as patch:
+            patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
+            return build(subject)
+
+    return once(tmp_path_factory, "report", made)
 
 
 @pytest.fixture(scope="session")

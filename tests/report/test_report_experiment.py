@@ -71,6 +71,7 @@ def number(**changed: Any) -> dict[str, Any]:
     return {**plain, "nearest": 1.2, "answer": "no", "runs": 10, "nominal": None, "shares": None} | changed
 
 
+@pytest.mark.slow
 def test_the_pages_show_every_printed_number(found: dict[str, Any], files: dict[str, str | bytes]) -> None:
     for one in found["sets"]:
         for entry in one["numbers"]:
@@ -105,6 +106,7 @@ def test_figures_draw_what_the_data_beside_them_say(
     assert draw_sensitivity(None) == {}
 
 
+@pytest.mark.slow
 def test_indices_stand_beside_the_bench(found: dict[str, Any]) -> None:
     runs = [
         {"name": "tau_m1", "L2": 31.0, "printed": {"L2": 25.4}},

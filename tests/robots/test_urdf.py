@@ -84,6 +84,7 @@ def test_a_fixed_joint_is_the_same_as_one_heavier_link(tmp_path: Path) -> None:
     assert mass[1][1] == moment + both * com**2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("file", "tip", "n"), one_in(2, [("ur5", None, 6), ("panda", "panda_hand", 7)]))
 def test_real_arms_move_as_newton_and_euler_say(file: str, tip: str | None, n: int) -> None:
     path = ARMS / f"{file}.urdf"

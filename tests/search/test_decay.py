@@ -135,6 +135,7 @@ def local_level_along(at: ControlledArm, eps0: float, motion: DisturbedRun) -> n
     return np.asarray(kinetic + at.family.potential(motion.e) @ at.kp)
 
 
+@pytest.mark.slow
 def test_errors_die_out_as_the_statement_says() -> None:
     """Exponentially for m = 1, and like a power of time where h is flat."""
     for m in (1, 2):

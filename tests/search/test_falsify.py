@@ -114,6 +114,7 @@ def test_two_joints_at_zero_error_by_hand() -> None:
     assert 1 / largest < float(witness.eps0) < (1 + 1e-5) / largest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("controlled", one_in(4, SETTINGS))
 def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) -> None:
     witness = falsify(controlled, **FEW)

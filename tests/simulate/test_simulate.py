@@ -52,6 +52,7 @@ def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
     np.testing.assert_allclose(run.e[:, 0], exact, atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
 def test_another_integrator_finds_the_same_motion(gain_set):
     """CVODES, with its own step control and its own source, on the same equations."""
@@ -143,6 +144,7 @@ def test_at_the_goal_nothing_moves():
     assert run.promises.V_decreases
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(
     start=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4),

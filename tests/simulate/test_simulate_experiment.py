@@ -100,6 +100,7 @@ def test_friction_leaves_an_error_in_steady_state():
     assert np.max(np.abs(still.indices.final_error)) > 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain_set", one_in(3, TABLE2), ids=lambda g: g.name)
 def test_the_published_experiment_is_resolved(gain_set):
     run = table_run(gain_set)

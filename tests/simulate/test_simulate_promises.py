@@ -58,6 +58,7 @@ def test_an_eps0_above_the_falsified_one_is_stopped_at_its_witness():
     assert kept.breach is None
 
 
+@pytest.mark.slow
 def test_the_state_that_broke_the_promise_proves_it_on_its_own():
     failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
     result, controlled = failure.breach, ControlledArm(TABLE2[0], robots.load("buap3"))
@@ -148,6 +149,7 @@ def test_a_torque_exactly_at_its_limit_is_no_breach():
     assert simulate(TABLE2[0], tight, PAPER_TASK.q_d).breach is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain_set", one_in(3, TABLE2), ids=lambda g: g.name)
 def test_published_gains_keep_all_promises_at_half_of_what_is_certified(gain_set):
     """0.0518 is half of the least of the three certified ε₀."""

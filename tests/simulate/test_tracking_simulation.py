@@ -75,6 +75,7 @@ def arm_under_21(gain_set: GainSet, model, reference, q0, t):
     return solve_ivp(rate, (0.0, t[-1]), start, "DOP853", t, rtol=1e-10, atol=1e-12).y[:n].T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("gain_set", "reference"),
     one_in(3, [(TABLE2[0], WAVE), (TABLE2[2], JERK), (PD, WAVE)]),
@@ -225,6 +226,7 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     assert V.shape == dV.shape
 
 
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(start=st.lists(st.floats(-1.5, 1.5), min_size=6, max_size=6), m=st.integers(1, 4))
 def test_no_motion_leaves_the_bounds_of_the_torque(start, m):

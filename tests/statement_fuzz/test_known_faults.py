@@ -50,6 +50,7 @@ def verdicts_of_the_script() -> dict[str, str]:
     return {row["id"]: row["verdict"] for row in json.loads(result.stdout)["claims"]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(FAULTS)), ids=lambda number: FAULTS[number].name)
 def test_a_script_does_not_get_it_either(verdicts_of_the_script: dict[str, str], number: int) -> None:
     verdicts = {"undecided", "proved", "refuted"} - {FAULTS[number].verdict}

@@ -1,0 +1,40 @@
+"""Scripts run, and certificates are judged, in the process of the test, by the same functions."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+from subprocess import CompletedProcess
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+
+@contextmanager
+def one_process() -> Iterator[pytest.MonkeyPatch]:
+    """As long as it lasts; what else is to be replaced as long may be."""
+    from lyapcheck.check import __main__ as checker
+    from lyapcheck.check import guard, judging, worker
+    from lyapcheck.claims import ask, fresh_check, script_process
+
+    def run_script(request: Any) -> int:
+        Path(request.answer).write_text(script_process.answer(request), encoding="utf-8")
+        return 0
+
+    def ask_worker(own: guard.Guard, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
+        return worker._answer(judging, request, documents)
+
+    def run_checker(words: list[str], **options: Any) -> CompletedProcess[bytes]:
+        stdout = io.StringIO()
+        with redirect_stdout(stdout):
+            code = checker.main(words[words.index("lyapcheck.check") + 1 :])
+        return CompletedProcess(words, code, stdout.getvalue().encode(), b"")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ask, "_run", run_script)
+        patch.setattr(guard.Guard, "_ask", ask_worker)
+        patch.setattr(fresh_check, "subprocess", SimpleNamespace(run=run_checker))
+        yield patch
