@@ -17,7 +17,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
 from tests.helpers.shares import one_in
 
-HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "scipy", "sympy")
+HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "rich", "scipy", "sympy")
 
 
 def table2(**options: object) -> dict[str, GateResult]:

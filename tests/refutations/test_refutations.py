@@ -172,6 +172,7 @@ def test_the_oracle_has_its_own_constants_and_they_agree(m: int) -> None:
             assert abs(own - enclosure.mid) < Fraction(1, 10**25), name
 
 
+@pytest.mark.slow
 def test_what_is_proved_of_the_proofs_is_not_broken_by_the_oracle() -> None:
     """Two opinions on the statements as they stand: proved here, a failing point there, cannot both be."""
     for part in parts():
@@ -187,6 +188,7 @@ def test_faults_change_one_place_and_keep_to_the_names_of_the_statement() -> Non
     assert not [fault for fault in faults if "rho" in str(fault.statement)]
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_report() -> None:
     result = outcomes(partly_planted().false, by=credulous)
     text = markdown(partly_planted(), result)
