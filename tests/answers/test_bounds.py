@@ -53,6 +53,7 @@ def test_the_first_line_says_whether_all_is_certified(compared: Comparisons) -> 
     assert Comparisons((sound, sound)).document().title.startswith("✓ the bounds of all 2 gain sets")
 
 
+@pytest.mark.slow
 def test_what_is_shown_is_never_below_what_is_certified(sound: Comparison) -> None:
     settling = sound.settling
     times, errors = Comparisons((sound,), FILE).document().blocks[:2]

@@ -201,7 +201,7 @@ COMMANDS = [
 ]
 
 
-@pytest.mark.parametrize("words", one_in(9, COMMANDS))
+@pytest.mark.parametrize("words", one_in(13, COMMANDS))
 def test_no_format_obeys_a_name(
     words: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -123,6 +123,7 @@ def test_figures_of_tracking_have_their_data_beside_them(lyapcheck, single, wave
     assert (place / "s.csv").read_text() == done.stdout
 
 
+@pytest.mark.slow
 def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it(lyapcheck):
     done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json")
     assert done.returncode == 1

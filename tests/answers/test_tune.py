@@ -325,6 +325,7 @@ def test_json_says_what_the_gain_file_says():
     }
 
 
+@pytest.mark.slow
 def test_markdown_tables_have_as_many_cells_as_heads():
     lines = run("buap3", "--format", "markdown", "--m", "1:2").stdout.splitlines()
     tables = [line.count("|") for line in lines if line.startswith("|")]

@@ -98,6 +98,7 @@ def test_a_wrong_constant_is_noticed():
         table.compare(ours, "5 1.171 1.181 1.175", 30)
 
 
+@pytest.mark.slow
 def test_the_gate_by_hand_gives_the_same_verdicts():
     assert gate.benchmark(runs=1).agreement.startswith("the same 3 verdicts")
 

@@ -113,6 +113,7 @@ def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> Non
     assert dV <= -w @ P @ w + 1e-9 * (w @ w)
 
 
+@pytest.mark.slow
 def test_what_is_refuted_is_not_proved() -> None:
     for m in (1, 2, 3):
         loop = replace(proof(m).loop, eps0=FALSIFIED[m])

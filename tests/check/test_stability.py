@@ -307,6 +307,7 @@ def test_undefined_spans_are_not_positive() -> None:
     assert not Span.of(arb("nan")).positive
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Path) -> None:
     """The processes import what they need and do not run the script again."""
     script = tmp_path / "script.py"

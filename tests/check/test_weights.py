@@ -52,6 +52,7 @@ def test_some_joint_gains_much_and_the_product_grows(index: int) -> None:
     assert min(result.proof.loop.Lambda) == 1
 
 
+@pytest.mark.slow
 def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
     """dV/dt by differences of V along the closed loop; nothing of the derivation is used."""
     case, result = controlled(1), weighted(1)

@@ -157,6 +157,7 @@ def test_what_comes_back_is_limited(write, monkeypatch):
         run_proof(write(TRUE), ms=(1,), n=1)
 
 
+@pytest.mark.slow
 def test_a_script_may_fork_and_leave_threads(write):
     body = "import os, threading, time\nos.fork()\n"
     body += "threading.Thread(target=time.sleep, args=(60,)).start()\n"
@@ -252,6 +253,7 @@ def test_a_claim_that_hides_its_reading_of_n_is_shown_for_its_n(write):
     assert rows(write(TRUE))["true", None].n is None
 
 
+@pytest.mark.slow
 def test_a_claim_that_cannot_be_stated_for_more_joints_is_decided_for_those_at_hand(write):
     body = "@proof.claim('a', '')\ndef _(case):\n    return Constant(expr([0, 0, 1][case.n]) <= 1)\n"
     assert [row.verdict.value for row in rows(write(body)).values()] == ["proved"]

@@ -150,6 +150,7 @@ def test_bounds_are_found_again(monkeypatch: pytest.MonkeyPatch, computed_once: 
             bounds(**other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change",
     [

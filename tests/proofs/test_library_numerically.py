@@ -208,7 +208,7 @@ def test_differences_of_the_arm_are_within_their_slopes():
         assert CONSTANTS[name] / 4 < value <= CONSTANTS[name]
 
 
-@pytest.mark.parametrize("name", one_in(3, LIBRARY))
+@pytest.mark.parametrize("name", one_in(9, LIBRARY))
 def test_v_falls_along_the_arm_as_its_bound_says(name):
     argument = argument_of(name)
     for now, rate in moments(argument):
@@ -250,7 +250,7 @@ class Sized(Moment):
         return self.y if name == "norm_y_w" else super().letter(kind, name)
 
 
-@pytest.mark.parametrize("name", one_in(3, LIBRARY))
+@pytest.mark.parametrize("name", one_in(9, LIBRARY))
 def test_twice_the_bound_would_be_too_much(name):
     """Negative control: the steps are fine enough to see it."""
     argument = argument_of(name)

@@ -23,6 +23,7 @@ from lyapcheck.report.model import Report
 from lyapcheck.robots import load
 
 
+@pytest.mark.slow
 def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> None:
     """Each place that names an ε₀: the checker proves it, for that m and that k_v."""
     model, gains = load("pendulum1"), {1: GainSet("g", 1, (Fraction(4),), (Fraction(1),))}

@@ -52,6 +52,7 @@ def test_rational_points_of_the_circle_give_the_same_rationals(arm: robots.Robot
     assert along == expanded
 
 
+@pytest.mark.slow
 def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm: robots.RobotModel) -> None:
     half = 1e-5
     wide = [arb(q).union(arb(q + half)) for q in Q]
@@ -75,6 +76,7 @@ def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm: robots.RobotM
     assert sharp < 0.01
 
 
+@pytest.mark.slow
 def test_doubles_and_graphs_agree_with_balls(arm: robots.RobotModel) -> None:
     q = list(map(arb, Q))
     _, exact = both(arm, [x.sin() for x in q], [x.cos() for x in q], list(map(arb, X)), to_arb)

@@ -48,6 +48,7 @@ def test_identities_of_built_in_arms(arm: RobotModel, check: object) -> None:
     check(arm)
 
 
+@pytest.mark.slow
 @relaxed
 @given(plain_links().map(model_of))
 def test_identities_of_random_chains(model: RobotModel) -> None:

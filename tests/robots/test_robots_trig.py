@@ -64,6 +64,7 @@ def test_derivative_of_generators() -> None:
     assert trig.derivative(P * S2, 1) == P * C2
 
 
+@pytest.mark.slow
 @relaxed
 @given(polys, st.floats(-3, 3), st.floats(-3, 3))
 def test_derivative_is_the_slope(poly: object, q1: float, q2: float) -> None:

@@ -194,6 +194,7 @@ def test_other_arms_have_bounds(robot: str) -> None:
     assert float(result.time) >= late[-1]
 
 
+@pytest.mark.slow
 def test_an_arm_of_one_joint_is_bounded_sharply_enough_to_be_of_use() -> None:
     at = single("pendulum1")
     result = settling_bound(at, goal(at), delta=math.radians(1.0))

@@ -97,6 +97,7 @@ def test_reciprocal_is_where_the_rate_changes_sign() -> None:
     assert np.all(np.abs(rates)[failing] < 1e-9 * scale[failing])
 
 
+@pytest.mark.slow
 def test_one_joint_by_hand() -> None:
     """M = ¼ kg·m², b = ½, m = 1: the worst state is fast at e = 0, where ε₀ = b/M = 2."""
     witness = falsify(SETTINGS[3], **FEW)
@@ -147,6 +148,7 @@ def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
     )
 
 
+@pytest.mark.slow
 def test_worst_states_for_a_given_eps0_change_sign_at_the_falsified_one() -> None:
     controlled = two_joints(2)
     witness = falsify(controlled, **FEW)

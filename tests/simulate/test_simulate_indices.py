@@ -40,6 +40,7 @@ def test_l2_of_uneven_samples_is_an_integral_not_a_mean():
     assert l2_index(t, np.radians(np.full((4, 1), 2.0))) == pytest.approx(2.0)
 
 
+@pytest.mark.slow
 def test_the_index_of_a_run_is_that_of_its_samples():
     gain_set = read_gain_file(paper_gain_file("table2")).gains[0]
     run = simulate(gain_set, robots.load("buap3"), PAPER_TASK.q_d, T=5.0)

@@ -97,6 +97,7 @@ def test_a_limit_that_breaks_between_samples_is_found():
         assert failure.partial.t[-1] == failure.breach.t
 
 
+@pytest.mark.slow
 def test_a_stopped_run_ends_with_the_breach_and_is_marked():
     failure = broken(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, eps0=50.0)
     partial, result = failure.partial, failure.breach

@@ -198,6 +198,7 @@ def test_without_friction_there_is_no_eps0():
     assert TrackingForm(replace(form.still, friction=Fraction(0)), form.turn).largest() is None
 
 
+@pytest.mark.slow
 def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
     with pytest.raises(TrackingFailed, match="dV/dt ≤ 0") as stopped:
         run_of(eps0=50.0)

@@ -61,6 +61,7 @@ def test_without_dry_friction_the_bench_is_that_of_the_experiment(name: str) -> 
     assert np.max(np.abs(ours[:, 6:] - other.tau)) < 0.2  # one line of an encoder under the gains of PD
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["tau_m1", "tau_pd"])
 def test_creeping_joints_tend_to_sticking_ones(name: str) -> None:
     ours = runs(name, substeps=16).paths(NOMINAL)[0, :, :3]
@@ -91,6 +92,7 @@ def test_graphs_do_what_compiled_code_does() -> None:
     assert np.max(np.abs(by_graph - bench.paths(numbers))) < 1e-9
 
 
+@pytest.mark.slow
 def test_without_a_compiler_a_small_study_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LYAPCHECK_NO_COMPILER", "1")
     compiled_bench.cache_clear()

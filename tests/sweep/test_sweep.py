@@ -97,6 +97,7 @@ def test_every_row_names_certificates_that_the_checker_accepts(plan: Path, tmp_p
         assert words[own["verdict"]] == row["verdict"]
 
 
+@pytest.mark.slow
 def test_the_command_leaves_rows_maps_and_a_page(plan: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = command("sweep", plan, "--out", out, "--jobs", 1)
