@@ -60,43 +60,46 @@ def h_of(m):
     return member(h(m, x), potential(m, x), *(at_least(bound(m)) for bound in (gamma, rho, secant_bound)))
 
 
-def argument(goal, functions):
-    """V of (13) and its bounds in ‖h(q̃)‖ and ‖w‖, for a constant q_d or one that moves."""
-    e_h, w_k = functions(goal)
-    w, M, B = goal.w, goal.M, goal.B
-    K_p, K_v = goal.gains("Kp Kv")
-    torque = K_p @ e_h - K_v @ w_k + goal.gravity
-    coriolis = 0
+def closed_loop(goal, functions):
+    """The loop that (6) closes, or (21) where q_d moves; V of (13), its bound from below, h, k and gains."""
+    (h, k), (K_p, K_v) = functions(goal), goal.gains("Kp Kv")
+    w, M, B, y, ε = goal.w, goal.M, goal.B, any_vector("y_w"), goal.eps0 * goal.s
+    torque = K_p @ h - K_v @ k + goal.gravity
     if goal.desired:
         torque = torque + M @ goal.acceleration + goal.C @ goal.velocity + B @ goal.velocity
-        coriolis = goal.kc * goal.vd
-    ε0, s, β = goal.eps0, goal.s, goal.beta
-    ε, y, a, b = ε0 * s, any_vector("y_w"), norm(e_h), norm(w)
-    shifted = w - ε * e_h
-    V = shifted @ M @ shifted / 2 + K_p.entries @ e_h.U
-    c = β * (e_h.slope + e_h.secant) + e_h.reach * goal.kc
-    bounds = {
-        "above": goal.mu / 2 * norm(y) ** 2 + K_p.min * e_h.sum_U,
-        "rate": ε * (K_p.min - ε * coriolis) * a**2
-        - ε * (B.max + w_k.secant * K_v.max + coriolis + ε * c) * a * b
-        + (B.min - ε * c) * b**2,
-        "changes": {"w": y + ε * e_h},
-        "small": True,
-    }
+    shifted = w - ε * h
+    V = shifted @ M @ shifted / 2 + K_p.entries @ h.U
+    above = {"above": goal.mu / 2 * norm(y) ** 2 + K_p.min * h.sum_U, "changes": {"w": y + ε * h}}
+    return goal.under(torque), V, above, (h, k, K_p, K_v)
+
+
+def argument(goal, functions, given):
+    """dV/dt in a = ‖h(q̃)‖ and b = ‖w‖, for some ε₀ > 0 or, if ``given``, for each that meets a condition."""
+    loop, V, above, (h, k, K_p, K_v) = closed_loop(goal, functions)
+    ε0, β, a, b, B = goal.eps0, goal.beta, norm(h), norm(goal.w), goal.B
+    ε, D = ε0 * goal.s, goal.kc * goal.vd
+    c, d = β * (h.slope + h.share) + h.reach * goal.kc, B.max + k.secant * K_v.max
+    corner, low, where = K_p.min, B.min - ε0 * c, []
+    rate = ε * K_p.min * a**2 - ε * (d + ε * c) * a * b + (B.min - ε * c) * b**2
     if goal.desired:
-        below = β / 2 * (b + ε * a) ** 2 + K_p.norm * e_h.sum_U
-        return uniform(goal.under(torque), V, below=below, **bounds)
-    return strict(goal.under(torque), V, **bounds)
+        rate, d, corner = rate - ε**2 * D * a**2 - ε * D * a * b, d + D, corner - ε0 * D
+        # the second follows from the others, and spares the search a product of two of them
+        where = [ε0 * D < K_p.min, ε0**2 * D * c < K_p.min * B.min]
+    where += [ε0 / 4 * (d + ε0 * c) ** 2 < corner * low]
+    form = {**above, "rate": rate, **({"where": where} if given else {"small": True})}
+    if goal.desired:
+        return uniform(loop, V, below=β / 2 * (b + ε * a) ** 2 + K_p.norm * h.sum_U, **form)
+    return strict(loop, V, **form)
 
 
-def regulator(functions):
+def regulator(functions, given=False):
     """(6)."""
-    return argument(constant_goal("positive"), functions)
+    return argument(constant_goal("positive"), functions, given)
 
 
-def tracking(functions):
+def tracking(functions, given=False):
     """(21)."""
-    return argument(moving_goal("positive"), functions)
+    return argument(moving_goal("positive"), functions, given)
 
 
 proof.section("Every function of the class")

@@ -13,7 +13,6 @@ from functools import partial
 from lyapcheck.claims import (
     ArmBounds,
     Constant,
-    FamilyBounds,
     Proof,
     Reals,
     above,
@@ -21,6 +20,8 @@ from lyapcheck.claims import (
     all_of,
     below,
     bounded,
+    companion,
+    constant_goal,
     coriolis_at_rest,
     coriolis_bounded,
     damping_below,
@@ -53,7 +54,7 @@ from lyapcheck.claims import (
     secant_bound,
     sinh,
     sqrt,
-    theorem,
+    strict,
     torque_limits,
     total,
     var,
@@ -594,21 +595,16 @@ def _(m, n, robot, gains):
     "Proposition",
     uses=["11", "12d", "12p", "12u", "h.bounds", "16", "18e"],
 )
-def _(m, n):
-    """By Θ of (16), with decimals for γ_m and ρ_m."""
-    known = FamilyBounds(n, gamma(m), rho(m), secant_bound(m))
-    names = {"gamma": known.gamma, "rho": known.rho, "kv": var("kv_max"), "b": var("b_min")}
-    return theorem(
-        "Lyapunov's direct method",
-        known.loop(function_of(m), tuple(entry.at(**names) for entry in theta(n))),
-        only_equilibrium="11",
-        differentiable="12d",
-        positive_definite="12p",
-        radially_unbounded="12u",
-        bounds_of_h="h.bounds",
-        rate_bounded_by_a_form="16",
-        form_negative_definite="18e",
-    )
+def _(m):
+    """By Θ of (16): h_reach is √nγ; with decimals for γ_m and ρ_m."""
+    family, goal = companion("every_function.py"), constant_goal("positive")
+    loop, V, lower, (h_e, _, K_p, K_v) = family.closed_loop(goal, family.h_of(m))
+    B, β, k_c, reach, a, b = goal.B, goal.beta, goal.kc, h_e.reach, *map(family.norm, (goal.e, goal.w))
+    ε0, ε, steep = goal.eps0, goal.eps0 * goal.s, reach * above(rho(m)) / above(gamma(m))
+    side = reach * (B.max + steep * K_v.max + ε0 * (reach * k_c + β * (reach + steep)))
+    low = B.min - reach * K_v.max - ε * (β * (steep + reach) + reach * k_c)
+    form = ε * reach**2 * K_p.min * a**2 - ε * side * a * b + low * b**2
+    return strict(loop, V, rate=form, where=[reach * K_v.max < B.min], small=True, **lower)
 
 
 proof.section("Section 4: Tables 1 and 2")

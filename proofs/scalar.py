@@ -24,9 +24,10 @@ from lyapcheck.claims import (
     ArmBounds,
     Constant,
     FamilyBounds,
-    ForSmall,
     Proof,
     all_of,
+    at_arm,
+    companion,
     coriolis_matrix,
     decreasing,
     dh,
@@ -50,12 +51,12 @@ from lyapcheck.claims import (
     positive,
     potential,
     rate,
-    rate_bound,
+    rate_at_most,
+    rate_definite,
     rate_of,
     rho,
     secant_bound,
     sqrt,
-    theorem,
     total,
     transpose,
     var,
@@ -68,6 +69,8 @@ proof = Proof(
     reference="reyes2019family",
 )
 
+FAMILY = companion("every_function.py")
+"""The torque (6), V of (13) and the bound of its rate, for any function."""
 x = var("x")
 SHARE = Fraction(99, 100)
 """ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
@@ -90,10 +93,9 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
 
 
-def loop_of(m, n, **more):
-    """The loop (11) with V of (13), as the theorem is about it."""
-    known = known_of(m, n)
-    return known.loop(function_of(m), form_of(known), **more)
+def stable_of(m, given=False):
+    """The theorem for h_m; if ``given``, for each ε₀ that meets the condition, and not for some."""
+    return FAMILY.regulator(FAMILY.h_of(m), given)
 
 
 def sign_of(m):
@@ -294,23 +296,17 @@ def theta(eps, k, b_min, c, d):
     uses=[f"rate.{k}" for k in range(1, 12)],
 )
 def _(m, n):
-    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
+    """The bounds of the eleven terms add up to the form; and from V itself, with letters for n and h."""
     known = known_of(m, n)
     return all_of(
         sum=identity(total(bounds_of(known)), minus_form(form_of(known))),
-        from_V_for_every_n=rate_bound(loop_of(m, n)),
+        from_V_for_every_n=rate_at_most(stable_of(m)),
     )
 
 
 proof.section("Every arm")
-LYAPUNOVS = {
-    "only_equilibrium": "equilibrium",
-    "differentiable": "V.smooth",
-    "positive_definite": "V.positive",
-    "radially_unbounded": "V.unbounded",
-    "bounds_of_h": "h.bounds",
-    "rate_bounded_by_a_form": "rate.form",
-}
+STEPS = ("equilibrium", "V.smooth", "V.positive", "V.unbounded", "h.bounds", "rate.form")
+"""Steps of the theorem by themselves; its own certificate has them all, for every n."""
 
 
 def condition(eps0, k, b_min, c, d):
@@ -323,34 +319,19 @@ def condition(eps0, k, b_min, c, d):
     "¼ε₀(d + ε₀c)² < λmin(K_p)(λmin(B) − ε₀c) makes Θ' positive definite for every ε in (0, ε₀]",
     "in place of (18)",
 )
-def _(m, n):
-    """With ε₀ = ε + rest; det Θ'/ε does not increase with ε."""
-    known = known_of(m, n)
-    corner, side, low = form_of(known)
-    variables = positive("eps", "kp", "b_min", "beta") + nonnegative("rest", "b_max", "kv_max", "kc")
-    given = (condition_of(known, var("eps") + var("rest")),)
-    return all_of(
-        corner=implies(variables, given, expr(0) < corner),
-        determinant=implies(variables, given, side**2 < corner * low),
-    )
-
-
-def condition_of(known, eps0):
-    """The condition on ε₀ in the constants of the loop."""
-    k, b_min, b_max, kv_max, beta, kc = map(var, ("kp", "b_min", "b_max", "kv_max", "beta", "kc"))
-    return condition(eps0, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
+def _(m):
+    return rate_definite(stable_of(m, given=True))
 
 
 @proof.claim(
     "arms.stable",
     "where ε₀ meets the condition, the origin is globally asymptotically stable",
     "Proposition",
-    uses=[*LYAPUNOVS.values(), "arms.theta"],
+    uses=[*STEPS, "arms.theta"],
 )
-def _(m, n):
+def _(m):
     """For every robot with Properties 2.1–2.7 and the constants λmin(B), λmax(B), β_M, k_c, and any gains."""
-    loop = loop_of(m, n, condition=[condition_of(known_of(m, n), var("eps0"))])
-    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.theta")
+    return stable_of(m, given=True)
 
 
 @proof.claim(
@@ -358,28 +339,19 @@ def _(m, n):
     "some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
     "in place of (19)",
 )
-def _(m, n):
-    known = known_of(m, n)
-    eps0, k, b, more, kv, beta, kc = map(var, ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc"))
-    variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc")
-    share = eps0 * var("share")
-    corner, side, low = theta(share, k, b, known.drift(beta, kc), known.cross(b + more, kv))
-    return all_of(
-        corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
-        determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
-    )
+def _(m):
+    return rate_definite(stable_of(m))
 
 
 @proof.claim(
     "arms.all",
     "for all positive gains the origin is globally asymptotically stable: no bound of K_v is needed",
     "the Proposition, without (19)",
-    uses=[*LYAPUNOVS.values(), "arms.small"],
+    uses=[*STEPS, "arms.small"],
 )
-def _(m, n):
+def _(m):
     """For every robot with Properties 2.1–2.7, friction included; ε₀ is not part of the controller."""
-    loop = loop_of(m, n)
-    return theorem("Lyapunov's direct method", loop, **LYAPUNOVS, form_negative_definite="arms.small")
+    return stable_of(m)
 
 
 proof.section("This arm")
@@ -449,21 +421,11 @@ def _(m, n, robot, gains):
     "arm.stable",
     "the origin is globally asymptotically stable: this robot, these gains, with this ε₀ in V",
     "Proposition",
-    uses=[*LYAPUNOVS.values(), "arm.properties", "arm.M", "arm.C", "arm.theta"],
+    uses=[*STEPS, "arm.properties", "arm.M", "arm.C", "arm.theta"],
 )
 def _(m, n, robot, gains):
-    loop = loop_of(m, n, arm=ArmBounds(robot).under(gains), **numbers_of(m, n, robot, gains))
-    constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
-    return theorem(
-        "Lyapunov's direct method", loop, **LYAPUNOVS, **constants, form_negative_definite="arm.theta"
-    )
-
-
-def numbers_of(m, n, robot, gains):
-    """The constants of the loop for the robot and gains at hand, and ε₀."""
-    arm = ArmBounds(robot)
-    bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc}
-    return bounds | {"kp": min(gains.kp), "kv_max": max(gains.kv), "eps0": eps0_of(m, n, robot, gains)}
+    eps0 = eps0_of(m, n, robot, gains)
+    return at_arm(stable_of(m, given=True), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0)
 
 
 @proof.claim(

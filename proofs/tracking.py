@@ -27,11 +27,12 @@ from fractions import Fraction
 from lyapcheck.claims import (
     ArmBounds,
     FamilyBounds,
-    ForSmall,
     Proof,
     all_of,
     any_matrix,
     any_vector,
+    at_arm,
+    companion,
     dh,
     dot,
     every_n,
@@ -44,14 +45,12 @@ from lyapcheck.claims import (
     largest_with,
     loop_property,
     loops,
-    nonnegative,
-    positive,
     potential,
-    rate_bound,
+    rate_at_most,
+    rate_definite,
     rho,
     scaled,
     secant_bound,
-    theorem,
     total,
     var,
     zero_vector,
@@ -63,6 +62,8 @@ proof = Proof(
     reference="reyes2019family",
 )
 
+FAMILY = companion("every_function.py")
+"""The torque (21), V of (13) and the bound of its rate, for any function."""
 x = var("x")
 SPEED = Fraction(2)
 """v_d in rad/s for the conclusion with numbers."""
@@ -186,10 +187,9 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
 
 
-def loop_of(m, n, **more):
-    """The loop that (21) closes with V of (13), as the theorem is about it."""
-    known = known_of(m, n)
-    return known.loop(function_of(m), form_of(known), desired=True, **more)
+def stable_of(m, given=False):
+    """The theorem for h_m; if ``given``, for each ε₀ that meets the condition, and not for some."""
+    return FAMILY.tracking(FAMILY.h_of(m), given)
 
 
 @proof.claim(
@@ -199,12 +199,12 @@ def loop_of(m, n, **more):
     uses=["21.loop", "21.5", "21.9", *SAME_TERMS],
 )
 def _(m, n):
-    """The bounds of the eleven terms add up to the form; and once more from V itself, for every n."""
+    """The bounds of the eleven terms add up to the form; and from V itself, with letters for n and h."""
     known, a, b = known_of(m, n), var("a"), var("b")
     corner, side, low = form_of(known)
     return all_of(
         sum=identity(total(bounds_of(known)), -(corner * a**2 + 2 * side * a * b + low * b**2)),
-        from_V_for_every_n=rate_bound(loop_of(m, n)),
+        from_V_for_every_n=rate_at_most(stable_of(m)),
     )
 
 
@@ -237,41 +237,23 @@ def _(m):
     "for every v_d some ε₀ > 0 makes Θ' positive definite for every ε in (0, ε₀]",
     "in place of (18)",
 )
-def _(m, n):
-    known = known_of(m, n)
-    names = ("eps0", "kp", "b_min", "more", "kv_max", "beta", "kc", "vd")
-    eps0, k, b, more, kv, beta, kc, vd = map(var, names)
-    variables = positive("kp", "b_min", "beta") + nonnegative("more", "kv_max", "kc", "vd")
-    c, d = known.drift(beta, kc), known.cross(b + more, kv)
-    corner, side, low = theta(eps0 * var("share"), k, b, c, d, kc * vd)
-    return all_of(
-        corner=ForSmall("eps0", variables, (), expr(0) < corner, ("share",)),
-        determinant=ForSmall("eps0", variables, (), side**2 < corner * low, ("share",)),
-    )
+def _(m):
+    return rate_definite(stable_of(m))
 
 
-DIRECT_METHOD = {
-    "equilibrium": "21.loop",
-    "differentiable": "V.smooth",
-    "positive_definite": "V.positive",
-    "bounded_below_by_a_positive_definite_function": "21.below",
-    "bounded_above_by_a_positive_definite_function": "21.above",
-    "radially_unbounded": "V.unbounded",
-    "bounds_of_h": "h.bounds",
-    "rate_bounded_by_a_form": "21.form",
-}
+STEPS = ("21.loop", "V.smooth", "V.positive", "21.below", "21.above", "V.unbounded", "h.bounds", "21.form")
+"""Steps of the theorem by themselves; its own certificate has them all, for every n."""
 
 
 @proof.claim(
     "21",
     "(21) makes the origin globally uniformly asymptotically stable, whatever v_d = sup‖q̇_d‖ < ∞ is",
     "Remark II, (21)",
-    uses=[*DIRECT_METHOD.values(), "21.small"],
+    uses=[*STEPS, "21.small"],
 )
-def _(m, n):
+def _(m):
     """For every robot with Properties 2.1–2.7 and all positive gains; ε₀ is not part of the controller."""
-    name = "Lyapunov's direct method, time-varying"
-    return theorem(name, loop_of(m, n), **DIRECT_METHOD, form_negative_definite="21.small")
+    return stable_of(m)
 
 
 proof.section("This arm, with a number for v_d")
@@ -329,7 +311,7 @@ def _(m, n, robot, gains):
     f"for ‖q̇_d‖ ≤ {SPEED} rad/s the origin is globally uniformly asymptotically stable, with this ε₀ in V",
     "Remark II, (21)",
     uses=[
-        *DIRECT_METHOD.values(),
+        *STEPS,
         "arm.properties",
         "arm.inertia",
         "arm.M",
@@ -338,9 +320,5 @@ def _(m, n, robot, gains):
     ],
 )
 def _(m, n, robot, gains):
-    name, arm = "Lyapunov's direct method, time-varying", ArmBounds(robot)
-    bounds = {"b_min": arm.b_min, "b_max": arm.b_max, "beta": arm.beta, "kc": arm.kc, "vd": SPEED}
-    bounds |= {"kp": min(gains.kp), "kv_max": max(gains.kv), "eps0": eps0_of(m, n, robot, gains)}
-    loop = loop_of(m, n, arm=arm.under(gains), **bounds)
-    constants = {"bounds_of_M": "arm.M", "bounds_of_C": "arm.C"}
-    return theorem(name, loop, **DIRECT_METHOD, **constants, form_negative_definite="arm.21.theta")
+    eps0 = eps0_of(m, n, robot, gains)
+    return at_arm(stable_of(m, given=True), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0, vd=SPEED)

@@ -16,6 +16,7 @@ from lyapcheck.claims.arguments import (
     input_to_state,
     lasalle,
     rate_at_most,
+    rate_definite,
     strict,
     uniform,
 )
@@ -95,6 +96,7 @@ from lyapcheck.claims.products import (
     vector,
 )
 from lyapcheck.claims.run import run_proof
+from lyapcheck.claims.script import companion
 from lyapcheck.claims.state_statements import DampingBelow, Decreasing, damping_below, decreasing
 from lyapcheck.claims.statements import (
     Agrees,
@@ -172,6 +174,7 @@ __all__ = [
     "bounded",
     "cascade",
     "combined",
+    "companion",
     "constant_goal",
     "coriolis_at_rest",
     "coriolis_bounded",
@@ -221,6 +224,7 @@ __all__ = [
     "rate",
     "rate_at_most",
     "rate_bound",
+    "rate_definite",
     "rate_less_twice_coriolis",
     "rate_of",
     "rate_of_mass",

@@ -20,6 +20,7 @@ from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree, derivative, substitute, variables
+from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import Stable
@@ -31,7 +32,7 @@ from lyapcheck.check.statement import Monomials, Relation, Statement
 from lyapcheck.check.systems.argument import Argument, Cascade, Change, Rest
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import Form
-from lyapcheck.check.systems.obligations import rate_bound
+from lyapcheck.check.systems.obligations import obligations, rate_bound
 from lyapcheck.check.systems.system import System
 from lyapcheck.claims.bounds import ArmBounds, above
 from lyapcheck.claims.exact import exact_value
@@ -157,8 +158,13 @@ def rate_at_most(stable: Stable) -> Statement:
     return rate_bound(stable.argument)
 
 
-def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:
-    """The same for one arm at its nominal numbers; a keyword gives a gain or a constant, as decimals.
+def rate_definite(stable: Stable) -> AllOf:
+    """That the form in the bound of dV/dt is positive definite, as a claim of its own."""
+    return AllOf(tuple(one for one in obligations(stable.argument) if one[0].startswith("rate, ")))
+
+
+def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
+    """The same for one arm at its nominal numbers; a keyword gives a gain, as decimals, or a constant.
 
     Numbers of M, C and gravity are chosen here and shown by the checker, as far as the conditions need them.
 
@@ -166,7 +172,7 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:
         ValueError: a number that the conditions need is not given.
     """
     bounds, system = ArmBounds(robot), stable.argument.system
-    rows = {name: tuple(map(exact_value, gains[name].split())) for name in system.gains}
+    rows = {name: tuple(map(exact_value, _entries(gains[name]))) for name in system.gains}
     energy: Monomials = tuple(to_terms(bounds.robot.potential))
     arm = Arm(bounds.mass, bounds.viscous, energy)
     known = {name: exact_value(value) for name, value in gains.items() if name not in rows}
@@ -189,11 +195,17 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: str) -> StableArm:
         if f.member is not None:
             known |= {f"{f.name}_slope": f.member.rho, f"{f.name}_secant": f.member.secant}
             known |= {f"{f.name}_sector": 1 / f.member.secant}
-            known[f"{f.name}_reach"] = above(sqrt(robot.n) * (f.member.gamma or 1))
+            reach, secant = above(sqrt(robot.n)) * (f.member.gamma or 1), f.member.secant
+            known[f"{f.name}_reach"] = reach
+            known[f"{f.name}_share"] = reach * secant / (reach + secant) if f.bounded else secant
     wanted = sorted(set().union(*(variables(one.gap) for one in stable.argument.where)))
     if lost := [name for name in wanted if name not in known]:
         raise ValueError(f"at_arm: the conditions need numbers for {', '.join(lost)}")
     return StableArm(stable.argument, arm, tuple(rows.items()), tuple((name, known[name]) for name in wanted))
+
+
+def _entries(gain: object) -> Iterable[object]:
+    return gain.split() if isinstance(gain, str) else gain  # type: ignore[return-value]
 
 
 def form_of(value: Expr) -> Form:

@@ -72,6 +72,11 @@ class Function(AnyVector):
         return var(f"{self.name}_secant")
 
     @property
+    def share(self) -> Expr:
+        """At least ‖f(e)‖/(1 + ‖e‖), for a function of e."""
+        return var(f"{self.name}_share")
+
+    @property
     def sector(self) -> Expr:
         """1/secant: x f(x) is at least this times f(x)²."""
         return var(f"{self.name}_sector")

@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from types import SimpleNamespace
 
 from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
@@ -60,6 +61,15 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         rule = f"a script defines exactly one Proof, this one has {len(proofs)}"
         raise InputError(Problem(name, None, "script", "", rule, 'write proof = Proof("name", "title") once'))
     return next(iter(proofs.values()))
+
+
+def companion(script: str) -> SimpleNamespace:
+    """What another proof script defines, for one that builds on it: ``companion("every_function.py").h_of``.
+
+    Args:
+        script: a path, or the name of a script that comes with lyapcheck.
+    """
+    return SimpleNamespace(**runpy.run_path(str(find_script(script))))
 
 
 def _raised(name: str, path: Path, error: BaseException) -> Problem:

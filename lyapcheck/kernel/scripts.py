@@ -23,12 +23,13 @@ from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.signs import SignIdentity
-from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms
 from lyapcheck.kernel.signs import implication
-from lyapcheck.kernel.statements import on_one_arm
+from lyapcheck.kernel.systems import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, identifier, rational
 from lyapcheck.kernel.words import every_n_script
 
@@ -169,10 +170,13 @@ def _(statement: LoopProperty, proof: Proof) -> str:
 
 
 @proved.register
-def _(statement: Theorem, proof: Proof) -> str:
-    if statement.loop.arm is None:
-        return "apply proposition_of_the_paper; lia."
-    return by_norms(closed_loop_of(on_one_arm(statement.loop)))
+def _(statement: Stable, proof: Proof) -> str:
+    return "intros n; apply proposition_of_the_paper; lia."
+
+
+@proved.register
+def _(statement: StableArm, proof: Proof) -> str:
+    return by_norms(closed_loop_of(on_one_arm(statement)))
 
 
 @proved.register

@@ -20,10 +20,11 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.theorem import Theorem
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.kernel.letters import every_n
+from lyapcheck.kernel.systems import member_of, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
     arm,
@@ -43,7 +44,6 @@ PROPERTIES = {
     UNBOUNDED: "V_radially_unbounded",
 }
 """The properties of the loop and of V that the page of definitions has."""
-ABOVE_ALL = "Lyapunov's direct method"
 
 
 def shown(statement: Statement, proof: Proof, verdict: str) -> str:
@@ -136,15 +136,14 @@ def _(statement: LoopProperty) -> str:
 
 
 @proposition.register
-def _(statement: Theorem) -> str:
-    """Stability, for every ε₀ and constants: a condition on them is dropped, which says more."""
-    loop = statement.loop
-    if statement.name != ABOVE_ALL:
-        raise NotPrinted(f"the theorem “{statement.name}”")
-    m = _member(loop)
-    if loop.arm is None:
-        return f"every_robot_is_stable {loop.n} {m}"
-    return _of_arm("certified", on_one_arm(loop))
+def _(statement: Stable) -> str:
+    """Stability, for all constants: conditions on them are dropped, which says more."""
+    return f"forall n : nat, every_robot_is_stable n {member_of(statement.argument)}"
+
+
+@proposition.register
+def _(statement: StableArm) -> str:
+    return _of_arm("certified", on_one_arm(statement))
 
 
 @proposition.register
@@ -156,20 +155,6 @@ def _(statement: Decreasing) -> str:
 def _(statement: DampingBelow) -> str:
     gains = statement.with_damping(Fraction(1), Fraction(1))
     return f"damping_below {_loop(gains)} {exact(max(statement.kv))} ({expression(statement.bound)})"
-
-
-def on_one_arm(loop: ClosedLoop) -> Decreasing:
-    """That dV/dt < 0 for the arm, gains and ε₀ of a loop.
-
-    Raises:
-        NotPrinted: the loop is that of no arm, or its function not of the family.
-    """
-    if loop.arm is None:
-        raise NotPrinted("a loop of no arm")
-    given = loop.arm
-    ends = tuple((b, b) for b in given.viscous)
-    eps0 = dict(loop.numbers)["eps0"]
-    return Decreasing(given.mass, ends, (), "hyperbolic", _member(loop), given.kp, given.kv, eps0, ())
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:
@@ -188,9 +173,9 @@ def _loop(statement: Decreasing) -> str:
     return f"{data} {statement.m} {exact_list(statement.kp)} {exact_list(statement.kv)}"
 
 
-def _member(of: LoopProperty | ClosedLoop) -> int:
+def _member(of: LoopProperty) -> int:
     """The m of which h, h' and U are h_m, h_m' and U_m themselves."""
-    h, slope, potential = (getattr(of, name) for name in ("h", "slope", "potential"))
+    h, slope, potential = of.h, of.slope, of.potential
     if h[0] == "h":
         m = int(h[1])
         x = ("var", "x")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import relation_text
 from lyapcheck.check.refusal import require
@@ -84,6 +85,16 @@ class Stable(Total):
         )
 
 
+BOUNDS = {
+    "slope": "≥ |{0}'|",
+    "secant": "≥ |{0}(x)/x|",
+    "reach": "≥ ‖{0}({1})‖",
+    "share": "≥ ‖{0}({1})‖/(1 + ‖{1}‖)",
+    "sector": "≤ 1/{0}_secant",
+}
+"""What the constants of a function bound, by the ends of their names."""
+
+
 def _over(argument: Argument) -> Iterator[str]:
     """Over what a conclusion runs."""
     system = argument.system
@@ -93,6 +104,14 @@ def _over(argument: Argument) -> Iterator[str]:
         yield f"all diagonal {', '.join(system.gains)} > 0"
     if system.constants:
         yield f"all {', '.join(system.constants)} > 0"
+    used = set().union(*(variables(relation.gap) for relation in argument.where))
+    for f in system.functions:
+        letters = {f"{f.name}_{end}": says.format(f.name, f.of) for end, says in BOUNDS.items()}
+        bounds = [f"{name} {letters[name]}" for name in letters if name in used]
+        if bounds:
+            yield f"all {', '.join(bounds)}"
+    if "eps0" in used:
+        yield "all eps0 > 0"
     if system.desired:
         yield "every q_d(t) with bounded dq_d/dt" + (" and d²q_d/dt²" if "ad" in argument.constants else "")
 

@@ -97,11 +97,14 @@ class StableArm(Total):
         for f in self.argument.system.functions:
             if stem == f.name and f.member is not None:
                 gamma, count = f.member.gamma or Fraction(0), len(self.arm.mass)
+                gap = f.member.secant - value  # share >= L√nγ/(L + √nγ), or L
                 return {
                     "reach": f.bounded and value**2 >= count * gamma**2,
                     "slope": value >= f.member.rho,
                     "secant": value >= f.member.secant,
                     "sector": value * f.member.secant <= 1,
+                    "share": gap <= 0
+                    or (f.bounded and count * (gamma * gap) ** 2 <= (value * f.member.secant) ** 2),
                 }[end]
         known = {"mu", "beta", "R", "eps0", "kc", "kg", "km", "kc2", "vd", "ad"}
         return name in {*known, *self.argument.system.constants}

@@ -39,7 +39,9 @@ def _orders(system: System) -> Iterator[Relation]:
         secant, sector = constant(f"{f.name}_secant"), constant(f"{f.name}_sector")
         yield Relation(product(secant, sector), "<=", ("num", "1"))
         if f.member is not None:
-            slope, reach = constant(f"{f.name}_slope"), constant(f"{f.name}_reach")
+            slope, reach, share = (constant(f"{f.name}_{end}") for end in ("slope", "reach", "share"))
+            least = f.member.low / (1 + f.member.start)  # of f(x)/(1 + x)
+            yield Relation(("num", str(least)), "<=", share)
             yield Relation(("num", str(f.member.secant)), "<=", secant)
             yield Relation(("num", str(f.member.rho)), "<=", slope)
             yield Relation(product(("num", str(f.member.secant)), sector), "<=", ("num", "1"))

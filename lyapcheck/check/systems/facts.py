@@ -5,7 +5,8 @@ For a letter x, norm_x is its size. M has mu <= λmin(M), ‖M‖ <= beta; ‖C(
 a gain K has K_min, K_max and the norm K_norm of its diagonal; ‖∂g/∂q‖ <= kg, so ‖dg‖ <= kg ‖e‖, and the
 energy of gravity U_g(q) − U_g(q_d) + g(q_d)ᵀe is eᵀP with ‖P‖ <= ½kg ‖e‖ (Taylor). A function f has
 |f(x)| <= f_secant |x|, |f'| <= f_slope, ‖f(x)‖ <= f_reach if it is bounded, and x f(x) >= f_sector f(x)² with
-f_sector = 1/f_secant; sum_Uf is Σ U(x_i), which is above the norm of the vector, as no U(x_i) is negative.
+f_sector = 1/f_secant; of e, ‖f(e)‖ <= f_share (1 + ‖e‖), as f_secant does and smaller numbers may;
+sum_Uf is Σ U(x_i), which is above the norm of the vector, as no U(x_i) is negative.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ from lyapcheck.check.systems.system import (
 Norm = tuple[tuple[Tree, ...], Tree]
 Least = tuple[Tree, Tree]
 ONE: Tree = ("num", "1")
+BOUNDS = ("reach", "slope", "secant", "sector", "share")
+"""The constants of a function."""
 P: Tree = ("vec", "P")
 """The energy of gravity is eᵀP."""
 
@@ -73,7 +76,7 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
         if f.bounded:
             yield (value,), constant(f"{f.name}_reach")
         if f.of == "e":
-            yield (S, value), secant
+            yield (S, value), constant(f"{f.name}_share")
         yield (("diag", f"d{f.name}"),), constant(f"{f.name}_slope")
         yield (("vec", f"U{f.name}"),), constant(f"sum_U{f.name}")
     for name in system.diagonal:
@@ -190,7 +193,7 @@ def constants_of(system: System) -> dict[str, Variable]:
     """The constants with their ranges; positive, but for upper bounds that may be 0."""
     positive = ["mu", "beta", "R", "eps0", *system.constants, *(f"{name}_min" for name in system.gains)]
     for f in system.functions:
-        positive += [f"{f.name}_{bound}" for bound in ("reach", "slope", "secant", "sector")]
+        positive += [f"{f.name}_{bound}" for bound in BOUNDS]
     upper = [
         "kc",
         "kg",

@@ -13,17 +13,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.check.systems.facts import constants_of
-from lyapcheck.check.systems.system import S, System
+from lyapcheck.check.systems.system import System
 
 ZERO: Tree = ("num", "0")
-SHARE = "s"
+SHARE, DISTANCE = "s", "norm_e"
 EPS0 = "eps0"
 MAX_SIZES = 4
 
@@ -100,13 +100,14 @@ def is_positive(system: System, tree: Tree, where: tuple[Relation, ...], small: 
         where: the conditions.
         small: whether ε₀ may be as small as need be, and is not one of the constants.
     """
-    conclusion = Relation(ZERO, "<", tree)
     used = variables(tree).union(*(variables(one.gap) for one in where))
     known = constants_of(system)
-    unit = (SHARE,) if SHARE in used else ()
     if small and EPS0 in used:
         over = tuple(known[name] for name in sorted(used - {EPS0, SHARE}))
-        return ForSmall(EPS0, over, where, conclusion, unit)
-    over = tuple((known | {SHARE: Variable(SHARE, Fraction(0))})[name] for name in sorted(used))
-    below = (Relation(S, "<=", ("num", "1")),) if unit else ()
-    return Implies(over, (*where, *below), conclusion)
+        unit = (SHARE,) if SHARE in used else ()
+        return ForSmall(EPS0, over, where, Relation(ZERO, "<", tree), unit)
+    far = {SHARE: ("div", ("num", "1"), ("add", ("num", "1"), ("var", DISTANCE)))}
+    known |= {DISTANCE: Variable(DISTANCE, Fraction(0), strict=False)}
+    used = (used - {SHARE}) | ({DISTANCE} if SHARE in used else set())
+    over = tuple(known[name] for name in sorted(used))
+    return Implies(over, where, Relation(ZERO, "<", substitute(tree, far)))
