@@ -40,8 +40,8 @@ def _orders(system: System) -> Iterator[Relation]:
         yield Relation(product(secant, sector), "<=", ("num", "1"))
         if f.member is not None:
             slope, reach, share = (constant(f"{f.name}_{end}") for end in ("slope", "reach", "share"))
-            least = f.member.low / (1 + f.member.start)  # of f(x)/(1 + x)
-            yield Relation(("num", str(least)), "<=", share)
+            lowest = f.member.low / (1 + abs(f.member.start))  # of f(x)/(1 + x)
+            yield Relation(("num", str(lowest)), "<=", share)
             yield Relation(("num", str(f.member.secant)), "<=", secant)
             yield Relation(("num", str(f.member.rho)), "<=", slope)
             yield Relation(product(("num", str(f.member.secant)), sector), "<=", ("num", "1"))
