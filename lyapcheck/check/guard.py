@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -54,28 +54,17 @@ class Guard:
 
     def judge(self, content: bytes, full: bool) -> Judgement:
         """What a certificate shows by itself."""
-        answer = self._ask({"task": "judge", "full": full}, [content])
+        answer = self._ask(content, full)
         if "ended" in answer:
             return Judgement().refused(answer["ended"])
         result = answer["finding"]
         pairs = {name: tuple(map(tuple, result[name])) for name in ("shows", "rules", "theorems")}
         return Judgement(**{**result, **pairs, "granted": tuple(result["granted"])})
 
-    def lacks(self, digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
-        """What accepted certificates, (digest, bytes) by claim, fail to state for the theorems of one."""
-        request = {
-            "task": "premises",
-            "digest": digest,
-            "claims": list(used),
-            "digests": [digest for digest, _ in used.values()],
-        }
-        answer = self._ask(request, [content, *(text for _, text in used.values())])
-        return str(answer.get("ended", answer.get("lacks")))
-
-    def _ask(self, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
+    def _ask(self, content: bytes, full: bool) -> dict[str, Any]:
         process = self._process or self._start()
-        header = json.dumps({**request, "sizes": list(map(len, documents))}).encode("ascii")
-        answer, late = _exchange(process, [header + b"\n", *documents], self.limits.seconds)
+        header = json.dumps({"full": full, "size": len(content)}).encode("ascii")
+        answer, late = _exchange(process, [header + b"\n", content], self.limits.seconds)
         if answer is None:
             self._stop()
             return {"ended": self._ended(process.returncode, late)}

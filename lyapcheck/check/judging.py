@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from json import JSONDecodeError
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read, sealed
 from lyapcheck.check.codec import name_of
 from lyapcheck.check.judgement import Judgement, shortened
-from lyapcheck.check.refusal import Refused, plain, require
+from lyapcheck.check.refusal import Refused, plain
 from lyapcheck.check.statement import Piece, Proof, Statement
 
 
@@ -41,24 +41,6 @@ def judged(content: bytes, full: bool = False) -> Judgement:
         return result.refused(str(refusal))
     except Exception as error:
         return result.refused(f"cannot be judged ({type(error).__name__}: {error})")
-
-
-def lacking(digest: str, content: bytes, used: Mapping[str, tuple[str, bytes]]) -> str:
-    """What the claims behind the hypotheses of its theorems fail to state; empty if nothing is missing.
-
-    Args:
-        digest: of the certificate that was judged.
-        content: its bytes.
-        used: digest and bytes of accepted certificates, by the claims that it uses.
-    """
-    stated: dict[str, Statement] = {}
-    for claim, (own, text) in used.items():
-        premise, data = certificate_of(text)
-        require(data["digest"] == own, claim, own, "changed while it was judged")
-        stated[claim] = premise.statement
-    certificate, data = certificate_of(content)
-    require(data["digest"] == digest, "digest", digest, "changed while it was judged")
-    return plain(certificate.statement.lacks(stated) or "")
 
 
 def _claimed(certificate: Certificate, data: Any, full: bool) -> Judgement:

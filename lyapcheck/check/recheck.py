@@ -92,9 +92,8 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
         Unreadable: a file that was named by itself is not JSON.
 
     Soundness: a certificate is accepted if its own proof is, and each certificate that it uses is at hand and
-    accepted, is of the claim it is used for and proves it, and those behind the hypotheses of a theorem state
-    what it needs. It is refused if one of these is known not to be so, and undecided otherwise. Uses cannot
-    go in circles: each digest is over the digests it uses.
+    accepted, is of the claim it is used for and proves it. It is refused if one of these is known not to be
+    so, and undecided otherwise. Uses cannot go in circles: each digest is over the digests it uses.
     """
     with Guard(limits or Limits()) as guard:
         own = [_own(document, guard, full) for document in documents]
@@ -106,7 +105,7 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
         known = {one.finding.digest: one for one in own if one.finding.digest}
         settled: dict[str, Checked] = {}
         for one in own:
-            _settle(one, known, settled, guard)
+            _settle(one, known, settled)
         result = tuple(
             replace(settled[one.finding.digest], document=one.document) if one.finding.digest else one
             for one in own
@@ -124,7 +123,7 @@ def _own(document: Document, guard: Guard, full: bool) -> Checked:
     return Checked(document, finding, status, finding.reason, finding.grade)
 
 
-def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked], guard: Guard) -> None:
+def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked]) -> None:
     """Follow the uses without recursion, the deepest first."""
     waiting = [one] if one.finding.digest else []
     while waiting:
@@ -136,10 +135,10 @@ def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked]
             continue
         waiting.pop()
         if current.finding.digest not in settled:
-            settled[current.finding.digest] = _with_uses(current, settled, guard)
+            settled[current.finding.digest] = _with_uses(current, settled)
 
 
-def _with_uses(one: Checked, settled: dict[str, Checked], guard: Guard) -> Checked:
+def _with_uses(one: Checked, settled: dict[str, Checked]) -> Checked:
     """The same as what it uses leaves of it."""
     if not one.accepted:
         return one
@@ -148,8 +147,6 @@ def _with_uses(one: Checked, settled: dict[str, Checked], guard: Guard) -> Check
     for claim, its in used.items():
         if (fault := _fault(one, its, claim)) is not None:
             return replace(one, status="refused", reason=f"rests on {plain(claim)}, {fault}", grade="")
-    if one.finding.theorems and (lacks := _lacks(one, used, guard)):
-        return replace(one, status="refused", reason=lacks, grade="")
     open_ = [claim for claim, its in used.items() if not its.accepted]
     if missing or open_:
         given = (*missing, *(name for its in used.values() for name in its.given))
@@ -161,15 +158,6 @@ def _with_uses(one: Checked, settled: dict[str, Checked], guard: Guard) -> Check
         reason = f"rests on {'; on '.join(reasons)}"
         return replace(one, status="undecided", reason=reason, grade="", given=tuple(dict.fromkeys(given)))
     return replace(one, grade=min([one.grade, *(its.grade for its in used.values())], key=GRADES.index))
-
-
-def _lacks(one: Checked, used: dict[str, Checked], guard: Guard) -> str:
-    """What the claims behind the hypotheses of its theorems fail to state."""
-    try:
-        premises = {claim: (its.finding.digest, content(its.document.path)) for claim, its in used.items()}
-        return guard.lacks(one.finding.digest, content(one.document.path), premises)
-    except (OSError, ValueError) as error:
-        return words(error)
 
 
 def _fault(one: Checked, used: Checked, claim: str) -> str | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
@@ -80,18 +80,6 @@ class Statement(ABC):
     def theorems(self) -> tuple[tuple[str, str], ...]:
         """The theorems that it applies, by name, and where each is proved."""
         return ()
-
-    @property
-    def hypotheses_shown_by(self) -> tuple[tuple[str, str], ...]:
-        """Pairs (hypothesis, id of the claim that shows it): a proof must use these claims."""
-        return ()
-
-    def lacks(self, stated: Mapping[str, Statement]) -> str | None:
-        """What the claims behind its hypotheses fail to state, in words; ``None`` if nothing is missing.
-
-        ``stated`` has the statements of claims that are proved, by id; one that is not there lacks nothing.
-        """
-        return None
 
     def decided(self, proof: Proof) -> Iterable[tuple[int, Statement, Proof]]:
         """Which of its parts an accepted proof decides as it decides the whole, each with its own proof."""

@@ -1,6 +1,6 @@
 """The process that judges: requests on its standard input, a line of JSON for each on its standard output.
 
-A request is a line of JSON, {"task", "sizes", …}, then for each document as many bytes as ``sizes`` says.
+A request is a line of JSON, {"full", "size"}, then a certificate of so many bytes.
 Whatever a certificate does to this process, the one that asks goes on: see ``guard``.
 """
 
@@ -15,7 +15,6 @@ from dataclasses import asdict
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from types import ModuleType
 from typing import IO, Any
 
 from lyapcheck.check.limits import Limits
@@ -43,22 +42,11 @@ def serve(limits: Limits) -> None:
     while line := requests.readline():
         request = json.loads(line)
         _limit_seconds(limits)
-        answer = _answer(judging, request, [requests.read(size) for size in request["sizes"]])
+        finding = asdict(judging.judged(requests.read(request["size"]), request["full"]))
         last = _is_spent(limits)
-        _send(answers, {**answer, "last": last})
+        _send(answers, {"finding": finding, "last": last})
         if last:
             return
-
-
-def _answer(judging: ModuleType, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
-    if request["task"] == "judge":
-        return {"finding": asdict(judging.judged(documents[0], request["full"]))}
-    pairs = zip(request["digests"], documents[1:], strict=True)
-    try:
-        used = dict(zip(request["claims"], pairs, strict=True))
-        return {"lacks": judging.lacking(request["digest"], documents[0], used)}
-    except Exception as error:
-        return {"lacks": f"what its theorem needs cannot be judged ({type(error).__name__}: {error})"}
 
 
 def _send(answers: IO[bytes], answer: dict[str, Any]) -> None:

@@ -6,8 +6,6 @@ A proof script needs nothing but the names below.
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.statement import Relation
-from lyapcheck.check.theorems.closed_loop import ClosedLoop
-from lyapcheck.check.theorems.rate import loop_closed, rate_bound
 from lyapcheck.claims.arguments import (
     along,
     at_arm,
@@ -109,7 +107,6 @@ from lyapcheck.claims.statements import (
     NormBound,
     Reals,
     Statement,
-    Theorem,
     TrigonometricBound,
     TrigonometricPositive,
     Variable,
@@ -125,7 +122,6 @@ from lyapcheck.claims.statements import (
     norm_bound,
     positive,
     reals,
-    theorem,
 )
 
 __all__ = [
@@ -137,7 +133,6 @@ __all__ = [
     "BoundEveryN",
     "Case",
     "Claim",
-    "ClosedLoop",
     "Constant",
     "DampingBelow",
     "Decision",
@@ -155,7 +150,6 @@ __all__ = [
     "Reals",
     "Relation",
     "Statement",
-    "Theorem",
     "TrigonometricBound",
     "TrigonometricPositive",
     "Variable",
@@ -206,7 +200,6 @@ __all__ = [
     "largest_with",
     "lasalle",
     "log",
-    "loop_closed",
     "loop_property",
     "mass_bounded",
     "mass_matrix",
@@ -223,7 +216,6 @@ __all__ = [
     "potential",
     "rate",
     "rate_at_most",
-    "rate_bound",
     "rate_definite",
     "rate_less_twice_coriolis",
     "rate_of",
@@ -238,7 +230,6 @@ __all__ = [
     "sqrt",
     "strict",
     "tanh",
-    "theorem",
     "torque_limits",
     "total",
     "transpose",

@@ -21,14 +21,11 @@ from lyapcheck.check.kinds.loop_property import secant_fact, sign_facts, size_fa
 from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.statement import Relation
-from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
 from lyapcheck.claims.exact import closed_value, exact_value
 from lyapcheck.claims.expressions import Expr, expr, sqrt
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 Function = tuple[Expr, Expr, Expr]
@@ -79,40 +76,6 @@ class FamilyBounds:
         self.gamma, self.rho, self.L = above(gamma), above(rho), above(L)
         self.reach = above(sqrt(n)) * self.gamma
         self.G = self.reach * self.L / (self.reach + self.L)
-
-    def loop(
-        self,
-        h: Function,
-        form: tuple[Expr, Expr, Expr],
-        desired: bool = False,
-        condition: Iterable[Relation] = (),
-        arm: ArmAndGains | None = None,
-        **numbers: Fraction,
-    ) -> ClosedLoop:
-        """The loop (11) with these bounds, as theorems are about it.
-
-        Args:
-            h: the function, its derivative and its potential U, in x.
-            form: θ11, θ12, θ22 of dV/dt <= −[a b] Θ [a b]ᵀ in eps, kp, b_min, b_max, kv_max, beta, kc and vd.
-            desired: whether C is C(q, q̇_d + w) with ‖q̇_d‖ <= vd.
-            condition: what is asked of eps0 and the constants.
-            arm: the arm and gains that the conclusion is about, and then
-            numbers: bounds of its constants, and eps0.
-        """
-        function, slope, potential = h
-        corner, side, low = form
-        return ClosedLoop(
-            self.n,
-            function.tree,
-            slope.tree,
-            potential.tree,
-            *(self.gamma, self.rho, self.L, self.reach, self.G),
-            (corner.tree, side.tree, low.tree),
-            desired,
-            tuple(condition),
-            arm,
-            tuple(sorted(numbers.items())),
-        )
 
     def of_h(self, h: Function) -> AllOf:
         """That these are bounds of h, as theorems ask for it: |h| <= γ, |h'| <= ρ, |h(x)| <= L|x|, h odd."""
@@ -178,10 +141,6 @@ class ArmBounds:
     def coriolis_below(self) -> CoriolisBelow:
         """‖C(q, x)y‖ <= k_c ‖x‖ ‖y‖ for all q, x and y."""
         return CoriolisBelow(self.mass, (), self.kc)
-
-    def under(self, gains: GainSet) -> ArmAndGains:
-        """The arm and gains that a theorem with numbers is about."""
-        return ArmAndGains(self.mass, self.viscous, gains.kp, gains.kv)
 
 
 def _doubles(rows: list[list[arb]]) -> list[list[float]]:

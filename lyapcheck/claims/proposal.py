@@ -39,8 +39,4 @@ def chained(finding: SearchResult, statement: Statement | Missing, used: Iterabl
     open_uses = [row.claim.id for row in rows if not row.finding.is_proof]
     if open_uses:
         return replace(still_open(rests_on(open_uses), finding.method), evidence=finding.evidence)
-    stated = {row.claim.id: row.stated for row in rows if not isinstance(row.stated, Missing)}
-    lacks = statement.lacks(stated)
-    if lacks is not None:
-        return replace(still_open(f"{lacks}; state it there", finding.method), evidence=finding.evidence)
     return finding

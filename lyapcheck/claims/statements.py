@@ -16,10 +16,8 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Relation, Statement, Variable
-from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import Expr, expr, var
 
@@ -36,7 +34,6 @@ __all__ = [
     "Reals",
     "Relation",
     "Statement",
-    "Theorem",
     "TrigonometricBound",
     "TrigonometricPositive",
     "Variable",
@@ -52,7 +49,6 @@ __all__ = [
     "norm_bound",
     "positive",
     "reals",
-    "theorem",
 ]
 
 
@@ -197,12 +193,3 @@ def loop_property(name: str, function: tuple[Expr, Expr, Expr], desired: bool = 
     """
     h, slope, potential = function
     return LoopProperty(name, h.tree, slope.tree, potential.tree, desired)
-
-
-def theorem(name: str, loop: ClosedLoop, **hypotheses: str) -> Theorem:
-    """A theorem applied to a loop; the keywords name its hypotheses, their values are the ids of claims.
-
-    The statement of each claim must contain what the hypothesis comes to for the loop; where it does not, the
-    reason says what is missing.
-    """
-    return Theorem(name, loop, tuple((key.replace("_", " "), claim) for key, claim in hypotheses.items()))

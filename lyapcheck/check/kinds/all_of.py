@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lyapcheck.check.refusal import require
@@ -26,15 +26,6 @@ class AllOf(Total):
     def theorems(self) -> tuple[tuple[str, str], ...]:
         """Those of the parts."""
         return tuple(pair for _, part in self.parts for pair in part.theorems)
-
-    @property
-    def hypotheses_shown_by(self) -> tuple[tuple[str, str], ...]:
-        """Those of the parts."""
-        return tuple(pair for _, part in self.parts for pair in part.hypotheses_shown_by)
-
-    def lacks(self, stated: Mapping[str, Statement]) -> str | None:
-        """What the first part lacks that lacks something."""
-        return next((result for _, part in self.parts if (result := part.lacks(stated)) is not None), None)
 
     def decided(self, proof: Proof) -> Iterator[tuple[int, Statement, Proof]]:
         """All parts of what is proved, the one that is refuted."""

@@ -26,12 +26,13 @@ from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree, derivative, substitute
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import OfTerms, Proof, Relation, Statement
-from lyapcheck.check.theorems.rate import loop_closed
+from lyapcheck.check.systems.system import DDQD, DG, DQD, GD, B, C, D, Entrywise, G, M, System, W, minus
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 X: Tree = ("var", "x")
@@ -157,8 +158,20 @@ def _rises(statement: LoopProperty) -> Named:
 
 
 def _at_rest(statement: LoopProperty) -> Named:
-    closed = loop_closed(statement.desired)
-    return [*sign_facts(statement.h), ("the loop that the controller closes", closed)]
+    return [*sign_facts(statement.h), ("the loop that the controller closes", _closed(statement.desired))]
+
+
+def _closed(desired: bool) -> EveryN:
+    """Under (6), or (21), M ẇ is K_p h(e) − K_v h(w) − Bw − C(q,q̇)w; as h is odd, h(ė) = −h(w)."""
+    kp, kv, h, k = ("diag", "Kp"), ("diag", "Kv"), ("vec", "h"), ("vec", "k")
+    feedback: Tree = ("sum", ("apply", kp, h), minus(("apply", kv, k)))
+    coriolis: Tree = ("sum", C, D) if desired else C
+    needed = (("apply", M, DDQD), ("apply", coriolis, DQD), ("apply", B, DQD), G) if desired else (GD, DG)
+    functions = (Entrywise("h", "e", True, None), Entrywise("k", "w", True, None))
+    torque: Tree = ("sum", feedback, *needed)
+    system = System(torque, ("Kp", "Kv"), functions, (), (), desired, "positive")
+    right: Tree = ("sum", feedback, minus(("apply", B, W)), minus(("apply", coriolis, W)))
+    return EveryN(("dot", ("vec", "x"), system.force), ("dot", ("vec", "x"), right))
 
 
 def _positive(statement: LoopProperty) -> Named:
