@@ -1,7 +1,7 @@
-"""Certificates of arms, loops and theorems whose numbers, sizes or premises were chosen to deceive.
+"""Certificates of arms, loops and theorems whose numbers, sizes or letters were chosen to deceive.
 
 Each is a certificate of the folders with values put at some places, under a renewed digest. Each statement is
-false, says nothing, or is not what the proof or the premises are about.
+false, says nothing, or is not what the proof is about.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ Document = dict[str, Any]
 Path = tuple[str | int, ...]
 Edits = list[tuple[Path, Any]]
 Attack = tuple[str, str, Edits, str]
-Files = bytes | list[tuple[str, bytes]]
 
 LARGE = "1000000007"
 HUGE = "1" + "0" * 3999
@@ -483,52 +482,89 @@ SINGLE = [
 ]
 
 FREE, ARM, TIME = "sca.arms.all.m1", "sca.arm.stable.m1", "tra.21.m1"
-CONDITION, LOOP = "sca.arms.stable.m1", at(S, "loop")
+CONDITION, MOVING = "sca.arms.stable.m1", "tra.arm.21.m1"
+ARGUMENT = at(S, "argument")
+SYSTEM, MEMBER = (*ARGUMENT, "system"), (*ARGUMENT, "system", "functions", 0, "member")
+TORQUE, MASS = (*SYSTEM, "torque"), at(S, "arm", "mass")
 NEVER = {"left": ["num", "1"], "operator": "<", "right": ["num", "0"]}
+ZERO = ["num", "0"]
 ON_THEOREMS: list[Attack] = [
-    ("theorem-name", FREE, [(at(S, "name"), "Lyapunov's second thoughts")], "an unknown theorem"),
+    ("theorem-name", FREE, [((*ARGUMENT, "theorem"), "Lyapunov's second thoughts")], "an unknown theorem"),
+    ("theorem-ISS", FREE, [((*ARGUMENT, "theorem"), "ISS")], "of a loop without a disturbance"),
+    ("theorem-exponential", TIME, [((*ARGUMENT, "theorem"), "exponential")], "V is not quadratic in ‖e‖"),
+    ("theorem-time", TIME, [((*ARGUMENT, "theorem"), "strict")], "of a loop that depends on time"),
+    ("theorem-no-upper", TIME, [((*ARGUMENT, "upper"), None)], "V ≤ Φ is not shown"),
+    ("theorem-desired", FREE, [((*SYSTEM, "desired"), True)], "along a motion, by the theorem for a goal"),
+    ("theorem-no-desired", TIME, [((*SYSTEM, "desired"), False)], "at a goal, under a torque for a motion"),
+    ("theorem-disturbed", FREE, [((*SYSTEM, "disturbed"), True)], "under an unknown torque"),
+    ("theorem-no-friction", FREE, [((*SYSTEM, "friction"), "none")], "dV/dt needs friction"),
+    ("theorem-any-friction", FREE, [((*SYSTEM, "friction"), "any")], "friction that may vanish"),
+    ("theorem-damping", FREE, [((*TORQUE, 1, 2, 1), ["num", "1"])], "K_v h(q̇) turned"),
+    ("theorem-stiffness", FREE, [((*TORQUE, 1, 1, 1), ["diag", "Kv"])], "K_v in place of K_p"),
+    ("theorem-repelling", FREE, [((*TORQUE, 1, 1, 2), ["scale", ["num", "-1"], ["vec", "h"]])], "K_p turned"),
+    ("theorem-no-gravity", FREE, [((*TORQUE, 2), ["vec", "gd"])], "without g(q) − g(q_d)"),
+    ("theorem-no-coriolis", TIME, [((*TORQUE, 1, 2, 1), ["mat", "D"])], "C(q, q̇_d) in place of C(q, q̇)"),
+    ("theorem-no-inertia", TIME, [((*TORQUE, 1, 1, 2, 1), ["mat", "dM"])], "another M in (21)"),
+    ("theorem-cross", FREE, [((*ARGUMENT, "energy", 1, 1, 1, 2, 1), ["num", "1"])], "one sign of V turned"),
+    ("theorem-kinetic", FREE, [((*ARGUMENT, "energy", 2, 1), ["vec", "Kv"])], "V with K_v for K_p"),
+    ("theorem-h", FREE, [((*MEMBER, "value"), ["h", 2, X])], "of another h"),
+    ("theorem-slope", FREE, [((*MEMBER, "slope"), ["dh", 2, X])], "a slope that is not h'"),
+    ("theorem-potential", FREE, [((*MEMBER, "potential"), ["potential", 2, X])], "U of another h"),
+    ("theorem-gamma", FREE, [((*MEMBER, "gamma"), "1/2")], "γ below sup h"),
+    ("theorem-gamma-none", FREE, [((*MEMBER, "gamma"), None)], "h said to be bounded by nothing"),
+    ("theorem-rho", FREE, [((*MEMBER, "rho"), "1/2")], "ρ below sup |h'|"),
+    ("theorem-rho-minus", FREE, [((*MEMBER, "rho"), "-1")], "ρ < 0"),
+    ("theorem-secant", FREE, [((*MEMBER, "secant"), "1/2")], "L below sup h(x)/x"),
+    ("theorem-low", FREE, [((*MEMBER, "low"), "2")], "h ≥ 2 from some x on"),
+    ("theorem-start", FREE, [((*MEMBER, "start"), "-1")], "h ≥ 1/2 from −1 on"),
+    ("theorem-linear", FREE, [((*MEMBER, "value"), X)], "h = x, which has no bound"),
     (
-        "theorem-time",
+        "theorem-rate",
         FREE,
-        [(at(S, "name"), "Lyapunov's direct method, time-varying")],
-        "of other hypotheses",
+        [((*ARGUMENT, "rate", "entries"), [["num", "1"], ["num", "0"], ["num", "1"]])],
+        "Θ = I",
     ),
-    ("theorem-desired", FREE, [((*LOOP, "desired"), True)], "along a motion, by the theorem for a goal"),
-    ("theorem-no-desired", TIME, [((*LOOP, "desired"), False)], "at a goal, by the theorem for a motion"),
+    ("theorem-no-side", FREE, [((*ARGUMENT, "rate", "entries", 1), ZERO)], "Θ without θ12"),
     (
-        "theorem-hypothesis",
+        "theorem-lower",
         FREE,
-        [(at(S, "hypotheses", 1), ["differentiable", "equilibrium"])],
-        "by another claim",
+        [((*ARGUMENT, "lower", "entries", 0), ["var", "beta"])],
+        "V above what it need not reach",
     ),
-    ("theorem-twice", FREE, [(at(S, "hypotheses", 1, 0), "bounds of h")], "a hypothesis twice"),
-    ("theorem-none", FREE, [(at(S, "hypotheses"), [])], "no hypothesis"),
-    ("theorem-unused", FREE, [(at("uses"), {})], "claims that are not among the uses"),
-    ("theorem-n", FREE, [((*LOOP, "n"), 4)], "a joint more than reach is for"),
-    ("theorem-n-zero", FREE, [((*LOOP, "n"), 0)], "no joint"),
-    ("theorem-h", FREE, [((*LOOP, "h"), ["h", 2, X])], "of another h"),
-    ("theorem-gamma", FREE, [((*LOOP, "gamma"), "1/2")], "γ below sup h"),
-    ("theorem-gamma-zero", FREE, [((*LOOP, "gamma"), "0")], "γ = 0"),
-    ("theorem-reach", FREE, [((*LOOP, "reach"), "1")], "reach below √nγ"),
-    ("theorem-reach-minus", FREE, [((*LOOP, "reach"), "-2")], "a negative reach"),
-    ("theorem-G", FREE, [((*LOOP, "G"), TINY)], "G below what it bounds"),
-    ("theorem-rho", FREE, [((*LOOP, "rho"), "1/2")], "ρ below sup |h'|"),
-    ("theorem-L", FREE, [((*LOOP, "L"), "1/2")], "L below sup h(x)/x"),
-    ("theorem-form", FREE, [((*LOOP, "form"), [["num", "1"], ["num", "0"], ["num", "1"]])], "Θ = I"),
-    ("theorem-condition", FREE, [((*LOOP, "condition"), [NEVER])], "under a condition that the claims lack"),
-    ("theorem-no-condition", CONDITION, [((*LOOP, "condition"), [])], "for all ε₀"),
-    ("theorem-numbers", FREE, [((*LOOP, "numbers"), [["kp", "1"]])], "a number without an arm"),
-    ("theorem-no-numbers", ARM, [((*LOOP, "numbers"), [])], "an arm without numbers"),
-    ("theorem-no-arm", ARM, [((*LOOP, "arm"), None), ((*LOOP, "numbers"), [])], "for every arm"),
-    ("theorem-heavy", ARM, [((*LOOP, "arm", "mass", 0, 0, 0, 1), LARGE)], "a heavier arm"),
-    ("theorem-kp", ARM, [((*LOOP, "arm", "kp", 0), "1/1000")], "softer than the numbers say"),
-    ("theorem-kp-minus", ARM, [((*LOOP, "arm", "kp", 0), "-60")], "a negative stiffness"),
-    ("theorem-kv", ARM, [((*LOOP, "arm", "kv", 0), LARGE)], "more damping than the numbers say"),
-    ("theorem-kv-zero", ARM, [((*LOOP, "arm", "kv", 0), "0")], "a joint without damping"),
-    ("theorem-friction", ARM, [((*LOOP, "arm", "viscous", 0), "0")], "a joint without friction"),
-    ("theorem-few", ARM, [((*LOOP, "arm", "kp"), ["60"])], "a gain for one joint"),
-    ("theorem-no-joint", ARM, [((*LOOP, "arm", n), []) for n in ("mass", "viscous", "kp", "kv")], "no joint"),
-    ("theorem-eps0", ARM, [((*LOOP, "numbers", 3), ["eps0", "0"])], "ε₀ = 0, or a number twice"),
+    ("theorem-not-small", FREE, [((*ARGUMENT, "small"), False)], "for every ε₀"),
+    ("theorem-condition", FREE, [((*ARGUMENT, "where"), [NEVER])], "under a condition that nothing meets"),
+    ("theorem-no-condition", CONDITION, [((*ARGUMENT, "where"), [])], "for all ε₀, the condition dropped"),
+    (
+        "theorem-half-condition",
+        CONDITION,
+        [((*ARGUMENT, "where", 0, "left", 1, 2), ["num", "8"])],
+        "⅛ for ¼ in the condition",
+    ),
+    ("theorem-met", CONDITION, [(at(P, "met"), None)], "no constants that meet the condition"),
+    ("theorem-proofs", FREE, [(at(P, "proofs"), [])], "no proof of any obligation"),
+    ("theorem-no-numbers", ARM, [(at(S, "numbers"), [])], "an arm without numbers"),
+    ("theorem-heavy", ARM, [((*MASS, 0, 0, 0, 1), LARGE)], "a heavier arm"),
+    ("theorem-kp", ARM, [(at(S, "gains", 0, 1, 0), "1/1000")], "softer than the numbers say"),
+    ("theorem-kp-minus", ARM, [(at(S, "gains", 0, 1, 0), "-60")], "a negative stiffness"),
+    ("theorem-kv", ARM, [(at(S, "gains", 1, 1, 0), LARGE)], "more damping than the numbers say"),
+    ("theorem-kv-zero", ARM, [(at(S, "gains", 1, 1, 0), "0")], "a joint without damping"),
+    ("theorem-swapped", ARM, [(at(S, "gains", 0, 0), "Kv"), (at(S, "gains", 1, 0), "Kp")], "K_p for K_v"),
+    ("theorem-friction", ARM, [(at(S, "arm", "viscous", 0), "0")], "a joint without friction"),
+    ("theorem-few", ARM, [(at(S, "gains", 0), ["Kp", ["60"]])], "a gain for one joint"),
+    ("theorem-no-joint", ARM, [(MASS, []), (at(S, "arm", "viscous"), [])], "no joint"),
+    *(
+        (f"theorem-{name}", base, [(at(S, "numbers", index), [name, value])], f"{name} = {value}")
+        for base, index, name, value in (
+            (ARM, 4, "beta", "1/30"),
+            (ARM, 5, "eps0", "1"),
+            (ARM, 6, "h_reach", "1"),
+            (ARM, 7, "h_share", "1/2"),
+            (ARM, 8, "h_slope", "1/2"),
+            (ARM, 9, "k_secant", "1/2"),
+            (ARM, 10, "kc", "1/100"),
+            (MOVING, 11, "vd", "1000"),
+        )
+    ),
 ]
 
 
@@ -554,57 +590,7 @@ def edited(document: Document, edits: Edits) -> Document:
     return sealed(changed)
 
 
-def premises(
-    documents: Mapping[str, Document], used: list[Document]
-) -> Iterator[tuple[str, list[Document], str]]:
-    """Theorems with premises of something else, under the ids of those that they need."""
-    theorem = documents[FREE]
-
-    def relying(replaced: Mapping[str, Document]) -> list[Document]:
-        """The theorem with some premises exchanged for others that go by their ids."""
-        own = {one["claim"]["id"]: one for one in used}
-        own |= {
-            name: edited(one, [(at("claim", "id"), name), (at("uses"), {})]) for name, one in replaced.items()
-        }
-        uses = {name: one["digest"] for name, one in own.items()}
-        return [edited(theorem, [(at("uses"), uses)]), *own.values()]
-
-    truth = documents["pub.7i.m1"]
-    ids = [one["claim"]["id"] for one in used]
-    yield "premise-trivial", relying(dict.fromkeys(ids, truth)), "γ_1 < γ_2 for every premise"
-    for name in ids:
-        yield f"premise-trivial.{name}", relying({name: truth}), f"γ_1 < γ_2 in place of {name}"
-    other, equilibrium = documents["arc.equilibrium"], documents["sca.equilibrium.m1"]
-    yield "premise-other-h", relying({"equilibrium": other}), "the equilibrium under another h"
-    yield "premise-property", relying({"V.smooth": equilibrium}), "another property of the same h"
-    false = edited(documents["pub.T1.torque.pd.elbow"], [(at("claim", "m"), None), (at("claim", "n"), None)])
-    yield "premise-refuted", relying({"equilibrium": false}), "a refutation as a premise"
-    own = {one["claim"]["id"]: one for one in used}
-    for name, value in (("m", 2), ("n", 7)):
-        foreign = edited(own["equilibrium"], [(at("claim", name), value)])
-        yield f"premise-{name}", relying({"equilibrium": foreign}), f"a premise for another {name}"
-    renamed = edited(theorem, [(at("uses", "equilibrium"), own["V.positive"]["digest"])])
-    yield "premise-swapped", [renamed, *used], "the certificate of another claim"
-    itself = edited(theorem, [(at("uses", "equilibrium"), theorem["digest"])])
-    yield "premise-itself", [itself, theorem, *used], "the theorem as its own premise"
-    part = {"kind": "AllOf", "parts": [["it", theorem["statement"]]]}
-    proof = {"rule": "every part", "parts": [theorem["proof"]]}
-    hidden = edited(theorem, [(at(S), part), (at(P), proof), (at("uses"), {})])
-    yield "premise-hidden", [hidden], "a theorem inside a conjunction, without premises"
-
-
-def attacks(documents: Mapping[str, Document]) -> Iterator[tuple[str, Files, list[str], str]]:
+def attacks(documents: Mapping[str, Document]) -> Iterator[tuple[str, bytes, list[str], str]]:
     """The name of each, its bytes or those of its files, what may come of it, and why."""
-    by_digest = {document["digest"]: document for document in documents.values()}
-    for name, base, edits, why in SINGLE:
+    for name, base, edits, why in [*SINGLE, *ON_THEOREMS]:
         yield f"{name}.json", encoded(edited(documents[base], edits)), ["refused"], why
-    for name, base, edits, why in ON_THEOREMS:
-        original = documents[base]
-        used = [by_digest[digest] for digest in original["uses"].values()]
-        whole = [edited(original, edits), *used]
-        files = [(f"{index}.json", encoded(one)) for index, one in enumerate(whole)]
-        yield name, files, ["refused", "undecided"], f"a theorem: {why}"
-    used = [by_digest[digest] for digest in documents[FREE]["uses"].values()]
-    for name, whole, why in premises(documents, used):
-        files = [(f"{index}.json", encoded(one)) for index, one in enumerate(whole)]
-        yield name, files, ["refused", "undecided"], f"a theorem: {why}"

@@ -354,7 +354,7 @@ def collections(arena: Arena, documents: list[tuple[str, Document]]) -> None:
     for name, document in documents:
         whole = with_premises(document, by_digest)
         key = kind_of(document)
-        theorem = key[0] == "Theorem"
+        theorem = key[0] in ("Stable", "StableArm")
         if not document["uses"] or whole is None or taken[key] >= (4 if theorem else 1):
             continue
         taken[key] += 1
