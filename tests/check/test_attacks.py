@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction as F
 from math import isqrt
 
 import pytest
 
-import lyapcheck.check.recheck as rechecking
 from lyapcheck.check.certificate import About, Certificate
-from lyapcheck.check.files import content, gather
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
@@ -23,11 +20,9 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, MassBelow, PostureWitness
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.theorem import THEOREMS, Application, Theorem
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable
-from lyapcheck.check.theorems.closed_loop import ClosedLoop
 from lyapcheck.check.verify import verify
 
 A, Y, Z = ("mat", "A"), ("vec", "y"), ("vec", "z")
@@ -167,39 +162,6 @@ def test_the_text_of_a_claim_for_small_values_lets_the_threshold_depend_on_the_v
     """ε < x for small ε is true at each x > 0, and false as “for small ε: for all x > 0”."""
     text = small(Relation(("var", "eps"), "<", X), (Variable("x", F(0)),)).text()
     assert text.index("x > 0") < text.index("small enough")
-
-
-NAME = "Lyapunov's direct method"
-
-
-def test_a_theorem_is_judged_from_the_bytes_whose_premises_are_judged(tmp_path, monkeypatch):
-    """h(x) = −x: the file is read twice, and says something else the second time."""
-    truth = Constant(Relation(num(0), "<", num(1)))
-    trivial = Certificate(About("c", "", None, None, "p"), truth, "proved", "exact", ExactNumbers())
-    loop = ClosedLoop(2, ("neg", X), num(-1), X, F(1), F(1), F(1), F(2), F(1), (num(-1), num(0), num(-1)))
-    theorem = Theorem(NAME, loop, tuple((label, "c") for label in sorted(THEOREMS[NAME].hypotheses)))
-    about = About("T", "", None, None, "p")
-    uses = {"c": trivial.digest}
-    false = Certificate(about, theorem, "proved", "exact", Application(), uses)
-    (tmp_path / "c.json").write_text(trivial.text(), encoding="utf-8")
-    (tmp_path / "T.json").write_text(false.text(), encoding="utf-8")
-    harmless = replace(false, statement=truth, proof=ExactNumbers()).text().encode("utf-8")
-    times = []
-
-    def changing(path):
-        if path.name == "T.json":
-            times.append(path)
-        return harmless if path.name == "T.json" and len(times) > 1 else content(path)
-
-    monkeypatch.setattr(rechecking, "content", changing)
-    result = {one.file: one.status for one in rechecking.recheck(gather([tmp_path])).checked}
-    assert result == {"c.json": "accepted", "T.json": "refused"}
-
-
-def test_the_id_of_a_claim_stays_within_its_quotation():
-    loop = ClosedLoop(2, ("neg", X), num(-1), X, F(1), F(1), F(1), F(2), F(1), (num(-1), num(0), num(-1)))
-    text = Theorem(NAME, loop, (("equilibrium", "c”; and so for every robot, by the claim “d"),)).text()
-    assert text.endswith("equilibrium by the claim “c’’; and so for every robot, by the claim “d”")
 
 
 def test_what_stands_under_a_rate_must_have_a_value():

@@ -23,15 +23,12 @@ from lyapcheck.check.kinds.for_small import SmallWitness
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
 from lyapcheck.check.kinds.signs import Multiple, SignIdentity
-from lyapcheck.check.kinds.theorem import Application
 from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Total, Witness
-from lyapcheck.check.theorems.closed_loop import ArmAndGains
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     Constant,
-    FamilyBounds,
     ForSmall,
     agrees,
     all_of,
@@ -54,7 +51,6 @@ from lyapcheck.claims import (
     sin,
     sqrt,
     tanh,
-    theorem,
     var,
 )
 from lyapcheck.claims.procedures import propose
@@ -351,46 +347,6 @@ def small_at(below=1, **at):
 
 
 PRINTED = agrees(a * b, "100", a="9", b="10")
-E0, KP = var("eps"), var("kp")
-LOOP = FamilyBounds(1, 1, 1, 1).loop((tanh(x), 1 - tanh(x) ** 2, tanh(x)), (E0 * KP, E0, KP))
-DIRECT = theorem("Lyapunov's direct method", LOOP, only_equilibrium="11")
-NAMES = ("only_equilibrium", "differentiable", "positive_definite", "radially_unbounded")
-NAMES += ("bounds_of_h", "rate_bounded_by_a_form", "form_negative_definite")
-TIME_VARYING = (
-    "equilibrium",
-    "differentiable",
-    "positive_definite",
-    "bounded_below_by_a_positive_definite_function",
-    "bounded_above_by_a_positive_definite_function",
-    "radially_unbounded",
-    "bounds_of_h",
-    "rate_bounded_by_a_form",
-    "form_negative_definite",
-)
-ONE = ((((0, 0), F(1)),),)
-"""The row of a constant M of one joint, kg·m²."""
-HELD = ArmAndGains((ONE,), (F(1, 5),), (F(3),), (F(2),))
-NUMBERS = {
-    "kp": F(3),
-    "b_min": F(1, 5),
-    "b_max": F(1, 5),
-    "kv_max": F(2),
-    "beta": F(1),
-    "kc": F(0),
-    "eps0": F(1, 99),
-}
-
-
-def direct(loop, *more):
-    """The direct method for a loop, each hypothesis by the claim "a"."""
-    return theorem("Lyapunov's direct method", loop, **dict.fromkeys((*NAMES, *more), "a"))
-
-
-def for_arm(arm=HELD, **numbers):
-    """The theorem with numbers for an arm; a number is left out that is ``None``."""
-    at = {name: value for name, value in (NUMBERS | numbers).items() if value is not None}
-    loop = replace(LOOP, arm=arm, numbers=tuple(sorted(at.items())))
-    return direct(loop, "bounds_of_M", "bounds_of_C")
 
 
 def boxes(*cuts, zero=False, tail=False, bits=64):
@@ -525,76 +481,6 @@ FORGED = {
     ),
     "an entry from behind": (always_positive([cos(x)]), EntryWitness(-1, True, (("x", F(3)),)), "entry = -1"),
     "an entry that has no bound": (bounded([cos(x)]), EntryWitness(0, False, (("x", F(0)),)), "no bound"),
-    "a theorem nobody knows": (theorem("Fermat", LOOP), Application(), "Fermat"),
-    **{
-        f"a loop with too small a {name}": (
-            direct(replace(LOOP, **{name: F(value)})),
-            Application(),
-            f"{name} = {value}",
-        )
-        for name, value in (("reach", "9/10"), ("G", "2/5"), ("rho", "0"), ("L", "-1"), ("gamma", "0"))
-    },
-    "a theorem about another loop": (
-        direct(replace(LOOP, desired=True)),
-        Application(),
-        "desired = True",
-    ),
-    "a theorem for (21) about (6)": (
-        theorem("Lyapunov's direct method, time-varying", LOOP, **dict.fromkeys(TIME_VARYING, "a")),
-        Application(),
-        "desired = False",
-    ),
-    "numbers of no arm": (
-        direct(replace(LOOP, numbers=tuple(sorted(NUMBERS.items())))),
-        Application(),
-        "stand for an arm, and none is given",
-    ),
-    "numbers of no arm, with what states bounds of one": (
-        for_arm(arm=None),
-        Application(),
-        "those of the theorem",
-    ),
-    "numbers of an arm without bounds of it": (
-        direct(for_arm().loop),
-        Application(),
-        "those of the theorem",
-    ),
-    "numbers of an arm without a bound of C": (
-        direct(for_arm().loop, "bounds_of_M"),
-        Application(),
-        "those of the theorem",
-    ),
-    "an arm without numbers": (
-        direct(replace(for_arm().loop, numbers=()), "bounds_of_M", "bounds_of_C"),
-        Application(),
-        "must be b_max, b_min, beta, eps0, kc, kp, kv_max",
-    ),
-    "an arm of another number of joints": (
-        for_arm(replace(HELD, kp=(F(3), F(3)))),
-        Application(),
-        "must be of 1 joints",
-    ),
-    "an arm under a condition besides": (
-        direct(replace(for_arm().loop, condition=(var("eps0") < 1,)), "bounds_of_M", "bounds_of_C"),
-        Application(),
-        "has no place beside numbers",
-    ),
-    "an arm that is not damped": (for_arm(replace(HELD, kv=(F(0),))), Application(), "K_v = 0"),
-    **{
-        f"an arm with {name} = {value}": (for_arm(**{name: value and F(value)}), Application(), reason)
-        for name, value, reason in (
-            ("kp", "4", "must be at most 3"),
-            ("b_min", "1/4", "must be at most 1/5"),
-            ("b_max", "1/6", "must be at least 1/5"),
-            ("kv_max", "1", "must be at least 2"),
-            ("eps0", "0", "must be positive"),
-            ("beta", "-1", "must be positive"),
-            ("kc", "-1", "must be positive"),
-            ("vd", "1", "must be"),
-            ("kc", None, "must be"),
-        )
-    },
-    "a theorem without its hypotheses": (DIRECT, Application(), "those of the theorem"),
     "a part left out": (CASES["all of"], EveryPart((SeparateBalls(128),)), "one proof per part"),
     "a part that holds": (CASES["all of"], OnePart(0, SeparateBalls(128)), "must be refuted"),
     "a part that does not exist": (CASES["not all"], OnePart(-1, SeparateBalls(128)), "part = -1"),
@@ -622,8 +508,6 @@ def test_the_same_proofs_without_the_fault_are_accepted():
         (PRINTED, Corners((0, 0), (1, 1), 128)),
         (SMALL, small_at()),
         (SMALL, small_at(t="1/2")),
-        (direct(LOOP), Application()),
-        (for_arm(), Application()),
         (CASES["not all"], OnePart(1, SeparateBalls(128))),
     ]
     for statement, proof in fine:
@@ -647,33 +531,6 @@ def test_a_statement_that_is_no_statement_is_refused():
     assert "is not a way to decide" in refusal(Unheard(), NormalForm())
     with pytest.raises(ValueError, match="<="):
         Relation(("num", "1"), "=", ("num", "1"))
-
-
-@pytest.mark.parametrize("left_out", NAMES)
-def test_a_theorem_without_one_of_its_hypotheses_is_refused(left_out):
-    rest = dict.fromkeys((name for name in NAMES if name != left_out), "a")
-    statement = theorem("Lyapunov's direct method", LOOP, **rest)
-    assert "are not those of the theorem" in refusal(statement, Application())
-
-
-@pytest.mark.parametrize("left_out", TIME_VARYING)
-def test_a_theorem_for_tracking_without_one_of_its_hypotheses_is_refused(left_out):
-    rest = dict.fromkeys((name for name in TIME_VARYING if name != left_out), "a")
-    loop = replace(LOOP, desired=True)
-    statement = theorem("Lyapunov's direct method, time-varying", loop, **rest)
-    assert "are not those of the theorem" in refusal(statement, Application())
-
-
-def test_what_a_theorem_needs_must_be_among_the_uses():
-    statement = theorem("Lyapunov's direct method", LOOP, **dict.fromkeys(NAMES, "lemma"))
-    about = About("P", "", 2, 3, "test")
-    with pytest.raises(Refused, match="not among the uses"):
-        judge(Certificate(about, statement, "proved", "exact", Application()))
-    used = Certificate(about, statement, "proved", "exact", Application(), {"lemma": "0" * 64})
-    assert judge(used).verdict == "proved"
-    inside = replace(used, statement=all_of(step=statement), proof=EveryPart((Application(),)), uses={})
-    with pytest.raises(Refused, match="not among the uses"):
-        judge(inside)
 
 
 def test_reading_builds_only_what_the_types_say():

@@ -8,6 +8,8 @@ import pytest
 
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, Cover, CoveredTerms, terms_in_words
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.loop_property import facts_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
@@ -15,12 +17,17 @@ from lyapcheck.claims import (
     FamilyBounds,
     any_matrix,
     any_vector,
+    companion,
+    constant_goal,
     dot,
     expr,
     form,
-    loop_closed,
-    rate_bound,
+    loop_property,
+    moving_goal,
+    norm,
+    rate_at_most,
     scaled,
+    strict,
     tanh,
     var,
 )
@@ -135,39 +142,40 @@ def test_one_name_means_one_thing():
 
 # dV/dt ------------------------------------------------------------------------------------------------------
 
-KNOWN = FamilyBounds(3, gamma=1, rho=1, L=1)
-NAMES = ("eps", "kp", "b_min", "b_max", "kv_max", "beta", "kc", "vd")
-EPS, KP, B_MIN, B_MAX, KV_MAX, BETA, KC, VD = map(var, NAMES)
-C, D = KNOWN.drift(BETA, KC), KNOWN.cross(B_MAX, KV_MAX)
-REGULATOR = (EPS * KP, -EPS / 2 * (D + EPS * C), B_MIN - EPS * C)
-TRACKING = (EPS * (KP - EPS * KC * VD), -EPS / 2 * (D + KC * VD + EPS * C), B_MIN - EPS * C)
-X = var("x")
+FAMILY = companion("every_function.py")
 
 
-def rate_of(theta, desired=False):
-    return rate_bound(KNOWN.loop((tanh(X), 1 - tanh(X) ** 2, tanh(X)), theta, desired=desired))
+def rate_of(corner=1, side=1, low=1, more=0, less=0, desired=False, bounded_for=None):
+    """The bound of dV/dt, with factors of its entries and ε more or less in two of them."""
+    goal = moving_goal("positive") if desired else constant_goal("positive")
+    loop, V, above, (h, k, K_p, K_v) = FAMILY.closed_loop(goal, FAMILY.any_function)
+    B, eps = goal.B, goal.eps0 * goal.s
+    c, d = goal.beta * (h.slope + h.share) + h.reach * goal.kc, B.max + k.secant * K_v.max
+    turn = goal.kc * goal.vd if (desired if bounded_for is None else bounded_for) else expr(0)
+    first = corner * eps * (K_p.min - eps * turn) + more * eps
+    last = low * (B.min - eps * c) + less * eps
+    a, b = norm(h), norm(goal.w)
+    form = first * a**2 - expr(side) * eps * (d + turn + eps * c) * a * b + last * b**2
+    return rate_at_most(strict(loop, V, rate=form, **above))
+
+
+@pytest.mark.parametrize(("desired", "terms"), [(False, 11), (True, 13)])
+def test_the_rate_of_v_has_the_form(desired, terms):
+    """Eleven terms as in (15), two more with the desired velocity."""
+    statement = rate_of(desired=desired)
+    assert len(terms_in_words(statement)[0]) == terms
+    assert verdict(statement) == "proved"
+    assert verdict(rate_of(side="1.001", desired=desired)) == "proved"
 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("few_tries")
-@pytest.mark.parametrize(
-    ("theta", "desired", "terms"), one_in(2, [(REGULATOR, False, 11), (TRACKING, True, 13)])
-)
-def test_the_rate_of_v_has_the_form_and_no_better_one(theta, desired, terms):
-    """Eleven terms as in (15), two more with the desired velocity; every entry of Θ is needed as it is."""
-    statement = rate_of(theta, desired)
-    assert len(terms_in_words(statement)[0]) == terms
-    assert verdict(statement) == "proved"
-    corner, side, low = theta
-    assert verdict(rate_of((corner, side * "1.001", low), desired)) == "proved"
-    for better in (
-        (corner * "1.001", side, low),
-        (corner, side * "0.999", low),
-        (corner, side, low * "1.001"),
-        (corner + EPS, side, low),
-        (corner, side, low + EPS),
-    ):
-        assert verdict(rate_of(better, desired)) != "proved"
+@pytest.mark.parametrize("desired", [False, True])
+def test_it_has_no_better_one(desired):
+    """Every entry of Θ is needed as it is."""
+    for better in ({"corner": "1.001"}, {"side": "0.999"}, {"low": "1.001"}, {"more": 1}, {"less": 1}):
+        one = {name: expr(value) for name, value in better.items()}
+        assert verdict(rate_of(**one, desired=desired)) != "proved"
 
 
 @pytest.fixture
@@ -180,19 +188,22 @@ def few_tries(monkeypatch):
 @pytest.mark.slow
 @pytest.mark.usefixtures("few_tries")
 def test_without_any_one_of_the_norms_nothing_is_shown():
-    statement = rate_of(TRACKING, True)
-    for index in range(len(statement.norms)):
-        rest = statement.norms[:index] + statement.norms[index + 1 :]
-        assert verdict(replace(statement, norms=rest)) != "proved", statement.norms[index]
-    for index in range(len(statement.least)):
-        rest = statement.least[:index] + statement.least[index + 1 :]
-        assert verdict(replace(statement, least=rest)) != "proved", statement.least[index]
+    statement = rate_of(desired=True)
+    matrices = [("mat", name) for name in "MCD"] + [("diag", name) for name in ("dh", "Kv", "B")]
+    for letter in (*matrices, ("vec", "k"), ("vec", "u"), ("vec", "w")):
+        rest = tuple(known for known in statement.norms if letter not in known[0])
+        assert len(rest) < len(statement.norms)
+        assert verdict(replace(statement, norms=rest)) != "proved", letter
+    for name in ("Kp_min", "B_min", "k_sector"):
+        rest = tuple(known for known in statement.least if name not in str(known[1]))
+        assert len(rest) < len(statement.least)
+        assert verdict(replace(statement, least=rest)) != "proved", name
 
 
 @pytest.mark.slow
 def test_the_norms_for_tracking_do_not_do_without_the_desired_velocity():
-    assert verdict(rate_of(REGULATOR, True)) != "proved"
-    assert verdict(rate_of(TRACKING, False)) in ("proved", "undecided")
+    assert verdict(rate_of(desired=True, bounded_for=False)) != "proved"
+    assert verdict(rate_of(desired=False, bounded_for=True)) in ("proved", "undecided")
 
 
 @pytest.mark.parametrize("n", [1, 3, 6])
@@ -238,12 +249,19 @@ def test_the_form_bounds_a_derivative_of_v_taken_in_floating_point(n):
 @pytest.mark.parametrize("desired", [False, True])
 def test_the_controller_closes_the_loop_and_another_does_not(desired):
     """(6) or (21) minus the left side of (1), for every n; any letter exchanged on one side refutes it."""
-    statement = loop_closed(desired)
-    assert ("D" in letters_of(statement.left)) == desired, "C(q, q̇_d) is in (21) alone"
-    assert verdict(statement) == "proved"
-    for old, new in (("Kv", "B"), ("Kp", "Kv"), ("hw", "w"), ("dw", "h"), ("C", "M"), ("g", "h")):
-        assert verdict(replace(statement, left=exchanged(statement.left, old, new))) == (
-            "proved" if old == "g" else "refuted"
+    x = var("x")
+    name = "the origin is an equilibrium"
+    (closed,) = (
+        fact
+        for _, fact in facts_of(loop_property(name, (tanh(x), 1 - tanh(x) ** 2, x), desired), ())
+        if isinstance(fact, EveryN)
+    )
+    assert ("D" in letters_of(closed.left)) == desired, "C(q, q̇_d) is in (21) alone"
+    assert verdict(closed) == "proved"
+    gravity = "g" if desired else "gd"
+    for old, new in (("Kv", "B"), ("Kp", "Kv"), ("k", "w"), ("C", "M"), (gravity, "h")):
+        assert verdict(replace(closed, left=exchanged(closed.left, old, new))) == (
+            "proved" if old == gravity else "refuted"
         ), old
 
 

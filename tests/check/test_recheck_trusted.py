@@ -53,7 +53,7 @@ HEADLINES = {
         "pieces of the domain",
         "Taylor boxes",
     ),
-    "a theorem, without its premises": ("Theorem", "theorem"),
+    "a theorem about a closed loop": ("Stable", "obligations"),
 }
 MOST_CODE_OF_EPS0 = 2_500
 STEP = 50
@@ -171,16 +171,16 @@ def shown(tmp_path_factory, in_this_process):
     return text, json.loads(data)
 
 
-def test_a_theorem_rests_on_the_rules_of_its_premises_too(shown):
+def test_a_theorem_rests_on_the_rules_of_its_obligations(shown):
     text, data = shown
     rows = {row["file"]: row["rules"] for row in data["certificates"]}
-    assert "Theorem by theorem" in rows["arms.all.m2.json"]
+    assert "Stable by obligations" in rows["arms.all.m2.json"]
     assert any(
         rule.startswith("BoundEveryN") or rule.startswith("ForAll") for rule in rows["arms.all.m2.json"]
     )
     trusted = data["trusted"]["proved"]
     assert set(trusted["rules"]) == {rule for rules in rows.values() for rule in rules}
-    assert "lyapcheck.check.theorems.premises" in trusted["modules"]
+    assert "lyapcheck.check.systems.obligations" in trusted["modules"]
     sizes = (sum(trusted[key].values()) for key in ("code", "modules"))
     assert "{:>7}  {:>5} of definitions in {} modules".format(*sizes, len(trusted["modules"])) in text
     assert "trusted for all that is proved" in text
@@ -192,7 +192,7 @@ def test_what_a_headline_takes_for_granted_stands_with_it(shown):
     granted = rows["arms.all.m2.json"]["granted"]
     assert granted
     assert all(f"  {sentence}\n" in text for sentence in (*granted, *data["granted"]))
-    assert all(not row["granted"] for row in rows.values() if "Theorem by theorem" not in row["rules"])
+    assert all(not row["granted"] for row in rows.values() if "Stable by obligations" not in row["rules"])
 
 
 if __name__ == "__main__":

@@ -173,16 +173,15 @@ FAULTS = [
     ("21.below", FUNCTION, "h(m, x), dh(m, x), 2 * potential(m, x)"),
     ("21.above", FUNCTION, "-h(m, x), -dh(m, x), -potential(m, x)"),
     ("21.above", FUNCTION, "h(m, x), dh(m, x), x**2"),
-    (
-        "21.small",
-        'nonnegative("more", "kv_max", "kc", "vd")',
-        'nonnegative("more", "kv_max", "kc", "vd", "b_min")',
-    ),
     ("arm.inertia", "arm.mass_above(arm.guessed_floor())", "arm.mass_above(4 * arm.guessed_floor())"),
-    ("arm.21", '"vd": SPEED', '"vd": 2 * SPEED'),
-    ("arm.21", '"beta": arm.beta', '"beta": arm.beta / 100'),
-    ("arm.21", '"kc": arm.kc,', '"kc": arm.kc / 100,'),
-    ("arm.21", "arm=arm.under(gains), ", ""),
+    ("arm.21", "vd=SPEED)", "vd=2 * SPEED)"),
+    ("arm.21", "eps0=eps0, vd", "eps0=2 * eps0, vd"),
+    ("arm.21", "Kp=gains.kp, Kv=gains.kv", "Kp=gains.kv, Kv=gains.kp"),
+    (
+        "21",
+        "return FAMILY.tracking(FAMILY.h_of(m), given)",
+        "return FAMILY.tracking(FAMILY.member(x, x), given)",
+    ),
 ]
 
 
@@ -190,13 +189,7 @@ FAULTS = [
     ("claim", "right", "wrong"), one_in(6, FAULTS), ids=[f"{row[0]}: {row[2]}" for row in FAULTS]
 )
 def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
-    path = altered(right, wrong)
-    if claim == "21.small":  # friction that may vanish: b_min is no longer positive
-        source = path.read_text(encoding="utf-8")
-        path.write_text(
-            source.replace('positive("kp", "b_min", "beta")', 'positive("kp", "beta")'), encoding="utf-8"
-        )
-    assert verdicts(path, (claim,))[claim] in ("refuted", "undecided")
+    assert verdicts(altered(right, wrong), (claim,))[claim] in ("refuted", "undecided")
 
 
 def test_no_verdict_is_written_in_the_script():

@@ -35,10 +35,8 @@ from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stopping import ComesToRest
-from lyapcheck.check.kinds.theorem import Theorem
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
-from lyapcheck.check.theorems.closed_loop import ArmAndGains, ClosedLoop
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
 from tests.statement_fuzz.motions import decide_settling
@@ -49,12 +47,10 @@ __all__ = [
     "About",
     "Agrees",
     "AllOf",
-    "ArmAndGains",
     "BoundEveryN",
     "Boxes",
     "Case",
     "Certificate",
-    "ClosedLoop",
     "ComesToRest",
     "Constant",
     "CoriolisAtRest",
@@ -95,7 +91,6 @@ __all__ = [
     "StaysWithin",
     "Sturm",
     "Supremum",
-    "Theorem",
     "TrigonometricBound",
     "TrigonometricPositive",
     "Variable",

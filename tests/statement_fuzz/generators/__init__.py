@@ -77,6 +77,5 @@ def _load() -> None:
         settling,
         small,
         stability,
-        theorems,
         trigonometric,
     )

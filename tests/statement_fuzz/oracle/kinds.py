@@ -73,5 +73,4 @@ def _load() -> None:
         settling,
         small,
         stability,
-        theorems,
     )

@@ -1,0 +1,180 @@
+"""Faults in the paper's theorems as systems, of torque, V, bounds, conditions, h and arm: none is proved."""
+
+from __future__ import annotations
+
+import pytest
+
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.claims import companion, var
+from lyapcheck.claims.arguments import at_arm
+from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.script import find_script
+from lyapcheck.robots import load
+from tests.helpers.shares import one_in
+
+SOURCE = find_script("every_function.py").read_text(encoding="utf-8")
+FOR_ALL = ("regulator", "h_of(2)", False)
+CLASS = ("regulator", "any_function", False)
+GIVEN = ("regulator", "h_of(2)", True)
+MOVING = ("tracking", "h_of(2)", False)
+MOVING_GIVEN = ("tracking", "any_function", True)
+UNIFORM = "uniform(loop, V, below=β / 2 * (b + ε * a) ** 2 + K_p.norm * h.sum_U,"
+FAULTS = {
+    "the sign of the damping": (FOR_ALL, "K_p @ h - K_v @ k", "K_p @ h + K_v @ k"),
+    "the sign of the stiffness": (FOR_ALL, "K_p @ h - K_v @ k", "-(K_p @ h) - K_v @ k"),
+    "gravity is left out": (FOR_ALL, "- K_v @ k + goal.gravity", "- K_v @ k"),
+    "gravity at the goal alone": (FOR_ALL, "- K_v @ k + goal.gravity", "- K_v @ k + goal.gravity_at_goal"),
+    "the gains exchanged": (FOR_ALL, "K_p @ h - K_v @ k", "K_v @ h - K_p @ k"),
+    "no proportional part": (FOR_ALL, "K_p @ h - K_v @ k", "-(K_v @ k)"),
+    "the sign of the cross term": (FOR_ALL, "shifted = w - ε * h", "shifted = w + ε * h"),
+    "no cross term": (FOR_ALL, "shifted = w - ε * h", "shifted = w"),
+    "V with the other gain": (FOR_ALL, "K_p.entries @ h.U", "K_v.entries @ h.U"),
+    "V without potential": (FOR_ALL, " + K_p.entries @ h.U", ""),
+    "V below β": (FOR_ALL, "goal.mu / 2 * norm(y)", "goal.beta / 2 * norm(y)"),
+    "arms without friction": (FOR_ALL, 'constant_goal("positive")', 'constant_goal("none")'),
+    "friction that may vanish": (FOR_ALL, 'constant_goal("positive")', 'constant_goal("any")'),
+    "for every ε₀": (FOR_ALL, '{"small": True}', '{"small": False}'),
+    "a bound without the Coriolis term": (CLASS, "+ h.reach * goal.kc", ""),
+    "a bound without the slope": (CLASS, "β * (h.slope + h.share)", "β * h.share"),
+    "a bound without the share": (CLASS, "β * (h.slope + h.share)", "β * h.slope"),
+    "a bound with k for L·k": (CLASS, "B.max + k.secant * K_v.max", "B.max + K_v.max"),
+    "a bound with λmin for λmax": (CLASS, "B.max + k.secant", "B.min + k.secant"),
+    "λmax(K_p) in θ11": (CLASS, "rate = ε * K_p.min", "rate = ε * K_p.max"),
+    "a function that is not bounded": (
+        CLASS,
+        'goal.entrywise("h", goal.e)',
+        'goal.entrywise("h", goal.e, False)',
+    ),
+    "the condition dropped": (GIVEN, '{"where": where} if given', '{"small": False} if given'),
+    "a weaker condition": (GIVEN, "ε0 / 4 * (d", "ε0 / 5 * (d"),
+    "a condition that nothing meets": (GIVEN, "where += [", "where += [ε0 < 0, "),
+    "another theorem": (MOVING, "return uniform(loop", "return exponential(loop"),
+    "LaSalle with q_d(t)": (MOVING, UNIFORM, "lasalle(loop, V,"),
+    "strict with q_d(t)": (MOVING, UNIFORM, "strict(loop, V,"),
+    "an upper bound too low": (MOVING, "below=β / 2", "below=goal.mu / 2"),
+    "(21) without M q̈_d": (MOVING, "+ M @ goal.acceleration ", ""),
+    "(21) without C q̇_d": (MOVING, "+ goal.C @ goal.velocity ", ""),
+    "(21) without B q̇_d": (MOVING, " + B @ goal.velocity", ""),
+    "(21) with M(q_d)": (MOVING, "M @ goal.acceleration", "goal.M_at_goal @ goal.acceleration"),
+    "a bound without v_d": (MOVING, "rate - ε**2 * D * a**2 - ε * D * a * b, d", "rate, d"),
+    "a bound with half of v_d": (
+        MOVING,
+        "rate - ε**2 * D * a**2 - ε * D * a * b",
+        "rate - ε**2 * D * a**2 - ε * D * a * b / 2",
+    ),
+    "the condition of (6) for (21)": (
+        MOVING_GIVEN,
+        "where = [ε0 * D < K_p.min, ε0**2 * D * c < K_p.min * B.min]",
+        "where = []",
+    ),
+    "γ too small": (FOR_ALL, "(gamma, rho, secant_bound)))", "(lambda m: 1, rho, secant_bound)))"),
+    "ρ too small": (FOR_ALL, "(gamma, rho, secant_bound)))", "(gamma, gamma, secant_bound)))"),
+    "L too small": (FOR_ALL, "(gamma, rho, secant_bound)))", "(gamma, rho, lambda m: expr('1/2'))))"),
+    "the potential of another h": (FOR_ALL, "potential(m, x), *", "potential(m + 1, x), *"),
+    "h with the other sign": (
+        FOR_ALL,
+        "member(h(m, x), potential(m, x)",
+        "member(-h(m, x), -potential(m, x)",
+    ),
+}
+"""What is asked, and what is exchanged in the script."""
+
+
+def altered(tmp_path, right: str, wrong: str, asked: tuple[str, str, bool]) -> Stable:
+    assert SOURCE.count(right) == 1, right
+    source = SOURCE.replace(right, wrong)
+    source = source[: source.index('proof.section("Every function')].replace(
+        "    Proof,\n", "    Proof,\n    exponential,\n    lasalle,\n"
+    )
+    path = tmp_path / "altered.py"
+    path.write_text(source, encoding="utf-8")
+    script = companion(str(path))
+    name, function, given = asked
+    functions = script.any_function if function == "any_function" else script.h_of(2)
+    return getattr(script, name)(functions, given)
+
+
+@pytest.fixture
+def few_tries(monkeypatch):
+    """What is asked is whether a proof exists; the search for entries against it may be short."""
+    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES", 20)
+    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES_OF_ONE", 20)
+
+
+@pytest.mark.usefixtures("few_tries")
+@pytest.mark.parametrize("name", one_in(3, FAULTS))
+def test_a_planted_fault_is_not_proved(tmp_path, name):
+    asked, right, wrong = FAULTS[name]
+    try:
+        stable = altered(tmp_path, right, wrong, asked)
+    except ValueError as error:
+        assert "is no constant or size of this system" in str(error)  # noqa: PT017
+        return
+    assert propose(stable).verdict.value != "proved"
+
+
+FAMILY = companion("every_function.py")
+FOR_ARM = {"Kp": "28 60 5", "Kv": "0.233 0.233 0.233", "eps0": "0.04"}
+
+
+def asked_of(robot=None, given=FOR_ARM, desired=False):
+    stable = (FAMILY.tracking if desired else FAMILY.regulator)(FAMILY.h_of(1), True)
+    return at_arm(stable, robot or load("buap3"), **given)
+
+
+def test_without_a_fault_the_arm_is_stable():
+    assert propose(asked_of()).verdict.value == "proved"
+
+
+def changed(**numbers):
+    """The theorem for the arm with other numbers than those that bound it."""
+    one = asked_of()
+    known = dict(one.numbers) | {name: type(one.numbers[0][1])(value) for name, value in numbers.items()}
+    return type(one)(one.argument, one.arm, one.gains, tuple(known.items()))
+
+
+def of_another_arm():
+    """The numbers of one arm for another."""
+    one, other = asked_of(), asked_of(load("buap3-small"))
+    return type(one)(one.argument, other.arm, one.gains, one.numbers)
+
+
+AT_THE_ARM = {
+    "ε₀ too large": lambda: asked_of(given=FOR_ARM | {"eps0": "0.05"}),
+    "ε₀ = 0": lambda: asked_of(given=FOR_ARM | {"eps0": "0"}),
+    "a joint without stiffness": lambda: asked_of(given=FOR_ARM | {"Kp": "28 0 5"}),
+    "a joint driven away": lambda: asked_of(given=FOR_ARM | {"Kp": "28 -60 5"}),
+    "a joint without damping": lambda: asked_of(given=FOR_ARM | {"Kv": "0 1 1"}),
+    "more damping than ε₀ allows": lambda: asked_of(given=FOR_ARM | {"Kv": "90 1 1"}),
+    "gains of two joints": lambda: asked_of(given=FOR_ARM | {"Kp": "28 60", "Kv": "1 1"}),
+    "a faster goal than ε₀ allows": lambda: asked_of(given=FOR_ARM | {"vd": "40"}, desired=True),
+    "‖M‖ of a lighter arm": lambda: changed(beta="1/30"),
+    "a hundredth of k_c": lambda: changed(kc="1/50"),
+    "stiffer than it is": lambda: changed(Kp_min="6"),
+    "less damped than it is": lambda: changed(Kv_max="1/5"),
+    "more friction than there is": lambda: changed(B_min="1/2"),
+    "‖h‖ below √nγ": lambda: changed(h_reach="1"),
+    "‖h‖/(1 + ‖e‖) below G": lambda: changed(h_share="3/5"),
+    "|h'| below ρ": lambda: changed(h_slope="9/10"),
+    "the numbers of another arm": of_another_arm,
+}
+
+
+@pytest.mark.parametrize("name", AT_THE_ARM)
+def test_a_fault_at_the_arm_is_not_proved(name):
+    try:
+        found = propose(AT_THE_ARM[name]())
+    except ValueError:
+        return
+    assert found.verdict.value != "proved"
+
+
+def test_a_theorem_for_one_class_is_one_for_all_members():
+    """One statement for every n and every function; it has no number of either."""
+    stable = FAMILY.regulator(FAMILY.any_function)
+    assert "every n" in stable.text()
+    assert all(f.member is None for f in stable.argument.system.functions)
+    assert propose(stable).verdict.value == "proved"
+    x = var("x")
+    linear = FAMILY.regulator(FAMILY.member(x, x**2 / 2))
+    assert propose(linear).verdict.value != "proved", "h = x has no bound"
