@@ -52,6 +52,19 @@ class Stable(Total):
         """What holds of the arm and of the letters."""
         return tuple(_granted(self.argument))
 
+    @property
+    def conclusion(self) -> str:
+        """What is stable, and how."""
+        argument, known = self.argument, THEOREMS[self.argument.theorem]
+        moving = argument.system.moving if argument.cascade is None else ("e", "w")
+        origin = ", ".join(f"{name} = 0" for name in moving)
+        conclusion = known.conclusion
+        if argument.local:
+            least = "Φ" if argument.upper is not None else "V"
+            conclusion = known.conclusion.removeprefix("globally ")
+            conclusion += f", and attracts where ‖e‖ ≤ R and {least} is below the least φ on ‖e‖ = R,"
+        return f"{origin} is {conclusion}"
+
     def text(self) -> str:
         """The theorem in one sentence."""
         argument, known = self.argument, THEOREMS[self.argument.theorem]
@@ -59,13 +72,6 @@ class Stable(Total):
         where = " and ".join(relation_text(one) for one in argument.where)
         about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
         about += [_function_text(f) for f in system.functions]
-        moving = system.moving if argument.cascade is None else ("e", "w")
-        origin = ", ".join(f"{name} = 0" for name in moving)
-        conclusion = known.conclusion
-        if argument.local:
-            least = "Φ" if argument.upper is not None else "V"
-            conclusion = known.conclusion.removeprefix("globally ")
-            conclusion += f", and attracts where ‖e‖ ≤ R and {least} is below the least φ on ‖e‖ = R,"
         energy = expression_text(argument.energy)
         energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
         under = "; ".join([expression_text(system.torque), *about])
@@ -79,7 +85,7 @@ class Stable(Total):
                 f"eᵀw ≥ {contraction}"
             )
         return (
-            f"{origin} is {conclusion} under τ = {under}, for {', '.join(_over(argument))}"
+            f"{self.conclusion} under τ = {under}, for {', '.join(_over(argument))}"
             f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
             f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
         )
