@@ -127,8 +127,8 @@ class StableArm(Total):
         gains = ", ".join(f"{name} = {diagonal_text(values)}" for name, values in self.gains)
         numbers = ", ".join(f"{name} = {number_text(value)}" for name, value in self.numbers)
         return (
-            f"{Stable(self.argument).conclusion} with {gains}{f' and {numbers}' if numbers else ''} on the arm with "
-            f"{mass_text(self.arm.mass, ())}, B = {diagonal_text(self.arm.viscous)}, "
+            f"{Stable(self.argument).conclusion} with {gains}{f' and {numbers}' if numbers else ''} "
+            f"on the arm with {mass_text(self.arm.mass, ())}, B = {diagonal_text(self.arm.viscous)}, "
             f"{written_out([f'U_g = {energy}'], 'energy of gravity', self.arm.potential, ())}: "
             f"{Stable(self.argument).text()}"
         )
