@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
+from dataclasses import asdict
 from pathlib import Path
 from subprocess import CompletedProcess
 from types import SimpleNamespace
@@ -17,15 +18,15 @@ import pytest
 def one_process() -> Iterator[pytest.MonkeyPatch]:
     """As long as it lasts; what else is to be replaced as long may be."""
     from lyapcheck.check import __main__ as checker
-    from lyapcheck.check import guard, judging, worker
+    from lyapcheck.check import guard, judging
     from lyapcheck.claims import ask, fresh_check, script_process
 
     def run_script(request: Any) -> int:
         Path(request.answer).write_text(script_process.answer(request), encoding="utf-8")
         return 0
 
-    def ask_worker(own: guard.Guard, request: dict[str, Any], documents: list[bytes]) -> dict[str, Any]:
-        return worker._answer(judging, request, documents)
+    def ask_worker(own: guard.Guard, content: bytes, full: bool) -> dict[str, Any]:
+        return {"finding": asdict(judging.judged(content, full))}
 
     def run_checker(words: list[str], **options: Any) -> CompletedProcess[bytes]:
         stdout = io.StringIO()
