@@ -102,6 +102,22 @@ def test_the_page_on_trust_says_these_sizes():
             assert f"| {line.partition(': ')[0]} | {code} | {lines} |" in page
 
 
+def test_the_page_on_trust_says_how_large_the_checker_is():
+    """Files, lines, lines of code, and those that can have a say in a verdict, to a few hundred."""
+    page = (Path(__file__).parents[2] / "docs" / "trusted.md").read_text(encoding="utf-8")
+    said = re.search(
+        r"(\d+) files of ([\d,]+) lines, of which ([\d,]+) are code.*?Some ([\d,]+) lines", page, re.S
+    )
+    assert said is not None
+    known = {one.module for one in definitions().values()}
+    every = places(*members(Statement), *members(Proof), *members(Piece))
+    lines = sum(len(source(module).read_text(encoding="utf-8").splitlines()) for module in known)
+    now = (len(known), lines, sum(len(code_lines(module)) for module in known), totals(modules(every))[0])
+    for text, size in zip(said.groups(), now, strict=True):
+        assert size <= int(text.replace(",", "")) + 100
+        assert int(text.replace(",", "")) <= size + 500
+
+
 def smallest():
     """For each kind by each rule the smallest certificate among the good ones of the arena."""
     result = {}
