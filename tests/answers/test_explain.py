@@ -134,10 +134,11 @@ def test_the_statement_that_is_decided_is_written_out(known, says):
     assert says in parts
 
 
-def test_a_theorem_names_its_hypotheses_and_the_claims_that_give_them():
+def test_a_theorem_is_written_out_with_its_condition_and_the_bound_of_the_rate():
     (part,) = explain("P").parts
     assert "Lyapunov's direct method" in part.says
-    assert "rate bounded by a form by the claim “16”" in part.says
+    assert "h_reach·Kv_max < B_min" in part.says
+    assert "dV/dt ≤ −(" in part.says
     assert "globally asymptotically stable" in part.says
 
 
