@@ -314,7 +314,7 @@ def test_it_is_written_out_for_readers():
     moving = every_n(rate(s * dot(x, x + d)), expr(0), rates=[(x, -y), (d, zero_vector()), (s, t)])
     assert moving.text() == (
         "d/dt(s·xᵀ·(x + d)) = 0 for every n and all numbers s, t; vectors d, x, y, "
-        "if d/dt(x) = (−1)·y; d/dt(d) = 0; d/dt(s) = t"
+        "if d/dt(x) = −y; d/dt(d) = 0; d/dt(s) = t"
     )
     said = [part.says for part in explain("15").parts]
     assert any("wᵀ·diag(Kp)·h − wᵀ·diag(Kp)·h = 0 for every n" in text for text in said)

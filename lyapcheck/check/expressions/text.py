@@ -103,7 +103,13 @@ def _sum(rest: list[Any]) -> Text:
 
 
 def _product(rest: list[Any]) -> Text:
-    return "·".join(_bracketed(part, PRODUCT) for part in rest), PRODUCT
+    """The factors; the sign of a number at the front stands before all of them."""
+    first, *others = rest
+    value = Fraction(first[1]) if first[0] == "num" else Fraction(0)
+    if not others or value >= 0:
+        return "·".join(_bracketed(part, PRODUCT) for part in rest), PRODUCT
+    positive = others if value == -1 else [("num", str(-value)), *others]
+    return f"−{_product(positive)[0]}", SUM
 
 
 def _quotient(rest: list[Any]) -> Text:
