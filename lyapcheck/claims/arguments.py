@@ -14,14 +14,15 @@ What each theorem asks for is derived by the checker: see ``check.systems``.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.expressions.expression import Tree, derivative, substitute, variables
+from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.bound_every_n import terms_of
+from lyapcheck.check.kinds.bound_every_n import Term, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian, slopes_of_mass, slopes_of_symbols
@@ -214,31 +215,29 @@ def form_of(value: Expr) -> Form:
     Raises:
         ValueError: it is of another degree in its sizes.
     """
-    names = sorted(name for name in variables(value.tree) if name.startswith(("norm_", "sum_")))
-    at_zero = dict.fromkeys(names, ZERO)
-    slopes = {name: derivative(value.tree, name) for name in names}
-    linear = [(name, _plain(substitute(slopes[name], at_zero))) for name in names]
-    linear = [(name, tree) for name, tree in linear if tree != ZERO]
-    sizes = tuple(name for name in names if name not in dict(linear))
-    entries = tuple(
-        _plain(("mul", ("num", "1/2"), substitute(derivative(slopes[a], b), at_zero)))
-        for a, b in combinations_with_replacement(sizes, 2)
-    )
-    form = Form(sizes, entries, tuple(linear))
-    if _plain(("add", value.tree, ("neg", form.tree))) != ZERO:
+    parts: defaultdict[tuple[str, ...], list[Term]] = defaultdict(list)
+    for c, powers in terms_of(value.tree):
+        size = tuple(name for name in sorted(powers) if _is_size(name) for _ in range(powers[name]))
+        parts[size].append((c, {name: power for name, power in powers.items() if not _is_size(name)}))
+    linear = tuple((size[0], _plain(terms)) for size, terms in sorted(parts.items()) if len(size) == 1)
+    sizes = tuple(sorted(set(filter(_is_size, variables(value.tree))) - {name for name, _ in linear}))
+    pairs = tuple(combinations_with_replacement(sizes, 2))
+    if not {key for key in parts if len(key) != 1} <= set(pairs):
         raise ValueError(f"a form is quadratic in norms and linear in sums of potentials, not {value.tree!r}")
-    return form
+    entries = (_plain([(c if a == b else c / 2, powers) for c, powers in parts[a, b]]) for a, b in pairs)
+    return Form(sizes, tuple(entries), linear)
 
 
-def _plain(tree: Tree) -> Tree:
-    """A polynomial written out, term by term."""
-    terms = [
-        _product(str(c), {name: power for name, power in powers.items() if power})
-        for c, powers in terms_of(tree)
-    ]
-    if not terms:
+def _is_size(name: str) -> bool:
+    return name.startswith(("norm_", "sum_"))
+
+
+def _plain(terms: Iterable[Term]) -> Tree:
+    """A sum of terms."""
+    written = [_product(str(c), powers) for c, powers in terms]
+    if not written:
         return ZERO
-    return terms[0] if len(terms) == 1 else ("add", *terms)
+    return written[0] if len(written) == 1 else ("add", *written)
 
 
 def _product(c: str, powers: Mapping[str, int]) -> Tree:
