@@ -94,5 +94,5 @@ def test_messages_name_the_line_the_value_as_written_and_the_repair(
 
 
 def test_a_robot_that_is_not_there_names_the_examples() -> None:
-    with pytest.raises(InputError, match="examples: panda, ur5"):
+    with pytest.raises(InputError, match="examples: iiwa14, panda, px100, px150, ur5, xarm6"):
         robots.load("UR6")

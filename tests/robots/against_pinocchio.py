@@ -25,6 +25,7 @@ from tests.helpers.urdf_texts import generic
 STATES = 50
 TOLERANCE = 1e-12
 RIGHT = np.pi / 2
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def data_folder() -> Path:
@@ -51,6 +52,11 @@ ARMS = [
     ("finger_edu_description/robots/finger_edu.urdf", None, 3),
     ("allegro_hand_description/urdf/allegro_left_hand.urdf", "link_3.0_tip", 4),
     ("baxter_description/urdf/baxter.urdf", "left_gripper_base_link", 7),
+    # paths from the root stand as they are
+    *(
+        (str(EXAMPLES / f"{name}.urdf"), None, n)
+        for name, n in (("px100", 4), ("px150", 5), ("xarm6", 6), ("iiwa14", 7))
+    ),
 ]
 
 

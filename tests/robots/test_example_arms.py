@@ -1,4 +1,4 @@
-"""The example arms UR5 and Panda end to end: read, gated, and ε₀ certified."""
+"""The example arms end to end: read, gated, and ε₀ of the UR5 certified."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from tests.helpers.command import invoke
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ARMS = [("ur5", 6), ("panda", 7)]
+OTHERS = [("px100", 4), ("px150", 5), ("xarm6", 6), ("iiwa14", 7)]
+"""Arms whose files have friction, and none that is assumed."""
 
 
 def run(*arguments: str) -> tuple[int, str]:
@@ -27,7 +29,7 @@ def test_the_friction_is_stated_and_says_so(name: str, n: int) -> None:
     assert sum("viscous" in sentence for sentence in arm.assumptions) == n + 1
 
 
-@pytest.mark.parametrize(("name", "n"), ARMS)
+@pytest.mark.parametrize(("name", "n"), ARMS + OTHERS)
 def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
     code, out = run("gate", str(EXAMPLES / f"{name}_gains.toml"))
     assert code == 0
@@ -35,7 +37,7 @@ def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "n"), ARMS)
+@pytest.mark.parametrize(("name", "n"), [*ARMS, OTHERS[0]])
 def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) -> None:
     """Numbers alone: the path of the arm depends on where the file is written."""
     code, _ = run("tune", str(EXAMPLES / f"{name}.toml"), "--m", "1:3", "--out", str(tmp_path / "gains.toml"))
