@@ -7,3 +7,9 @@ GENERAL = (
     "doubles of IEEE 754: each corner of a box is the rational number that its double is",
     "that the code of the checker itself is right: recheck --trusted lists it for each verdict",
 )
+
+TORQUE = (
+    "the torque is (6), τ = K_p h(e) − K_v h(w) + g(q) with e = q_d − q, w = q̇ and a constant q_d, applied "
+    "as it is, and (6) knows g(q) exactly; (11) is M(q)q̈ + C(q,q̇)q̇ + Bq̇ + g(q) = τ with it"
+)
+"""What statements about the closed loop (11) with numbers take for granted of the torque."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
+from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
 from lyapcheck.check.loop import ClosedLoop, proves, sharing
 from lyapcheck.check.loop.closed_loop import RateProof
@@ -59,7 +60,7 @@ class Decreasing(Total):
         """What ties the numbers to a robot."""
         return (
             "the robot is (1) with this M(q), C by Christoffel symbols, and B, whose ranges hold its numbers",
-            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            TORQUE,
         )
 
     def text(self) -> str:

@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
+from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.kinds.settling import Envelope, require_falling
@@ -101,7 +102,7 @@ class StaysWithin(Total):
         """What ties the numbers to a robot."""
         return (
             "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            TORQUE,
             "no other torque acts",
         )
 

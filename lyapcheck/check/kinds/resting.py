@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
+from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
 from lyapcheck.check.numbers.members import member
@@ -48,7 +49,7 @@ class Resting(Total):
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
         return (
-            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            TORQUE,
             "at rest no torque acts beside (6), g(q) and d; dry friction that holds the robot is part of d",
         )
 

@@ -13,6 +13,7 @@ from hashlib import sha256
 from itertools import pairwise
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
+from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
@@ -81,7 +82,7 @@ class Settling(Total):
         )
         return (
             "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            TORQUE,
             *([friction] if any(self.dry) else []),
             others,
         )

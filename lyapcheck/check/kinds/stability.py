@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import relation_text
+from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total, Witness
 from lyapcheck.check.systems.argument import Argument
@@ -140,12 +141,16 @@ DIFFERENCES = {
 
 
 def _granted(argument: Argument) -> Iterator[str]:
-    """The properties of the arm that the letters have."""
+    """The model of the arm, what the letters are, and the properties of the arm that they have."""
     system, used = argument.system, argument.constants
+    friction = "" if system.friction == "none" else " + Bq̇"
+    disturbance = " + d with ‖d‖ ≤ delta" if system.disturbed else ""
     yield (
-        "the robot is (1): 0 < mu ≤ λmin(M(q)), ‖M(q)‖ ≤ beta and ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with "
-        "Ṁ = C + Cᵀ; the torque is applied as it is, and all in it is known exactly"
+        f"the robot is M(q)q̈ + C(q,q̇)q̇{friction} + g(q) = τ{disturbance}, and 0 < mu ≤ λmin(M(q)), "
+        "‖M(q)‖ ≤ beta, ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with Ṁ = C + Cᵀ; the torque is applied as it is, "
+        "and all in it is known exactly"
     )
+    yield f"the letters are {', '.join(_meanings(argument))}"
     if system.friction != "none":
         yield f"B is diagonal with λmin(B) = B_min {'>' if system.friction == 'positive' else '≥'} 0"
     if system.desired:
@@ -153,6 +158,44 @@ def _granted(argument: Argument) -> Iterator[str]:
         yield from (says for name, says in DIFFERENCES.items() if name in used)
     else:
         yield "g is the gradient of U_g, and ‖∂g/∂q‖ ≤ kg for all q"
+
+
+RESTING = {"gd": "g(q_d)", "dg": "g(q) − g(q_d)", "C": "C(q,q̇)"}
+MOVING = {
+    "g": "g(q)",
+    "dg": "g(q) − g(q_d)",
+    "C": "C(q,w)",
+    "D": "C(q,q̇_d)",
+    "dM": "M(q) − M(q_d)",
+    "dD": "C(q,q̇_d) − C(q_d,q̇_d)",
+    "dqd": "q̇_d",
+    "ddqd": "q̈_d",
+}
+"""What the letters of an arm with its goal stand for, where q_d is constant and where it moves."""
+
+
+def _meanings(argument: Argument) -> Iterator[str]:
+    """What each letter stands for, of those that the statement has."""
+    system, forms = argument.system, argument.forms
+    trees = [system.torque, *(state.rate for state in system.states), argument.energy]
+    trees += [form.tree for form in forms] + [change.equals for change in argument.changes]
+    trees += [argument.cascade.motion] if argument.cascade is not None else []
+    used = {name for tree in trees for _, name in letters(tree)} | argument.constants
+    yield f"e = q_d − q, w = q̇{' − q̇_d' if system.desired else ''}"
+    known = MOVING if system.desired else RESTING
+    yield from (f"{name} = {says}" for name, says in known.items() if name in used)
+    if "s" in used:
+        yield "s = 1/(1 + ‖e‖)"
+    yield from (f"{c.letter} by {c.state} = {expression_text(c.equals)}" for c in argument.changes)
+    for size in sorted(name for name in used if name.startswith(("norm_", "sum_"))):
+        kind, name = size.split("_", 1)
+        yield f"norm_{name} = ‖{name}‖" if kind == "norm" else f"{size} the sum of the entries of {name}"
+    for f in system.functions:
+        if used & {f"U{f.name}", f"sum_U{f.name}"}:
+            yield f"U{f.name} = ∫{f.name}(x) dx from 0 to {f.of} by entries"
+    for name in system.diagonal:
+        if used & {f"{name}_min", f"{name}_max"}:
+            yield f"{name}_min and {name}_max the least and the greatest entry of {name}"
 
 
 @dataclass(frozen=True)

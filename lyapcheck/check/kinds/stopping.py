@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
+from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.decreasing import member_text
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
@@ -61,7 +62,7 @@ class ComesToRest(Total):
         """What ties the numbers to a robot."""
         return (
             "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            "the torque is (6), applied as it is, and (6) knows g(q) exactly",
+            TORQUE,
             "dry friction opposes each joint's motion, or holds it, with at most the torque stated",
             "no other torque acts",
         )

@@ -104,7 +104,7 @@ class Argument:
             fits = used <= (allowed - {EPS0} if self.small else allowed)
             require(fits, "where", ", ".join(sorted(used)), "must be about constants of this system")
         sizes = self._sees()
-        for form in self._forms():
+        for form in self.forms:
             form.require_well_formed()
             for size in (*form.sizes, *form.names):
                 require(size in sizes, "size", size, "is not one of a state or function of this system")
@@ -121,7 +121,9 @@ class Argument:
         else:
             self._require_seen()
 
-    def _forms(self) -> list[Form]:
+    @property
+    def forms(self) -> list[Form]:
+        """Those that it has."""
         rest = self.rest.form if self.rest is not None else None
         contraction = self.cascade.contraction if self.cascade is not None else None
         forms = (self.lower, self.upper, self.rate, rest, self.gain, contraction)
@@ -138,7 +140,7 @@ class Argument:
     @property
     def constants(self) -> set[str]:
         """The names in its bounds and conditions."""
-        trees = [tree for form in self._forms() for tree in form.coefficients]
+        trees = [tree for form in self.forms for tree in form.coefficients]
         trees += [relation.gap for relation in self.where]
         trees += [self.cascade.motion] if self.cascade is not None else []
         return set().union(*map(variables, trees))
