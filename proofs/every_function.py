@@ -73,8 +73,8 @@ def closed_loop(goal, functions):
     return goal.under(torque), V, above, (h, k, K_p, K_v)
 
 
-def argument(goal, functions, given):
-    """dV/dt in a = ‖h(q̃)‖ and b = ‖w‖, for some ε₀ > 0 or, if ``given``, for each that meets a condition."""
+def argument(goal, functions, eps0):
+    """dV/dt in a = ‖h(q̃)‖ and b = ‖w‖, for ``some`` ε₀ > 0, each ``given`` by a condition, or ``any``."""
     loop, V, above, (h, k, K_p, K_v) = closed_loop(goal, functions)
     ε0, β, a, b, B = goal.eps0, goal.beta, norm(h), norm(goal.w), goal.B
     ε, D = ε0 * goal.s, goal.kc * goal.vd
@@ -86,20 +86,20 @@ def argument(goal, functions, given):
         # the second follows from the others, and spares the search a product of two of them
         where = [ε0 * D < K_p.min, ε0**2 * D * c < K_p.min * B.min]
     where += [ε0 / 4 * (d + ε0 * c) ** 2 < corner * low]
-    form = {**above, "rate": rate, **({"where": where} if given else {"small": True})}
+    form = {**above, "rate": rate, **{"some": {"small": True}, "given": {"where": where}, "any": {}}[eps0]}
     if goal.desired:
         return uniform(loop, V, below=β / 2 * (b + ε * a) ** 2 + K_p.norm * h.sum_U, **form)
     return strict(loop, V, **form)
 
 
-def regulator(functions, given=False):
+def regulator(functions, eps0="some"):
     """(6)."""
-    return argument(constant_goal("positive"), functions, given)
+    return argument(constant_goal("positive"), functions, eps0)
 
 
-def tracking(functions, given=False):
+def tracking(functions, eps0="some"):
     """(21)."""
-    return argument(moving_goal("positive"), functions, given)
+    return argument(moving_goal("positive"), functions, eps0)
 
 
 proof.section("Every function of the class")

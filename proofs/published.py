@@ -39,7 +39,6 @@ from lyapcheck.claims import (
     identity,
     implies,
     lacking,
-    loop_property,
     loops,
     mass_bounded,
     mass_positive,
@@ -47,6 +46,7 @@ from lyapcheck.claims import (
     norm_bound,
     pi,
     potential,
+    property_of,
     rate,
     rate_less_twice_coriolis,
     rate_of_mass,
@@ -250,14 +250,21 @@ r, ε0, ε_e, êw = S.r, S.eps0, S.eps, S.along
 Mdot = C + C.T
 
 
-def function_of(m):
-    """h, h' and U."""
-    return h(m, x), dh(m, x), potential(m, x)
+FAMILY, AT_REST = companion("every_function.py"), companion("kelly_santibanez.py")
+"""The torque (6) for any function with V of (13), and what it is at rest."""
+
+
+def V_of(m):
+    """V of (13) along (6) with h_m, for any ε₀."""
+    return FAMILY.regulator(FAMILY.h_of(m), "any")
 
 
 @proof.claim("11", "the origin is the only equilibrium", "after (11)", uses=["2.3", "6"])
 def _(m):
-    return loop_property("the origin is the only equilibrium", function_of(m))
+    """Where q̇ = 0, h(q̃)ᵀMq̈ ≥ λmin(K_p)‖h(q̃)‖²."""
+    return property_of(
+        "the origin is the only equilibrium", AT_REST.regulator(AT_REST.h_of(m), friction="positive")[2]
+    )
 
 
 V_12 = w @ M @ w / 2 + S.kp @ U - ε_e * h_e @ M @ w + ε_e**2 * h_e @ M @ h_e / 2
@@ -292,17 +299,17 @@ proof.add(
 
 @proof.claim("12p", "V > 0 away from the origin", "after (13)", uses=["2.1", "6", "12"])
 def _(m):
-    return loop_property("V is positive definite", function_of(m))
+    return property_of("V is positive definite", V_of(m))
 
 
 @proof.claim("12u", "V is radially unbounded", "after (13)", uses=["2.1", "7a", "12"])
 def _(m):
-    return loop_property("V is radially unbounded", function_of(m))
+    return property_of("V is radially unbounded", V_of(m))
 
 
 @proof.claim("12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", "(12)", uses=["8"])
 def _(m):
-    return loop_property("V is continuously differentiable", function_of(m))
+    return property_of("V is continuously differentiable", V_of(m))
 
 
 @proof.claim("14", "(14) is dV/dt along (11), for every n", "(14)", uses=["2.4", "8", "12"])

@@ -42,7 +42,6 @@ from lyapcheck.claims import (
     implies,
     lacking,
     largest_with,
-    loop_property,
     loops,
     mass_matrix,
     nonnegative,
@@ -50,6 +49,7 @@ from lyapcheck.claims import (
     plus,
     positive,
     potential,
+    property_of,
     rate,
     rate_at_most,
     rate_definite,
@@ -71,6 +71,8 @@ proof = Proof(
 
 FAMILY = companion("every_function.py")
 """The torque (6), V of (13) and the bound of its rate, for any function."""
+AT_REST = companion("kelly_santibanez.py")
+"""The same torque, and what it is at rest."""
 x = var("x")
 SHARE = Fraction(99, 100)
 """ε₀ as a share of the largest one for which Θ' ≻ 0, rounded to six digits."""
@@ -93,9 +95,9 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max))
 
 
-def stable_of(m, given=False):
-    """The theorem for h_m; if ``given``, for each ε₀ that meets the condition, and not for some."""
-    return FAMILY.regulator(FAMILY.h_of(m), given)
+def stable_of(m, eps0="some"):
+    """The theorem for h_m, for some ε₀, each that is ``given`` with the condition, or ``any``."""
+    return FAMILY.regulator(FAMILY.h_of(m), eps0)
 
 
 def sign_of(m):
@@ -197,12 +199,12 @@ proof.section("V = ½yᵀMy + Σ k_pi U(q̃_i), y = q̇ − εh(q̃)")
 
 @proof.claim("V.positive", "V > 0 unless q̃ = q̇ = 0", "(13)", uses=["h.odd"])
 def _(m):
-    return loop_property("V is positive definite", function_of(m))
+    return property_of("V is positive definite", stable_of(m, "any"))
 
 
 @proof.claim("V.unbounded", "V is radially unbounded", "(13)", uses=["h.bound"])
 def _(m):
-    return loop_property("V is radially unbounded", function_of(m))
+    return property_of("V is radially unbounded", stable_of(m, "any"))
 
 
 @proof.claim(
@@ -212,12 +214,15 @@ def _(m):
     uses=["h.slope", "h.steep"],
 )
 def _(m):
-    return loop_property("V is continuously differentiable", function_of(m))
+    return property_of("V is continuously differentiable", stable_of(m, "any"))
 
 
 @proof.claim("equilibrium", "the origin is the only equilibrium", "(11)", uses=["h.odd"])
 def _(m):
-    return loop_property("the origin is the only equilibrium", function_of(m))
+    """Where q̇ = 0, h(q̃)ᵀMq̈ ≥ λmin(K_p)‖h(q̃)‖²."""
+    return property_of(
+        "the origin is the only equilibrium", AT_REST.regulator(AT_REST.h_of(m), friction="positive")[2]
+    )
 
 
 proof.section("dV/dt ≤ −[a b] Θ' [a b]ᵀ")
@@ -320,7 +325,7 @@ def condition(eps0, k, b_min, c, d):
     "in place of (18)",
 )
 def _(m):
-    return rate_definite(stable_of(m, given=True))
+    return rate_definite(stable_of(m, "given"))
 
 
 @proof.claim(
@@ -331,7 +336,7 @@ def _(m):
 )
 def _(m):
     """For every robot with Properties 2.1–2.7 and the constants λmin(B), λmax(B), β_M, k_c, and any gains."""
-    return stable_of(m, given=True)
+    return stable_of(m, "given")
 
 
 @proof.claim(
@@ -425,7 +430,7 @@ def _(m, n, robot, gains):
 )
 def _(m, n, robot, gains):
     eps0 = eps0_of(m, n, robot, gains)
-    return at_arm(stable_of(m, given=True), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0)
+    return at_arm(stable_of(m, "given"), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0)
 
 
 @proof.claim(

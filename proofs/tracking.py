@@ -33,7 +33,6 @@ from lyapcheck.claims import (
     any_vector,
     at_arm,
     companion,
-    dh,
     dot,
     every_n,
     expr,
@@ -43,9 +42,8 @@ from lyapcheck.claims import (
     identity,
     lacking,
     largest_with,
-    loop_property,
     loops,
-    potential,
+    property_of,
     rate_at_most,
     rate_definite,
     rho,
@@ -87,11 +85,6 @@ def known_of(m, n):
     return FamilyBounds(n, gamma(m), rho(m), secant_bound(m))
 
 
-def function_of(m):
-    """h, h' and U."""
-    return h(m, x), dh(m, x), potential(m, x)
-
-
 proof.section("The loop that (21) closes")
 
 
@@ -110,9 +103,7 @@ def _(m):
         **sign_of(m),
         loop=every_n(lacking_torque(s, z, *others), dot(z, loops.force(s)) - dot(z, loops.inertia(s))),
         equilibrium=every_n(dot(z, loops.force(origin)), expr(0)),
-        with_the_letters_of_the_theorem=loop_property(
-            "the origin is an equilibrium", function_of(m), desired=True
-        ),
+        with_the_letters_of_the_theorem=property_of("the origin is an equilibrium", stable_of(m, "any")),
     )
 
 
@@ -187,9 +178,9 @@ def form_of(known):
     return theta(eps, k, b_min, known.drift(beta, kc), known.cross(b_max, kv_max), kc * vd)
 
 
-def stable_of(m, given=False):
-    """The theorem for h_m; if ``given``, for each ε₀ that meets the condition, and not for some."""
-    return FAMILY.tracking(FAMILY.h_of(m), given)
+def stable_of(m, eps0="some"):
+    """The theorem for h_m, for some ε₀, each that is ``given`` with the condition, or ``any``."""
+    return FAMILY.tracking(FAMILY.h_of(m), eps0)
 
 
 @proof.claim(
@@ -213,23 +204,23 @@ proof.section("Uniform asymptotic stability, for every arm")
 
 @proof.claim(
     "21.below",
-    "V ≥ ½λmin(M)‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
+    "V ≥ ½λmin(M)‖y‖² + λmin(K_p) Σ U(q̃_i), positive definite and without t",
     "(13)",
     uses=["V.positive"],
 )
 def _(m):
     """λmin(M) is one number μ > 0 for all q(t): M is positive definite on the compact torus of angles."""
-    return loop_property("V is bounded below by a positive definite function", function_of(m))
+    return property_of("V is positive definite", stable_of(m, "any"))
 
 
 @proof.claim(
     "21.above",
-    "V ≤ ½β_M‖y‖² + Σ k_pi U(q̃_i), positive definite and without t",
+    "V ≤ ½β_M(‖w‖ + ε‖h‖)² + ‖k_p‖ Σ U(q̃_i), without t and 0 at the origin",
     "(13)",
     uses=["V.positive"],
 )
 def _(m):
-    return loop_property("V is bounded above by a positive definite function", function_of(m))
+    return property_of("V is decrescent", stable_of(m, "any"))
 
 
 @proof.claim(
@@ -321,4 +312,4 @@ def _(m, n, robot, gains):
 )
 def _(m, n, robot, gains):
     eps0 = eps0_of(m, n, robot, gains)
-    return at_arm(stable_of(m, given=True), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0, vd=SPEED)
+    return at_arm(stable_of(m, "given"), robot, Kp=gains.kp, Kv=gains.kv, eps0=eps0, vd=SPEED)

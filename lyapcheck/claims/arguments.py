@@ -24,6 +24,7 @@ from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import Term, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian, slopes_of_mass, slopes_of_symbols
 from lyapcheck.check.letters.grammar import letters
@@ -162,6 +163,16 @@ def rate_at_most(stable: Stable) -> Statement:
 def rate_definite(stable: Stable) -> AllOf:
     """That the form in the bound of dV/dt is positive definite, as a claim of its own."""
     return AllOf(tuple(one for one in obligations(stable.argument) if one[0].startswith("rate, ")))
+
+
+def property_of(name: str, stable: Stable) -> Property:
+    """A property of the system of a theorem, or of its V, as a claim of its own.
+
+    Args:
+        name: one of those of ``check.kinds.property``, such as ``V is positive definite``.
+        stable: the theorem; of its forms only those that the property needs are asked for.
+    """
+    return Property(name, stable.argument)
 
 
 def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:

@@ -17,12 +17,12 @@ from flint import arb, ctx
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.inertia import CoriolisBelow, Mass, MassAbove, MassBelow
-from lyapcheck.check.kinds.loop_property import secant_fact, sign_facts, size_facts, slope_facts
 from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.exact import closed_value, exact_value
-from lyapcheck.claims.expressions import Expr, expr, sqrt
+from lyapcheck.claims.expressions import Expr, diff, expr, sqrt, var
+from lyapcheck.claims.statements import for_all, identity, norm_bound
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
@@ -79,10 +79,19 @@ class FamilyBounds:
 
     def of_h(self, h: Function) -> AllOf:
         """That these are bounds of h, as theorems ask for it: |h| <= γ, |h'| <= ρ, |h(x)| <= L|x|, h odd."""
-        function, slope, _ = (expression.tree for expression in h)
-        facts = [*sign_facts(function), *size_facts(function, self.gamma)]
-        facts += [*slope_facts(function, slope, self.rho), *secant_fact(function, self.L)]
-        return AllOf(tuple(facts))
+        x, (value, slope, _) = var("x"), h
+        return AllOf(
+            (
+                ("h(−x) = −h(x)", identity(value.at(x=-x), -value)),
+                ("0 < h(x) for x > 0", for_all(expr(0) < value, 0, open_low=True)),
+                ("h ≤ γ", for_all(value <= self.gamma)),
+                ("−γ ≤ h", for_all(expr(-self.gamma) <= value)),
+                ("h' is the derivative of h", identity(diff(value, "x"), slope)),
+                ("h' ≤ ρ", for_all(slope <= self.rho)),
+                ("−ρ ≤ h'", for_all(expr(-self.rho) <= slope)),
+                ("|h(x)| ≤ L|x|", norm_bound(value, 1, self.L, power=1)),
+            )
+        )
 
     def drift(self, beta: T, kc: T) -> T:
         """c = β_M(ρ + G) + √nγ k_c."""

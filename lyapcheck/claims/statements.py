@@ -14,7 +14,6 @@ from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Relation, Statement, Variable
@@ -44,7 +43,6 @@ __all__ = [
     "for_all",
     "identity",
     "implies",
-    "loop_property",
     "nonnegative",
     "norm_bound",
     "positive",
@@ -181,15 +179,3 @@ def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> Trig
 def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
     """Polynomials in sines and cosines are positive for all angles."""
     return TrigonometricPositive(tuple(entry.tree for entry in entries))
-
-
-def loop_property(name: str, function: tuple[Expr, Expr, Expr], desired: bool = False) -> LoopProperty:
-    """A property of the loop that (6) closes, or (21) if ``desired``, or of V of (13) along it, for every n.
-
-    Args:
-        name: one of those of ``check.kinds.loop_property``, such as ``V is positive definite``.
-        function: h, h' and U in x.
-        desired: whether the loop is that of (21).
-    """
-    h, slope, potential = function
-    return LoopProperty(name, h.tree, slope.tree, potential.tree, desired)

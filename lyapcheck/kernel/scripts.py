@@ -20,8 +20,8 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.property import EQUILIBRIUM, POSITIVE, UNBOUNDED, Property
 from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
@@ -165,8 +165,8 @@ def _(statement: BoundEveryN, proof: Proof) -> str:
 
 
 @proved.register
-def _(statement: LoopProperty, proof: Proof) -> str:
-    return f"apply {THEOREMS[statement.property]}; lia."
+def _(statement: Property, proof: Proof) -> str:
+    return f"apply {THEOREMS[statement.name]}; lia."
 
 
 @proved.register

@@ -18,13 +18,13 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.loop_property import EQUILIBRIUM, POSITIVE, UNBOUNDED, LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.property import EQUILIBRIUM, POSITIVE, UNBOUNDED, Property
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.kernel.letters import every_n
-from lyapcheck.kernel.systems import member_of, on_one_arm
+from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
     arm,
@@ -128,11 +128,13 @@ def _(statement: NormBound) -> str:
 
 
 @proposition.register
-def _(statement: LoopProperty) -> str:
-    name = PROPERTIES.get(statement.property)
-    if name is None or statement.desired:
-        raise NotPrinted(f"the property “{statement.property}”")
-    return f"{name} {_member(statement)}"
+def _(statement: Property) -> str:
+    """Of the loop (11) or V of (13), for every ε₀ > 0; the bounds that it follows from are not part of it."""
+    name = PROPERTIES.get(statement.name)
+    if name is None:
+        raise NotPrinted(f"the property “{statement.name}”")
+    of = member_of if statement.name == EQUILIBRIUM else member_of_energy
+    return f"{name} {of(statement.argument)}"
 
 
 @proposition.register
@@ -171,14 +173,3 @@ def _loop(statement: Decreasing) -> str:
         raise NotPrinted("an arm with uncertain numbers")
     data = arm(statement.mass, [low for low, _ in statement.viscous])
     return f"{data} {statement.m} {exact_list(statement.kp)} {exact_list(statement.kv)}"
-
-
-def _member(of: LoopProperty) -> int:
-    """The m of which h, h' and U are h_m, h_m' and U_m themselves."""
-    h, slope, potential = of.h, of.slope, of.potential
-    if h[0] == "h":
-        m = int(h[1])
-        x = ("var", "x")
-        if (h, slope, potential) == (("h", m, x), ("dh", m, x), ("potential", m, x)):
-            return m
-    raise NotPrinted("a function that is not of the family h_m")

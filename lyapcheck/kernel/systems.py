@@ -46,16 +46,27 @@ def member_of(argument: Argument) -> int:
     return first
 
 
+def member_of_energy(argument: Argument) -> int:
+    """The same m, if V is that of (13).
+
+    Raises:
+        NotPrinted: it is another one.
+    """
+    m = member_of(argument)
+    if argument.gravity or not _same(argument.energy, _energy(argument.system)):
+        raise NotPrinted("V that is not (13)")
+    return m
+
+
 def on_one_arm(statement: StableArm) -> Decreasing:
     """That dV/dt < 0 for V of (13), the arm, the gains and ε₀.
 
     Raises:
         NotPrinted: V is another one, or ε₀ has no number.
     """
-    argument, numbers = statement.argument, dict(statement.numbers)
-    m = member_of(argument)
-    if "eps0" not in numbers or argument.gravity or not _same(argument.energy, _energy(argument.system)):
-        raise NotPrinted("V that is not (13) with a number for ε₀")
+    numbers, m = dict(statement.numbers), member_of_energy(statement.argument)
+    if "eps0" not in numbers:
+        raise NotPrinted("V of (13) without a number for ε₀")
     (_, kp), (_, kv) = statement.gains
     ends: tuple[tuple[Fraction, Fraction], ...] = tuple((b, b) for b in statement.arm.viscous)
     return Decreasing(statement.arm.mass, ends, (), "hyperbolic", m, kp, kv, numbers["eps0"], ())

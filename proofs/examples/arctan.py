@@ -22,6 +22,7 @@ from lyapcheck.claims import (
     all_of,
     any_vector,
     atan,
+    companion,
     constant_goal,
     decreasing,
     diff,
@@ -31,13 +32,13 @@ from lyapcheck.claims import (
     identity,
     implies,
     log,
-    loop_property,
     loops,
     nonnegative,
     norm,
     norm_bound,
     pi,
     positive,
+    property_of,
     rate,
     rate_at_most,
     rate_definite,
@@ -67,8 +68,11 @@ def known_of(n):
     return FamilyBounds(n, gamma="1.58", rho=1, L=1)
 
 
-def theorem():
-    """The loop under τ, V, and its bounds: from below in y = w − εh, for its rate in a = ‖h‖ and b = ‖w‖."""
+def theorem(small=True):
+    """The loop under τ, V, and its bounds: from below in y = w − εh, for its rate in a = ‖h‖ and b = ‖w‖.
+
+    For some ε₀ > 0; without ``small``, for each.
+    """
     goal = constant_goal("positive")  # q_d is constant, and every joint has viscous friction
     of_arctan = {"gamma": "1.58", "rho": 1, "secant": 1, "low": "1/2"}
     h, k = (goal.function(name, of, atan(x), U, **of_arctan) for name, of in (("h", goal.e), ("k", goal.w)))
@@ -84,8 +88,14 @@ def theorem():
         above=goal.mu / 2 * norm(y) ** 2 + K_p.min * h.sum_U,
         changes={"w": y + ε * h},
         rate=ε * K_p.min * a**2 - ε * (B.max + k.secant * K_v.max + ε * c) * a * b + (B.min - ε * c) * b**2,
-        small=True,
+        small=small,
     )
+
+
+def at_rest():
+    """The same loop, and what moves it where w = 0."""
+    arctan = companion("every_function.py").MEMBERS["arctan"]
+    return companion("kelly_santibanez.py").regulator(arctan, friction="positive")[2]
 
 
 # One variable: inequalities on the whole line or on a part of it --------------------------------------------
@@ -157,24 +167,25 @@ def _():
 
 @proof.claim("positive", "V is positive definite", section=LYAPUNOV, uses=["potential"])
 def _():
-    return loop_property("V is positive definite", ARCTAN)
+    return property_of("V is positive definite", theorem(small=False))
 
 
 @proof.claim(
     "smooth", "V is continuously differentiable, also at q̃ = 0", section=LYAPUNOV, uses=["slope", "steep"]
 )
 def _():
-    return loop_property("V is continuously differentiable", ARCTAN)
+    return property_of("V is continuously differentiable", theorem(small=False))
 
 
 @proof.claim("unbounded", "V is radially unbounded", section=LYAPUNOV, uses=["bound", "potential"])
 def _():
-    return loop_property("V is radially unbounded", ARCTAN)
+    return property_of("V is radially unbounded", theorem(small=False))
 
 
 @proof.claim("equilibrium", "the origin is the only equilibrium", section=LYAPUNOV, uses=["sign"])
 def _():
-    return loop_property("the origin is the only equilibrium", ARCTAN)
+    """Where q̇ = 0, h(q̃)ᵀMq̈ ≥ λmin(K_p)‖h(q̃)‖²."""
+    return property_of("the origin is the only equilibrium", at_rest())
 
 
 @proof.claim("sizes", "γ, ρ and L bound arctan, its derivative and arctan(x)/x", section=LYAPUNOV)

@@ -55,10 +55,10 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.kinds.loop_property import FACTS, LoopProperty
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
+from lyapcheck.check.kinds.property import PROPERTIES
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest
@@ -74,6 +74,7 @@ from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
 from lyapcheck.search.schur import Problem
+from tests.statement_fuzz.generators.properties import property_of
 
 Row = tuple[str, Statement, Proof | None]
 
@@ -293,8 +294,8 @@ def nearer() -> Proof:
 def of_the_loop() -> Iterator[Row]:
     """Statements of (11), of V and of what is left of the errors."""
     h: tuple[Tree, Tree, Tree] = ("h", 1, X), ("dh", 1, X), ("potential", 1, X)
-    for name in FACTS:
-        yield name.replace(" ", "-"), LoopProperty(name, *h), None
+    for name in PROPERTIES:
+        yield name.replace(" ", "-"), property_of(name, h), None
     yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
     yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
     yield "linked", LINKED, linked()

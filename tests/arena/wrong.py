@@ -75,13 +75,13 @@ def _not_positive(statement: Document) -> bool:
 
 def _no_force(statement: Document) -> bool:
     """h = U = 0: all postures are at rest, and V vanishes wherever nothing moves."""
-    if statement["property"].endswith(("differentiable", "above by a positive definite function")):
+    if statement["name"].endswith(("differentiable", "decrescent")):
         return False
-    if statement["property"] == "the origin is an equilibrium":
-        statement["h"] = ["add", statement["h"], ["num", "1"]]
-        return True
-    for name in ("h", "slope", "potential"):
-        statement[name] = ZERO
+    for function in statement["argument"]["system"]["functions"]:
+        if statement["name"] == "the origin is an equilibrium":
+            function["member"]["value"] = ["add", function["member"]["value"], ["num", "1"]]
+        else:
+            function["member"] |= dict.fromkeys(("value", "slope", "potential"), ZERO)
     return True
 
 
@@ -115,7 +115,7 @@ FALSE: dict[str, Callable[[Document], bool]] = {
     "DecreasingNearby": _rising,
     "ForSmall": _swapped,
     "TrigonometricPositive": _not_positive,
-    "LoopProperty": _no_force,
+    "Property": _no_force,
     "MassSymmetric": _skewed,
     "CoriolisAtRest": _friction,
     "RateOfMass": _friction,
@@ -284,10 +284,7 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("point",), [["x", "-1"]], "a point out of the ranges"),
         (("point",), [], "no point"),
     ],
-    ("LoopProperty", "facts in one variable"): [
-        (("proofs",), [], "no fact is proved"),
-        (("numbers",), ["1"] * MANY, "numbers for other facts"),
-    ],
+    ("Property", "obligations"): [(("proofs",), [], "no fact is proved")],
     ("MassAbove", "links"): [
         (("links",), [], "no link"),
         (("links", 0, "mass"), LARGE, "links of another mass"),

@@ -1,65 +1,86 @@
-"""Properties of the loop and of V, from facts in one variable about h."""
+"""Properties of the loop and of V, from the obligations of an argument that they follow from."""
 
 from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
-from lyapcheck.check.kinds.loop_property import FACTS, Facts, LoopProperty, facts_of
+from lyapcheck.check.kinds.property import PROPERTIES, Property
+from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import cosh, dh, exp, expr, h, log, loop_property, potential, tanh, var
+from lyapcheck.claims import (
+    companion,
+    cosh,
+    dh,
+    exp,
+    expr,
+    gamma,
+    h,
+    log,
+    potential,
+    property_of,
+    rho,
+    secant_bound,
+    tanh,
+    var,
+)
+from lyapcheck.claims.bounds import above
+from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
 from tests.helpers.shares import but
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-
-def test_which_facts_a_property_rests_on():
-    """One that were left out would make the property follow from less."""
-    statement = {name: LoopProperty(name, *LINEAR) for name in FACTS}
-    result = {
-        name: {fact for fact, _ in facts_of(one, (Fraction(1),) * FACTS[name][0])}
-        for name, one in statement.items()
-    }
-    slope = "h' is the derivative of h"
-    sign = {slope, "h(−x) = −h(x)", "0 < h(x) for x > 0"}
-    definite = {"U' = h", "U(0) = 0", *sign}
-    assert result == {
-        "the origin is the only equilibrium": {*sign, "the loop that the controller closes"},
-        "the origin is an equilibrium": {*sign, "the loop that the controller closes"},
-        "V is positive definite": definite,
-        "V is bounded below by a positive definite function": definite,
-        "V is bounded above by a positive definite function": definite,
-        "V is radially unbounded": {
-            slope,
-            "U' = h",
-            "h(−x) = −h(x)",
-            "c ≤ h(x) from some x on",
-            "h ≤ γ",
-            "−γ ≤ h",
-        },
-        "V is continuously differentiable": {
-            "U' = h",
-            slope,
-            "h' ≤ ρ",
-            "−ρ ≤ h'",
-            "|h(x)| ≤ L|x|",
-        },
-    }
-
-
-T = tanh(var("x"))
-SLOPE = 1 - T**2
-U = log(cosh(var("x")))
-LINEAR = (("var", "x"), ("num", "1"), ("div", ("pow", ("var", "x"), 2), ("num", "2")))
+EVERY, AT_REST = companion("every_function.py"), companion("kelly_santibanez.py")
 X = var("x")
+T = tanh(X)
+SLOPE = 1 - T**2
+U = log(cosh(X))
+NUMBERS = {"gamma": 2, "rho": 5, "secant": 3, "low": Fraction(1, 4), "start": Fraction(3, 2)}
+"""Bounds that hold of every function here that is one of the class."""
+
+
+def stated(name, trio, **numbers):
+    """A property of the loop of (6), or of V, with h, h' and U."""
+    value, slope, own = (one.tree for one in trio)
+    functions = EVERY.MEMBERS["tanh"]
+    if name == "the origin is the only equilibrium":
+        stable = AT_REST.regulator(functions, friction="positive")[2]
+    else:
+        stable = (EVERY.tracking if name == "V is decrescent" else EVERY.regulator)(functions, "any")
+    system = stable.argument.system
+    more = {"value": value, "slope": slope, "potential": own, **NUMBERS, **numbers}
+    changed = tuple(replace(f, member=replace(f.member, **more)) for f in system.functions)
+    return Property(name, replace(stable.argument, system=replace(system, functions=changed)))
+
+
+def test_which_obligations_a_property_rests_on():
+    """One that were left out would make the property follow from less."""
+    rest = {name: [one for one, _ in stated(name, (T, SLOPE, U)).obligations()] for name in PROPERTIES}
+    of_h = ["f(−x) = −f(x)", "0 < f(x) for x > 0", "f' is the derivative of f", "U' = f", "U(0) = 0"]
+    of_h += ["f' ≤ 5", "−5 ≤ f'", "f ≤ 2", "−2 ≤ f", "|f(x)| ≤ 3|x|", "1/4 ≤ f(x) for x ≥ 3/2"]
+
+    def functions(*names):
+        return [f"{name}: {fact}" for name in names for fact in of_h]
+
+    definite = ["above", "above, minor 1", "above, coefficient of sum_Uh"]
+    assert rest == {
+        "the origin is the only equilibrium": ["origin", *functions("h", "k"), "rest", "rest, minor 1"],
+        "the origin is an equilibrium": ["origin", *functions("h", "k")],
+        "V is positive definite": ["V at the origin", *functions("h", "k"), *definite],
+        "V is radially unbounded": ["V at the origin", *functions("h", "k"), *definite],
+        "V is decrescent": [*functions("h", "k"), "below"],
+        "V is continuously differentiable": functions("h", "k"),
+    }
+
+
 FAILS = {
     "U does not belong to h": ("V is positive definite", (T, SLOPE, 2 * U)),
     "U(0) is not 0": ("V is positive definite", (T, SLOPE, U + 1)),
     "h is not odd": ("V is positive definite", (exp(X) - 1, exp(X), exp(X) - X - 1)),
     "h has the other sign": ("V is positive definite", (-T, -SLOPE, -U)),
-    "h vanishes": ("V is bounded below by a positive definite function", (0 * X, 0 * X, 0 * X)),
+    "h vanishes": ("V is decrescent", (0 * X, 0 * X, 0 * X)),
     "h vanishes elsewhere": (
         "the origin is the only equilibrium",
         (X**3 - X, 3 * X**2 - 1, X**4 / 4 - X**2 / 2),
@@ -77,35 +98,53 @@ FAILS = {
 
 @pytest.mark.parametrize("name", FAILS)
 def test_a_property_is_not_proved_where_a_fact_fails(name):
-    decision = propose(loop_property(*FAILS[name]))
-    assert decision.verdict.value in ("refuted", "undecided")
+    assert propose(stated(*FAILS[name])).verdict.value == "undecided"
 
 
 @pytest.mark.parametrize("m", but((2,), (1, 2, 12)))
-@pytest.mark.parametrize("name", FACTS)
+@pytest.mark.parametrize("name", PROPERTIES)
 def test_every_property_is_proved_for_h_m(name, m):
     """Also where h_m of large numbers is not a double any more."""
-    decision = propose(loop_property(name, (h(m, X), dh(m, X), potential(m, X))))
+    bounds = {"gamma": above(gamma(m)), "rho": above(rho(m)), "secant": above(secant_bound(m))}
+    statement = stated(name, (h(m, X), dh(m, X), potential(m, X)), **bounds)
+    decision = propose(statement)
     assert decision.verdict.value == "proved", decision.reason
 
 
-def test_a_property_with_other_numbers_or_fewer_proofs_is_refused():
-    statement = loop_property("V is radially unbounded", (T, SLOPE, U))
+@pytest.mark.parametrize("name", PROPERTIES)
+def test_a_property_with_fewer_proofs_or_in_another_order_is_refused(name):
+    statement = stated(name, (T, SLOPE, U))
     proof = propose(statement).proof
     assert verify(statement, proof).verdict == "proved"
-    forged = [replace(proof, proofs=proof.proofs[:-1]), replace(proof, numbers=proof.numbers[:-1])]
-    forged += [
-        replace(proof, numbers=(*proof.numbers[:k], number, *proof.numbers[k + 1 :]))
-        for k, number in ((0, Fraction(2)), (0, Fraction(-1)), (0, Fraction(0)), (2, Fraction(1, 2)))
-    ]
-    forged.append(
-        replace(proof, proofs=(*proof.proofs[:2], proof.proofs[3], proof.proofs[2], *proof.proofs[4:]))
-    )
-    for one in forged:
+    for proofs in (proof.proofs[:-1], proof.proofs[::-1], (*proof.proofs, proof.proofs[-1])):
         with pytest.raises(Refused):
-            verify(statement, one)
+            verify(statement, replace(proof, proofs=proofs))
 
 
-def test_only_the_equilibrium_depends_on_the_torque():
-    with pytest.raises(Refused, match="for the equilibrium of"):
-        verify(loop_property("V is positive definite", (T, SLOPE, U), desired=True), Facts((), ()))
+@pytest.mark.parametrize("name", ["gamma", "rho", "secant", "low", "start"])
+def test_numbers_that_do_not_bound_h_prove_nothing(name):
+    wrong = {"low": 3, "start": Fraction(1, 10)}.get(name, Fraction(1, 2))
+    for number in (wrong, Fraction(-1)):
+        statement = stated("V is radially unbounded", (T, SLOPE, U), **{name: number})
+        assert propose(statement).verdict.value == "undecided"
+
+
+def test_a_property_that_the_argument_has_no_form_for_is_refused():
+    strict = EVERY.regulator(EVERY.any_function, "any")
+    for name in ("the origin is the only equilibrium", "V is decrescent"):
+        with pytest.raises(Refused, match="has no form"):
+            property_of(name, strict).require_well_formed()
+    claims = companion("slotine_li.py").proof.claims.values()
+    stated = [claim.statement(Case(1, 1)) for claim in claims]
+    cascade = next(one for one in stated if isinstance(one, Stable) and one.argument.cascade)
+    with pytest.raises(Refused, match="see e"):
+        property_of("V is positive definite", cascade).require_well_formed()
+
+
+def test_a_bound_of_V_that_is_none_proves_nothing():
+    """Φ with λmin(K_p) where the sum of all k_pi U(e_i) is asked."""
+    argument = EVERY.tracking(EVERY.any_function, "any").argument
+    tight = replace(argument.upper, linear=(("sum_Uh", ("var", "Kp_min")),))
+    for upper, verdict in ((argument.upper, "proved"), (tight, "undecided")):
+        statement = Property("V is decrescent", replace(argument, upper=upper))
+        assert propose(statement).verdict.value == verdict

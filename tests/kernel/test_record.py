@@ -10,7 +10,7 @@ import pytest
 
 from lyapcheck.answers.check.claim import ClaimResult
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.check.kinds.loop_property import LoopProperty
+from lyapcheck.check.kinds.property import Property
 from lyapcheck.claims.decision import Decision
 from lyapcheck.kernel import coq, record
 from lyapcheck.kernel.judge import Kernel
@@ -28,9 +28,14 @@ def test_check_shows_the_grade_of_what_the_record_has(monkeypatch: pytest.Monkey
     monkeypatch.setattr(coq.shutil, "which", lambda name: None)
     decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof)
     assert result(ONE.statement, decision).grade == "kernel"
-    assert isinstance(ONE.statement, LoopProperty)
-    x = ("var", "x")
-    other = replace(ONE.statement, h=("h", 77, x), slope=("dh", 77, x), potential=("potential", 77, x))
+    assert isinstance(ONE.statement, Property)
+    argument = ONE.statement.argument
+    functions = tuple(
+        replace(f, member=replace(f.member, value=("h", 77, ("var", "x"))))  # type: ignore[type-var]
+        for f in argument.system.functions
+    )
+    system = replace(argument.system, functions=functions)
+    other = replace(ONE.statement, argument=replace(argument, system=system))
     assert result(other, decision).grade == "exact"
 
 

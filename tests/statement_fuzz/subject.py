@@ -27,9 +27,9 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
-from lyapcheck.check.kinds.loop_property import LoopProperty
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.kinds.phases import DiesOut, StaysWithin
+from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
@@ -69,7 +69,6 @@ __all__ = [
     "Identity",
     "Implies",
     "LeadingTerm",
-    "LoopProperty",
     "MassAbove",
     "MassBelow",
     "MassSymmetric",
@@ -79,6 +78,7 @@ __all__ = [
     "Pieces",
     "PrintedInputs",
     "Proof",
+    "Property",
     "RateLessTwiceCoriolis",
     "RateOfMass",
     "Relation",

@@ -16,6 +16,7 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total, Witness
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.conditions import never_met
+from lyapcheck.check.systems.forms import EPS0
 from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
@@ -51,7 +52,7 @@ class Stable(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         """What holds of the arm and of the letters."""
-        return tuple(_granted(self.argument))
+        return granted_of(self.argument)
 
     @property
     def conclusion(self) -> str:
@@ -69,13 +70,6 @@ class Stable(Total):
     def text(self) -> str:
         """The theorem in one sentence."""
         argument, known = self.argument, THEOREMS[self.argument.theorem]
-        system = argument.system
-        where = " and ".join(relation_text(one) for one in argument.where)
-        about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
-        about += [_function_text(f) for f in system.functions]
-        energy = expression_text(argument.energy)
-        energy += " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
-        under = "; ".join([expression_text(system.torque), *about])
         lower, rate = (expression_text(form.tree) for form in (argument.lower, argument.rate))
         beside = f" + delta·({expression_text(argument.gain.tree)})" if argument.gain is not None else ""
         if argument.cascade is not None:
@@ -86,9 +80,8 @@ class Stable(Total):
                 f"eᵀw ≥ {contraction}"
             )
         return (
-            f"{self.conclusion} under τ = {under}, for {', '.join(_over(argument))}"
-            f"{f' with {where}' if where else ''}: by {known.name} ({known.reference}) with V = {energy}"
-            f"{' for some eps0 > 0' if argument.small else ''}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
+            f"{self.conclusion} {loop_text(argument)}: by {known.name} ({known.reference}) with "
+            f"{energy_text(argument)}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
         )
 
 
@@ -102,6 +95,23 @@ BOUNDS = {
 """What the constants of a function bound, by the ends of their names."""
 
 
+def loop_text(argument: Argument) -> str:
+    """Under which torque, and for what."""
+    system = argument.system
+    about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
+    about += [_function_text(f) for f in system.functions]
+    under = "; ".join([expression_text(system.torque), *about])
+    where = " and ".join(relation_text(one) for one in argument.where)
+    return f"under τ = {under}, for {', '.join(_over(argument))}{f' with {where}' if where else ''}"
+
+
+def energy_text(argument: Argument) -> str:
+    """V."""
+    gravity = " + U_g(q) − U_g(q_d) + g(q_d)·e" if argument.gravity else ""
+    small = " for some eps0 > 0" if argument.small else ""
+    return f"V = {expression_text(argument.energy)}{gravity}{small}"
+
+
 def _over(argument: Argument) -> Iterator[str]:
     """Over what a conclusion runs."""
     system = argument.system
@@ -113,11 +123,12 @@ def _over(argument: Argument) -> Iterator[str]:
         yield f"all {', '.join(system.constants)} > 0"
     used = set().union(*(variables(relation.gap) for relation in argument.where))
     for f in system.functions:
-        letters = {f"{f.name}_{end}": says.format(f.name, f.of) for end, says in BOUNDS.items()}
-        bounds = [f"{name} {letters[name]}" for name in letters if name in used]
+        known = {f"{f.name}_{end}": says.format(f.name, f.of) for end, says in BOUNDS.items()}
+        bounds = [f"{name} {says}" for name, says in known.items() if name in used]
         if bounds:
             yield f"all {', '.join(bounds)}"
-    if "eps0" in used:
+    free = not argument.small and ("var", EPS0) in letters(argument.energy)
+    if free or EPS0 in used:
         yield "all eps0 > 0"
     if system.desired:
         yield "every q_d(t) with bounded dq_d/dt" + (" and d²q_d/dt²" if "ad" in argument.constants else "")
@@ -138,6 +149,11 @@ DIFFERENCES = {
     "ad": "‖q̈_d‖ ≤ ad",
 }
 """What is granted where a bound has the constant, for q_d(t)."""
+
+
+def granted_of(argument: Argument) -> tuple[str, ...]:
+    """What holds of the arm and of the letters."""
+    return tuple(_granted(argument))
 
 
 def _granted(argument: Argument) -> Iterator[str]:
@@ -209,13 +225,20 @@ class ByObligations(Proof):
 
 @rule(Stable, ByObligations)
 def by_obligations(statement: Stable, proof: ByObligations) -> Accepted:
-    """Soundness: see ``check.systems.theorems``; each obligation by its own proof, and not of nothing."""
-    never = never_met(statement.argument)
+    """Soundness: see ``check.systems.theorems``."""
+    return by_argument(statement.argument, statement.obligations(), proof)
+
+
+def by_argument(
+    argument: Argument, obligations: Iterable[tuple[str, Statement]], proof: ByObligations
+) -> Accepted:
+    """Each obligation by its own proof, and constants that meet the conditions: it is not about nothing."""
+    never = never_met(argument)
     require((never is None) == (proof.met is None), "met", "", "must be given where there are conditions")
     if never is not None and proof.met is not None:
         met = verify(never, proof.met).verdict == "refuted"
         require(met, "met", "", "must be a point at which all conditions hold")
-    return all_proved(statement.obligations(), proof)
+    return all_proved(obligations, proof)
 
 
 def all_proved(obligations: Iterable[tuple[str, Statement]], proof: ByObligations) -> Accepted:

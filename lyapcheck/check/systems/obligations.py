@@ -21,21 +21,14 @@ TEST: Tree = ("vec", "x")
 
 def obligations(argument: Argument) -> Named:
     """What must be proved, by name."""
-    yield from _origin(argument)
-    yield from _functions(argument)
-    yield from _lower(argument)
-    yield from _definite(argument, "above", argument.lower)
-    if argument.upper is not None:
-        left = _with_gravity(argument, argument.energy)
-        yield "below", at_most(argument.system, left, argument.upper.tree)
+    yield from origin(argument)
+    yield from energy_at_origin(argument)
+    yield from functions(argument)
+    yield from above(argument)
+    yield from below(argument)
     yield "rate", rate_bound(argument)
     yield from _definite(argument, "rate", argument.rate)
-    if argument.rest is not None:
-        force = argument.system.at_zero(argument.system.force, argument.seen(argument.rate))
-        against = argument.system.at_zero(argument.rest.against, argument.seen(argument.rate))
-        left = ("neg", ("dot", against, force))
-        yield "rest", at_most(argument.system, left, ("neg", argument.rest.form.tree))
-        yield from _definite(argument, "rest", argument.rest.form)
+    yield from at_rest(argument)
     if argument.cascade is not None:
         yield from _follows(argument, argument.cascade)
 
@@ -56,29 +49,55 @@ def rate_bound(argument: Argument) -> Statement:
     return at_most(system, left, right, rates, local=argument.local)
 
 
-def _origin(argument: Argument) -> Named:
+def origin(argument: Argument) -> Named:
+    """That nothing moves at the origin."""
     system, every = argument.system, argument.system.moving
     force = replaced(system.at_zero(system.force, every), {DISTURBANCE: NOTHING})
     yield "origin", EveryN(("dot", TEST, force), ZERO)
     for state in system.states:
         yield f"origin of {state.name}", EveryN(("dot", TEST, system.at_zero(state.rate, every)), ZERO)
-    yield "V at the origin", EveryN(system.at_zero(argument.energy, every), ZERO)
 
 
-def _functions(argument: Argument) -> Named:
+def energy_at_origin(argument: Argument) -> Named:
+    """V = 0 there."""
+    every = argument.system.moving
+    yield "V at the origin", EveryN(argument.system.at_zero(argument.energy, every), ZERO)
+
+
+def functions(argument: Argument) -> Named:
+    """That those of the system are of the class."""
     for f in argument.system.functions:
         if f.member is not None:
             for name, fact in facts(f.member):
                 yield f"{f.name}: {name}", fact
 
 
-def _lower(argument: Argument) -> Named:
+def above(argument: Argument) -> Named:
+    """V >= φ, positive definite."""
     by = {("vec", change.state): change.equals for change in argument.changes}
     left = _with_gravity(argument, replaced(argument.energy, by))
     yield (
         "above",
         at_most(argument.system, ("neg", left), ("neg", argument.lower.tree), changed=argument.changed),
     )
+    yield from _definite(argument, "above", argument.lower)
+
+
+def below(argument: Argument) -> Named:
+    """V <= Φ, where there is one."""
+    if argument.upper is not None:
+        left = _with_gravity(argument, argument.energy)
+        yield "below", at_most(argument.system, left, argument.upper.tree)
+
+
+def at_rest(argument: Argument) -> Named:
+    """xᵀ(M ẇ) >= χ, positive definite, where the states that ψ sees are 0; where χ is given."""
+    if argument.rest is not None:
+        force = argument.system.at_zero(argument.system.force, argument.seen(argument.rate))
+        against = argument.system.at_zero(argument.rest.against, argument.seen(argument.rate))
+        left = ("neg", ("dot", against, force))
+        yield "rest", at_most(argument.system, left, ("neg", argument.rest.form.tree))
+        yield from _definite(argument, "rest", argument.rest.form)
 
 
 def _with_gravity(argument: Argument, energy: Tree) -> Tree:

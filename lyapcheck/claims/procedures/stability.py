@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.systems.conditions import never_met
@@ -13,10 +14,10 @@ from lyapcheck.claims.search_result import SearchResult, shown, still_open
 METHOD = "obligations of a theorem"
 
 
-@procedure(Stable, StableArm)
-def find_stable(statement: Stable | StableArm) -> SearchResult:
+@procedure(Stable, StableArm, Property)
+def find_stable(statement: Stable | StableArm | Property) -> SearchResult:
     """Decide the obligations up to one that fails: the conclusion is open then, as it is sufficient only."""
-    never = never_met(statement.argument) if isinstance(statement, Stable) else None
+    never = None if isinstance(statement, StableArm) else never_met(statement.argument)
     point = None if never is None else counterexample(never)
     if never is not None and point is None:
         return still_open("conditions: no constants were found that meet them; a theorem needs some", METHOD)

@@ -26,11 +26,11 @@ class Failing(Exception):
 class Functions:
     """h, h' and U at points; middles of enclosures."""
 
-    def __init__(self, statement: Any) -> None:
+    def __init__(self, member: Any) -> None:
         self.trees: dict[str, Tree] = {
-            "h": statement.h,
-            "slope": statement.slope,
-            "potential": statement.potential,
+            "h": member.value,
+            "slope": member.slope,
+            "potential": member.potential,
         }
 
     def at(self, name: str, x: Fraction) -> Any:
@@ -51,19 +51,19 @@ class Functions:
         return 0 if low <= 0 <= high else 1 if low > 0 else -1
 
 
-@kinds.objections_to("LoopProperty")
-def loop_property(statement: Any, random: Random) -> Objection | None:
+@kinds.objections_to("Property")
+def of_a_loop(statement: Any, random: Random) -> Objection | None:
     """A point at which a part is undefined, the slope is not that of h, or the property fails."""
     own = [Fraction(random.randint(1, 10**4), 1000) for _ in range(4)]
     points = sorted({sign * x for x in (*PLACES, *own) for sign in (1, -1)} | {Fraction(0)})
-    of = Functions(statement)
+    of = Functions(statement.argument.system.functions[0].member)
     with mp.workdps(DIGITS), exact.kept(False):
         for x in points:
             try:
                 for name in of.trees:
                     of.at(name, x)
                 _require_slope(of, x)
-                _require(statement.property, of, x)
+                _require(statement.name, of, x)
             except Undefined as why:
                 return Objection("undefined", f"x = {x} ({why})")
             except Failing as why:
@@ -94,10 +94,10 @@ def _require(what: str, of: Functions, x: Fraction) -> None:
             raise Failing("h(0) is not 0")
         if "only" in what and x and of.sign("h", x) * of.sign("h", _near_zero(x)) <= 0:
             raise Failing("h is 0 there, or between 0 and there")
-    elif "bounded above" in what or "positive definite" in what:
+    elif "decrescent" in what or "positive definite" in what:
         if x == 0 and of.sign("potential", x) != 0:
             raise Failing("U(0) is not 0")
-        if "above" not in what and x and of.sign("potential", x) <= 0:
+        if "decrescent" not in what and x and of.sign("potential", x) <= 0:
             raise Failing("U is not positive")
     elif "unbounded" in what and x:
         far, farther = (of.at("potential", _far(x, k)) for k in (1, 3))

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import runpy
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 from random import Random
+from typing import Any
 
 from tests.statement_fuzz.generators import Made, generates
+from tests.statement_fuzz.generators.stability import PROOFS
 from tests.statement_fuzz.generators.traps import disguised
 from tests.statement_fuzz.generators.trees import (
     ONE,
@@ -22,7 +26,7 @@ from tests.statement_fuzz.generators.trees import (
     sub,
     var,
 )
-from tests.statement_fuzz.subject import LoopProperty
+from tests.statement_fuzz.subject import Property
 
 X = var("x")
 SQUARE = add(ONE, power(X, 2))
@@ -55,33 +59,54 @@ PROPERTIES = (
     "the origin is the only equilibrium",
     "the origin is an equilibrium",
     "V is positive definite",
-    "V is bounded below by a positive definite function",
-    "V is bounded above by a positive definite function",
+    "V is decrescent",
     "V is radially unbounded",
     "V is continuously differentiable",
 )
+NUMBERS = {"gamma": Fraction(8, 5), "rho": Fraction(3), "secant": Fraction(1), "low": Fraction(1, 2)}
+"""Bounds that all that fit have."""
 
 
-@generates("LoopProperty", 0.6)
-def loop_property(random: Random) -> Made:
+@lru_cache(maxsize=1)
+def arguments() -> dict[str, Any]:
+    """Of (6) at rest, of (6) and of (21), each with tanh and for any ε₀."""
+    rest, every = (runpy.run_path(str(PROOFS / f"{n}.py")) for n in ("kelly_santibanez", "every_function"))
+    tanh = every["MEMBERS"]["tanh"]
+    return {
+        "rest": rest["regulator"](tanh, friction="positive")[2].argument,
+        "strict": every["regulator"](tanh, "any").argument,
+        "uniform": every["tracking"](tanh, "any").argument,
+    }
+
+
+def property_of(name: str, trio: Trio, desired: bool = False) -> Any:
+    """A property of a loop with h, h' and U."""
+    kind = "rest" if "only" in name else "uniform" if desired or name.endswith("decrescent") else "strict"
+    argument = arguments()[kind]
+    h, slope, potential = trio
+    functions = tuple(
+        replace(f, member=replace(f.member, value=h, slope=slope, potential=potential, **NUMBERS))
+        for f in argument.system.functions
+    )
+    return Property(name, replace(argument, system=replace(argument.system, functions=functions)))
+
+
+@generates("Property", 0.6)
+def of_a_loop(random: Random) -> Made:
     """A property of a loop with some h; one of its parts may be off."""
     fits = random.random() < 0.6
     h, slope, potential = random.choice(FITTING if fits else OTHERS)
-    what = random.choice(PROPERTIES)
-    desired = what == PROPERTIES[1] and random.random() < 0.4
-    made = LoopProperty(what, h, slope, potential, desired)
     kind = random.random()
     tiny = num(random.choice((1, Fraction(1, 1000), Fraction(1, 10**6), Fraction(-1, 1000))))
     if kind < 0.12:
-        made = replace(made, potential=add(potential, tiny))
+        potential = add(potential, tiny)
     elif kind < 0.24:
-        made = replace(made, h=add(h, tiny))
+        h = add(h, tiny)
     elif kind < 0.32:
-        made = replace(made, slope=mul(slope, add(ONE, tiny)))
+        slope = mul(slope, add(ONE, tiny))
     elif kind < 0.4:
-        other = random.choice(FITTING)
-        made = replace(made, potential=other[2])
+        potential = random.choice(FITTING)[2]
     elif kind < 0.48:
-        made = replace(made, h=disguised(random, h, ["x"]))
-    family = "a property of a loop" if fits else "a property that h does not have perhaps"
-    return Made(made, family)
+        h = disguised(random, h, ["x"])
+    made = property_of(random.choice(PROPERTIES), (h, slope, potential), random.random() < 0.3)
+    return Made(made, "a property of a loop" if fits else "a property that h does not have perhaps")
