@@ -13,11 +13,11 @@ from lyapcheck.robots import load
 from tests.helpers.shares import one_in
 
 SOURCE = find_script("every_function.py").read_text(encoding="utf-8")
-FOR_ALL = ("regulator", "h_of(2)", False)
-CLASS = ("regulator", "any_function", False)
-GIVEN = ("regulator", "h_of(2)", True)
-MOVING = ("tracking", "h_of(2)", False)
-MOVING_GIVEN = ("tracking", "any_function", True)
+FOR_ALL = ("regulator", "h_of(2)", "some")
+CLASS = ("regulator", "any_function", "some")
+GIVEN = ("regulator", "h_of(2)", "given")
+MOVING = ("tracking", "h_of(2)", "some")
+MOVING_GIVEN = ("tracking", "any_function", "given")
 UNIFORM = "uniform(loop, V, below=β / 2 * (b + ε * a) ** 2 + K_p.norm * h.sum_U,"
 FAULTS = {
     "the sign of the damping": (FOR_ALL, "K_p @ h - K_v @ k", "K_p @ h + K_v @ k"),
@@ -45,7 +45,7 @@ FAULTS = {
         'goal.entrywise("h", goal.e)',
         'goal.entrywise("h", goal.e, False)',
     ),
-    "the condition dropped": (GIVEN, '{"where": where} if given', '{"small": False} if given'),
+    "the condition dropped": (GIVEN, '"given": {"where": where}', '"given": {}'),
     "a weaker condition": (GIVEN, "ε0 / 4 * (d", "ε0 / 5 * (d"),
     "a condition that nothing meets": (GIVEN, "where += [", "where += [ε0 < 0, "),
     "another theorem": (MOVING, "return uniform(loop", "return exponential(loop"),
@@ -80,7 +80,7 @@ FAULTS = {
 """What is asked, and what is exchanged in the script."""
 
 
-def altered(tmp_path, right: str, wrong: str, asked: tuple[str, str, bool]) -> Stable:
+def altered(tmp_path, right: str, wrong: str, asked: tuple[str, str, str]) -> Stable:
     assert SOURCE.count(right) == 1, right
     source = SOURCE.replace(right, wrong)
     source = source[: source.index('proof.section("Every function')].replace(
@@ -89,9 +89,9 @@ def altered(tmp_path, right: str, wrong: str, asked: tuple[str, str, bool]) -> S
     path = tmp_path / "altered.py"
     path.write_text(source, encoding="utf-8")
     script = companion(str(path))
-    name, function, given = asked
+    name, function, eps0 = asked
     functions = script.any_function if function == "any_function" else script.h_of(2)
-    return getattr(script, name)(functions, given)
+    return getattr(script, name)(functions, eps0)
 
 
 @pytest.fixture
@@ -118,7 +118,7 @@ FOR_ARM = {"Kp": "28 60 5", "Kv": "0.233 0.233 0.233", "eps0": "0.04"}
 
 
 def asked_of(robot=None, given=FOR_ARM, desired=False):
-    stable = (FAMILY.tracking if desired else FAMILY.regulator)(FAMILY.h_of(1), True)
+    stable = (FAMILY.tracking if desired else FAMILY.regulator)(FAMILY.h_of(1), "given")
     return at_arm(stable, robot or load("buap3"), **given)
 
 

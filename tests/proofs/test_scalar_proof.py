@@ -161,8 +161,16 @@ def test_large_members_and_many_joints_for_every_arm():
 
 # Faults -----------------------------------------------------------------------------------------------------
 
-FUNCTION = "h(m, x), dh(m, x), potential(m, x)"
-"""h, h' and U as every property of V takes them."""
+FUNCTION = "FAMILY.regulator(FAMILY.h_of(m), eps0)"
+AT_REST = "AT_REST.regulator(AT_REST.h_of(m), "
+"""h and U as the properties of V and of the loop take them."""
+
+
+def regulator(value, potential):
+    """With another h and U."""
+    return f"FAMILY.regulator(FAMILY.member({value}, {potential}, 2, 2, 2), eps0)"
+
+
 BOUNDS = "FamilyBounds(n, gamma(m), rho(m), secant_bound(m))"
 LESS = [
     BOUNDS.replace("gamma(m)", "1"),
@@ -179,14 +187,14 @@ FAULTS = [
     ("h.steep", "dh(m, x) <= known.rho", "dh(m, x) <= known.gamma"),
     ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
     *(("h.bounds", BOUNDS, wrong) for wrong in LESS),
-    ("V.positive", FUNCTION, "h(m, x), dh(m, x), potential(m, x) + 1"),
-    ("V.positive", FUNCTION, "h(m, x), dh(m, x), 2 * potential(m, x)"),
-    ("V.unbounded", FUNCTION, "h(m, x), dh(m, x), potential(m, x) / 2"),
-    ("V.unbounded", FUNCTION, "x, expr(1), x**2 / 2"),
-    ("V.smooth", FUNCTION, "h(m, x), 2 * dh(m, x), potential(m, x)"),
-    ("V.smooth", FUNCTION, "x**3, 3 * x**2, x**4 / 4"),
-    ("equilibrium", FUNCTION, "-h(m, x), -dh(m, x), -potential(m, x)"),
-    ("equilibrium", FUNCTION, "x**3 - x, 3 * x**2 - 1, x**4 / 4 - x**2 / 2"),
+    ("V.positive", FUNCTION, regulator("h(m, x)", "potential(m, x) + 1")),
+    ("V.positive", FUNCTION, regulator("h(m, x)", "2 * potential(m, x)")),
+    ("V.unbounded", FUNCTION, regulator("h(m, x)", "potential(m, x) / 2")),
+    ("V.unbounded", FUNCTION, regulator("x", "x**2 / 2")),
+    ("V.smooth", FUNCTION, regulator("2 * h(m, x)", "potential(m, x)")),
+    ("V.smooth", FUNCTION, regulator("x**3", "x**4 / 4")),
+    ("equilibrium", AT_REST, "AT_REST.regulator(FAMILY.member(-h(m, x), -potential(m, x), 2, 2, 2), "),
+    ("equilibrium", AT_REST, "AT_REST.regulator(FAMILY.member(x**3 - x, x**4 / 4 - x**2 / 2, 2, 2, 2), "),
     ("rate", "total(loops.terms(s))", "total(loops.terms(s)[1:])"),
     ("rate", "rate(dot(s.e, s.e))", "rate(dot(s.e, s.w))"),
     ("rate.1", '["h.odd"], [], ["damping"]', '["h.odd"], ["w"]'),

@@ -157,7 +157,14 @@ def test_an_eps0_that_is_too_large_is_refuted(altered):
     assert verdicts(path, ("arm.21.theta", "21")) == {"arm.21.theta": "refuted", "21": "proved"}
 
 
-FUNCTION = "h(m, x), dh(m, x), potential(m, x)"
+FUNCTION = "FAMILY.tracking(FAMILY.h_of(m), eps0)"
+
+
+def tracking(value, potential):
+    """With another h and U."""
+    return f"FAMILY.tracking(FAMILY.member({value}, FAMILY.{potential}, 2, 2, 2), eps0)"
+
+
 FAULTS = [
     ("21.loop", "scaled(s.kp, s.h) - scaled(s.kv, s.hw)", "scaled(s.kp, s.h) + scaled(s.kv, s.hw)"),
     ("21.loop", "+ s.C @ speed + weight", "+ s.C @ s.w + weight"),
@@ -168,20 +175,16 @@ FAULTS = [
     ("21.9", "eps**2 * kc * vd * a**2 +", "eps**2 * kc * vd * a**2 / 2 +"),
     ("21.form", "return eps * (k - eps * turn),", "return eps * k,"),
     ("21.form", "-eps / 2 * (d + turn + eps * c)", "-eps / 2 * (d + eps * c)"),
-    ("21.loop", "function_of(m), desired=True", "(-h(m, x), -dh(m, x), x), desired=True"),
-    ("21.below", FUNCTION, "h(m, x), dh(m, x), potential(m, x) + 1"),
-    ("21.below", FUNCTION, "h(m, x), dh(m, x), 2 * potential(m, x)"),
-    ("21.above", FUNCTION, "-h(m, x), -dh(m, x), -potential(m, x)"),
-    ("21.above", FUNCTION, "h(m, x), dh(m, x), x**2"),
+    ("21.loop", FUNCTION, tracking("h(m, x) + 1", "potential(m, x)")),
+    ("21.below", FUNCTION, tracking("h(m, x)", "potential(m, x) + 1")),
+    ("21.below", FUNCTION, tracking("h(m, x)", "potential(m, x) * 2")),
+    ("21.above", FUNCTION, tracking("-h(m, x)", "potential(m, x) * (-1)")),
+    ("21.above", FUNCTION, tracking("h(m, x)", "x**2")),
     ("arm.inertia", "arm.mass_above(arm.guessed_floor())", "arm.mass_above(4 * arm.guessed_floor())"),
     ("arm.21", "vd=SPEED)", "vd=2 * SPEED)"),
     ("arm.21", "eps0=eps0, vd", "eps0=2 * eps0, vd"),
     ("arm.21", "Kp=gains.kp, Kv=gains.kv", "Kp=gains.kv, Kv=gains.kp"),
-    (
-        "21",
-        "return FAMILY.tracking(FAMILY.h_of(m), given)",
-        "return FAMILY.tracking(FAMILY.member(x, x), given)",
-    ),
+    ("21", FUNCTION, tracking("x", "x")),
 ]
 
 
