@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.answers.robot.entries import inertia_sections
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.robots.number import with_unit
@@ -80,7 +81,7 @@ def _sections(report: RobotReport) -> list[Section]:
     assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
     numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
     properties = _judged("Properties", "property", report.properties)
-    return [properties, *prints, _constants(report), *joints, *numbers, *assumed]
+    return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
 
 
 def _judged(title: str, head: str, rows: Sequence[Property]) -> Section:

@@ -48,7 +48,7 @@ class OfLinks(Total):
     def over(self) -> str:
         """``for all q, …``."""
         entries = [f"link {k + 1}: {_link_text(link)}" for k, link in enumerate(self.links)]
-        return f"for all q, {written_out(entries, f'chain of {len(self.links)} links', self.links, ())}"
+        return f"for all q, with {written_out(entries, f'chain of {len(self.links)} links', self.links, ())}"
 
 
 @dataclass(frozen=True)

@@ -81,7 +81,7 @@ class GravityBelow(BoundedAbove):
         """``‖(g1, …)‖ ≤ high …``."""
         size = "‖g(q)‖" if len(self.gravity) > 1 else "|g(q)|"
         about = gravity_text(self.gravity, self.joints, self.parameters)
-        return f"{size} ≤ {number_text(self.high)} for all q, {about}"
+        return f"{size} ≤ {number_text(self.high)} for all q, with {about}"
 
 
 def gravity_text(gravity: tuple[Monomials, ...], n: int, parameters: tuple[Ends, ...]) -> str:
@@ -124,4 +124,4 @@ class GravityOfPotential(Compared):
             [f"U = {polynomial_text(self.potential, names)}"], "potential", self.potential, ()
         )
         about = gravity_text(self.gravity, self.joints, self.parameters)
-        return f"g(q) is the gradient of U(q), for all q, {potential}, {about}"
+        return f"g(q) is the gradient of U(q), for all q, with {potential}, {about}"

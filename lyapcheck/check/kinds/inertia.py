@@ -30,8 +30,8 @@ MAX_POWER = 40
 MAX_PARAMETERS = 16
 MAX_HARMONICS = 2_000_000
 """Products of exponentials to which polynomials may be expanded; those of a seven-joint arm are 260,000."""
-LONGEST = 600
-"""Characters beyond which M(q) is no longer written out."""
+LONGEST = 150
+"""Characters beyond which M(q) is no longer written out in a statement."""
 Mass = tuple[tuple[Monomials, ...], ...]
 
 
@@ -67,15 +67,19 @@ def require_polynomials(entries: Iterable[Monomials], n: int, parameters: tuple[
 
 def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
     """M(q) written out, or where that is long its size and a digest of its entries."""
+    return written_out(mass_entries(mass, parameters), f"M(q) of {len(mass)} joints", mass, parameters)
+
+
+def mass_entries(mass: Mass, parameters: tuple[Ends, ...]) -> list[str]:
+    """The entries written out, those below the diagonal where they differ from those above."""
     n = len(mass)
     names = variable_names(n, len(parameters))
-    entries = [
+    return [
         f"M{i + 1}{j + 1} = {polynomial_text(mass[i][j], names)}"
         for i in range(n)
         for j in range(n)
         if j >= i or mass[i][j] != mass[j][i]
     ]
-    return written_out(entries, f"M(q) of {n} joints", mass, parameters)
 
 
 def written_out(entries: list[str], what: str, data: object, parameters: tuple[Ends, ...]) -> str:
@@ -100,7 +104,9 @@ def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
     terms = []
     for powers, c in entry:
         factors = [f"{name}^{p}" if p > 1 else name for name, p in zip(names, powers, strict=True) if p]
-        terms.append("·".join([number_text(c), *factors]))
+        if abs(c) != 1 or not factors:
+            factors.insert(0, number_text(abs(c)))
+        terms.append(("−" if c < 0 else "") + "·".join(factors))
     return " + ".join(terms).replace("+ −", "− ") or "0"
 
 
@@ -225,7 +231,7 @@ class OfArm(Total):
     @property
     def over(self) -> str:
         """``for all q …``."""
-        return f"for all q, {mass_text(self.mass, self.parameters)}"
+        return f"for all q, with {mass_text(self.mass, self.parameters)}"
 
     def vector(self, name: str, entries: tuple[Fraction, ...]) -> list[arb]:
         """A vector of a witness in balls, refused where it does not fit."""
