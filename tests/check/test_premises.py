@@ -137,6 +137,9 @@ def test_a_property_that_the_argument_has_no_form_for_is_refused():
     claims = companion("slotine_li.py").proof.claims.values()
     stated = [claim.statement(Case(1, 1)) for claim in claims]
     cascade = next(one for one in stated if isinstance(one, Stable) and one.argument.cascade)
+    disturbed = next(one for one in stated if isinstance(one, Stable) and one.argument.system.disturbed)
+    with pytest.raises(Refused, match="unknown torque"):
+        property_of("the origin is an equilibrium", disturbed).require_well_formed()
     with pytest.raises(Refused, match="see e"):
         property_of("V is positive definite", cascade).require_well_formed()
 

@@ -68,6 +68,8 @@ class Property(Total):
         require(fits, "argument", argument.theorem, f"has no form from which “{self.name}” follows")
         definite = self.name not in (POSITIVE, UNBOUNDED) or argument.cascade is None
         require(definite, "argument", argument.theorem, "has a V that need not see e")
+        still = self.name not in (EQUILIBRIUM, AN_EQUILIBRIUM) or not argument.system.disturbed
+        require(still, "argument", argument.theorem, "has an unknown torque, under which nothing is at rest")
 
     def obligations(self) -> Iterator[tuple[str, Statement]]:
         """What the property follows from, by name."""
