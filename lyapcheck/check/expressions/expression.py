@@ -170,9 +170,15 @@ class _Evaluation:
         return _combine(kind, [self.of(part) for part in rest], self.algebra)
 
 
+@lru_cache(maxsize=1 << 14)
+def _fraction(text: str) -> Fraction:
+    """Kept, as reading a number takes longer than reckoning with it."""
+    return Fraction(text)
+
+
 def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:
     if kind == "num":
-        return algebra.number(Fraction(rest[0]))
+        return algebra.number(_fraction(rest[0]))
     if kind == "var":
         return values[rest[0]]
     return algebra.pi() if kind == "pi" else algebra.constant(kind, rest[0])
@@ -306,6 +312,22 @@ def substitute(tree: Tree, values: Mapping[str, Tree]) -> Tree:
     if tree[0] == "var":
         return values.get(tree[1], tree)
     return tuple(substitute(part, values) if isinstance(part, tuple) else part for part in tree)
+
+
+def shared(tree: Tree) -> Tree:
+    """The same expression with equal parts as one object, which an evaluation works out once."""
+    done: dict[int, Tree] = {}
+    first: dict[Tree, Tree] = {}
+
+    def of(tree: Tree) -> Tree:
+        if id(tree) not in done:
+            parts = tuple([of(part) if isinstance(part, tuple) else part for part in tree])
+            # parts are told apart by where they are, as hashing them goes through all of them again
+            key = tuple([(id(part),) if isinstance(part, tuple) else part for part in parts])
+            done[id(tree)] = first.setdefault(key, parts)
+        return done[id(tree)]
+
+    return of(tree)
 
 
 def variables(tree: Sequence[Any]) -> set[str]:

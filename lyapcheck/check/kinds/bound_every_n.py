@@ -19,7 +19,7 @@ from flint import fmpq
 
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
-from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.expressions.expression import Tree, Unsupported, shared, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text
@@ -204,7 +204,7 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
 def at_size(statement: BoundEveryN, n: int) -> tuple[Equation, list[Equation]]:
     """Both sides at one n, and the equations that are given there."""
     (left, _), equations = identity_at_size(statement.identity, n)
-    return (left, statement.right), equations
+    return (shared(left), statement.right), equations
 
 
 def norms_at(statement: BoundEveryN, n: int) -> Norms:
@@ -231,14 +231,14 @@ def drawn_entries(
     statement: BoundEveryN, tries: int, sizes: Sequence[int] = DRAWN_SIZES
 ) -> Iterator[tuple[int, Drawn, int]]:
     """n, random exact entries that meet all bounds, and there the sign of right − left."""
-    random = Random(repr(statement))
+    random, numbers = Random(repr(statement)), statement.numbers
     written = {name for kind, name in letters(statement.left) if kind == "var"}
-    only_bounds = frozenset(statement.numbers - written)
+    only_bounds = frozenset(numbers - written)
     at = {n: (at_size(statement, n), norms_at(statement, n), names_at(statement, n)) for n in sizes}
     for _ in range(tries):
         for n, ((sides, equations), norms, names) in at.items():
             try:
-                point = norms.shrunk(norms.upright(drawn(names, statement.numbers, random)))
+                point = norms.shrunk(norms.upright(drawn(names, numbers, random)))
                 point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
                 given = all(compared(*pair, point) == 0 for pair in equations)
                 sign = compared(*sides, point) if given and norms.hold(point) else None

@@ -160,15 +160,19 @@ class Norms:
         """
         raised = {name for _, size in self.norms for name in _names(size)}
         for letters, size in self.norms:
-            square, upper = self.squared(letters, point), _value(size, point)
             free = sorted(_names(size) & names)
-            if upper is not None and free and square > upper * upper:
+            if not free:
+                continue
+            square, upper = self.squared(letters, point), _value(size, point)
+            if upper is not None and square > upper * upper:
                 rest = upper / point[free[-1]]
                 point = point | {free[-1]: _root_above(square) / rest if rest else point[free[-1]]}
         for number, size in self.least:
-            free, upper = sorted((_names(size) & names) - raised), _value(size, point)
-            value = exact(self.entries.number(number), point)
-            if upper is not None and free and rational(upper) > value:
+            free = sorted((_names(size) & names) - raised)
+            if not free:
+                continue
+            upper, value = _value(size, point), exact(self.entries.number(number), point)
+            if upper is not None and rational(upper) > value:
                 share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / upper * NEARLY
                 point = point | {free[-1]: share * point[free[-1]]}
         return point
@@ -189,10 +193,11 @@ def _names(tree: Tree) -> frozenset[str]:
 
 def _value(size: Tree, point: Mapping[str, Fraction]) -> Fraction | None:
     """A rational not above a size; ``None`` where it depends on more than the point."""
-    if not _names(size) <= set(point):
+    names = _names(size)
+    if not names <= point.keys():
         return None
     with ctx.workprec(BITS):
-        value = ball(size, {name: ball_of(x) for name, x in point.items()})
+        value = ball(size, {name: ball_of(point[name]) for name in names})
         if not value.is_finite():
             return None
         low = value.lower().max(arb(0))
