@@ -187,7 +187,7 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     """Soundness: entries at one n that meet all that is supposed, and the left side exceeds the right."""
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, equations = at_size(statement, proof.n)
-    point = coordinates(proof.point, names_at(statement, proof.n))
+    point = coordinates(proof.point, names_at(statement, proof.n, sides, equations))
     for name in sorted(statement.numbers):
         require(point[name] >= 0, name, point[name], "must not be negative")
     norms = norms_at(statement, proof.n)
@@ -213,13 +213,12 @@ def norms_at(statement: BoundEveryN, n: int) -> Norms:
     return Norms(entries, statement.norms, statement.least)
 
 
-def names_at(statement: BoundEveryN, n: int) -> set[str]:
+def names_at(statement: BoundEveryN, n: int, sides: Equation, given: list[Equation]) -> set[str]:
     """The variables of both sides and of all bounds at one n."""
-    (left, right), equations = at_size(statement, n)
     entries = Entries(n, statement.symmetric, dict(statement.rates))
-    result = statement.numbers | variables(left) | variables(right)
+    result = set(statement.numbers)
     result |= {name for tree in entries.moving.values() for name in variables(tree)}
-    result |= {name for pair in equations for side in pair for name in variables(side)}
+    result |= {name for pair in (sides, *given) for side in pair for name in variables(side)}
     for letter in (letter for letters_of, _ in statement.norms for letter in letters_of):
         result |= set(entries.names(letter))
     for number, _ in statement.least:
@@ -234,7 +233,8 @@ def drawn_entries(
     random, numbers = Random(repr(statement)), statement.numbers
     written = {name for kind, name in letters(statement.left) if kind == "var"}
     only_bounds = frozenset(numbers - written)
-    at = {n: (at_size(statement, n), norms_at(statement, n), names_at(statement, n)) for n in sizes}
+    both = {n: at_size(statement, n) for n in sizes}
+    at = {n: (one, norms_at(statement, n), names_at(statement, n, *one)) for n, one in both.items()}
     for _ in range(tries):
         for n, ((sides, equations), norms, names) in at.items():
             try:
