@@ -204,7 +204,7 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
 
 def _found(script: Path, claim: str) -> tuple[str, ...]:
     """The verdict for each m, with its witness or reason."""
-    from lyapcheck.claims import run_proof
+    from lyapcheck.claims.run import run_proof
 
     rows = run_proof(script, only=(claim,)).claims
     return tuple(

@@ -1,7 +1,10 @@
 """Claims: statements as data, the procedures that decide them, and the running of a proof script.
 
-A proof script needs nothing but the names below.
+A proof script needs nothing but the names below; ``run_proof``, which no script needs, is imported where it
+is first asked for.
 """
+
+from typing import Any
 
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
@@ -37,7 +40,6 @@ from lyapcheck.claims.bounds import (
 )
 from lyapcheck.claims.case import Case, Lacking, lacking
 from lyapcheck.claims.claim import Claim, Proof
-from lyapcheck.claims.decision import Decision
 from lyapcheck.claims.expressions import (
     Expr,
     atan,
@@ -94,7 +96,6 @@ from lyapcheck.claims.products import (
     transpose,
     vector,
 )
-from lyapcheck.claims.run import run_proof
 from lyapcheck.claims.script import companion
 from lyapcheck.claims.state_statements import DampingBelow, Decreasing, damping_below, decreasing
 from lyapcheck.claims.statements import (
@@ -135,7 +136,6 @@ __all__ = [
     "Claim",
     "Constant",
     "DampingBelow",
-    "Decision",
     "Decreasing",
     "EveryN",
     "Expr",
@@ -222,7 +222,6 @@ __all__ = [
     "rate_of_mass",
     "reals",
     "rho",
-    "run_proof",
     "scaled",
     "secant_bound",
     "sin",
@@ -238,3 +237,11 @@ __all__ = [
     "vector",
     "zero_vector",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "run_proof":
+        from lyapcheck.claims.run import run_proof
+
+        return run_proof
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -11,7 +11,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-import numpy as np
 from flint import arb, ctx
 
 from lyapcheck.check.expressions.expression import ball
@@ -135,6 +134,8 @@ class ArmBounds:
 
     def guessed_floor(self) -> Fraction:
         """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""
+        import numpy as np
+
         postures = ([Fraction(k * (i + 1), 3) for i in range(self.robot.n)] for k in range(7))
         result = min(float(np.linalg.eigvalsh(_doubles(self.inertia.at(q, ())))[0]) for q in postures)
         return Fraction(2) ** math.floor(math.log2(result / 2)) if result > 0 else Fraction(1, 2**20)
