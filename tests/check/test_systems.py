@@ -18,7 +18,7 @@ from lyapcheck.check.systems.forms import is_positive
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import any_matrix, any_vector, cosh, diagonal, expr, log, sqrt, tanh, var
+from lyapcheck.claims import any_matrix, any_vector, cosh, diagonal, dot, expr, log, sqrt, tanh, var
 from lyapcheck.claims.arguments import (
     at_arm,
     cascade,
@@ -293,6 +293,26 @@ def test_exponential_needs_norms():
     eps = pd.goal.eps0 * pd.goal.s
     varying = pd.rate + eps * pd.K.min * pd.r**2
     assert "s: varies" in why(pd.argued(exponential, below=below, rate=varying))
+
+
+@pytest.mark.parametrize(
+    "added",
+    [
+        lambda pd: diagonal(pd.e) @ pd.e,
+        lambda pd: pd.goal.eps0 * pd.e,
+        lambda pd: dot(pd.e, pd.e) * pd.e,
+        lambda pd: pd.K.entries,
+    ],
+)
+def test_where_decay_is_exponential_letters_are_changed_linearly(added):
+    """Norms of y and e would bound w by a power of them, which no exponential estimate follows from."""
+    pd = PD()
+    below = pd.goal.beta / 2 * pd.b**2 + pd.K.max / 2 * pd.r**2
+    y, whole = any_vector("y_w"), pd.D.min * pd.b**2 + pd.K.min * pd.r**2
+    made = {"above": pd.goal.mu / 2 * norm(y) ** 2 + pd.K.min / 2 * pd.r**2, "below": below, "rate": whole}
+    reason = why(pd.argued(exponential, changes={"w": y + added(pd)}, **made))
+    assert "change = w: must be linear" in reason
+    assert "must be linear" not in why(pd.argued(exponential, changes={"w": y - pd.K @ pd.e}, **made))
 
 
 def test_a_bound_that_holds_nearby_concludes_nothing_far_away():

@@ -109,7 +109,8 @@ def _product(rest: list[Any]) -> Text:
     if not others or value >= 0:
         return "·".join(_bracketed(part, PRODUCT) for part in rest), PRODUCT
     positive = others if value == -1 else [("num", str(-value)), *others]
-    return f"−{_product(positive)[0]}", SUM
+    text, binding = _product(positive)
+    return f"−{text if binding != SUM else f'({text})'}", SUM
 
 
 def _quotient(rest: list[Any]) -> Text:

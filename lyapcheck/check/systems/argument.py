@@ -208,11 +208,12 @@ class Argument:
             linear = not self.gain.sizes and all(name[5:] in every for name in self.gain.names)
             require(linear, "gain", ", ".join(self.gain.sizes), "must be linear in the norms of states")
         if self.theorem in ("exponential", "ISS"):
-            states = {("vec", name) for name in system.moving}
-            fixed = {("vec", name) for name in system.diagonal}
             for change in self.changes:  # the new letters are then norms as good as the old ones
-                own = ("vec", change.letter)
-                system.require_letters(change.equals, {*states, *fixed, own}, "a change that must be linear")
+                ends = {*system.moving, change.letter}
+                words = Words((), {}, {}).expand(change.equals).items()
+                fits = all(word[-1][1] in ends and _is_number(factor) for word, factor in words)
+                fits = fits and all(name in system.diagonal for word, _ in words for _, name in word[:-1])
+                require(fits, "change", change.state, "must be linear, of numbers, diag(K) and states")
             for form in (self.lower, self.upper, self.rate):
                 assert form is not None
                 fits = len(form.sizes) == len(every) and not form.linear
@@ -250,6 +251,11 @@ class Argument:
 def _sizes(name: str) -> tuple[str, str]:
     """The sizes of a function."""
     return f"norm_{name}", f"sum_U{name}"
+
+
+def _is_number(factor: Tree) -> bool:
+    """Whether a factor is a number that is written out."""
+    return all(not powers for _, powers in terms_of(factor))
 
 
 def _is_sign(factor: Tree) -> bool:
