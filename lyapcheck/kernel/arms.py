@@ -21,9 +21,8 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
     closed_loop_of,
 )
-from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
-from lyapcheck.check.loop.closed_loop import root_above
+from lyapcheck.check.loop.closed_loop import ClosedLoop, root_above
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.robots.trig import fraction
 

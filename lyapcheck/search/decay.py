@@ -16,7 +16,8 @@ from fractions import Fraction
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_arm import not_positive

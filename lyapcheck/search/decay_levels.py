@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.kinds.settling import Envelope
-from lyapcheck.check.loop.decay import Estimate
-from lyapcheck.check.loop.decay.estimate import BITS
+from lyapcheck.check.loop.decay.estimate import BITS, Estimate
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family

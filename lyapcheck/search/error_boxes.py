@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.link_bounds import BITS, LinkBounds
-from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.error_form import FIRST, SCALES, BoxForm
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named

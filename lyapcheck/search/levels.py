@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.check.loop.decay import Estimate
+from lyapcheck.check.loop.decay.estimate import Estimate
 from lyapcheck.family import Family
 
 POINTS = 161

@@ -11,8 +11,8 @@ import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop import ClosedLoop
-from lyapcheck.check.loop.decay import Margin
+from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MOST_JOINTS

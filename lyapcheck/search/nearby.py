@@ -19,7 +19,7 @@ from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.search.closed_loop import closed_loop_of

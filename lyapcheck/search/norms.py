@@ -12,7 +12,7 @@ from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
-    from lyapcheck.check.loop import ClosedLoop
+    from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.check.statement import Ends
     from lyapcheck.search.controlled_arm import ControlledArm
 

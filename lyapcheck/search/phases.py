@@ -17,8 +17,8 @@ import numpy as np
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.kinds.inertia import Bisection, Mass, MassAbove
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin, lightened
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
-from lyapcheck.check.loop.decay.estimate import reach_of
+from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate, reach_of
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
 from lyapcheck.check.numbers.members import member

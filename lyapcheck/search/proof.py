@@ -11,7 +11,8 @@ from lyapcheck.check.kinds.decreasing import (
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop import ClosedLoop, shared_between
+from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof as Shown

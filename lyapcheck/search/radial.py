@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.boxes import Box
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, Table
 from lyapcheck.check.numbers.balls import precision

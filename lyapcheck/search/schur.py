@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmIntervals, coriolis

@@ -18,7 +18,7 @@ from multiprocessing import get_context
 from time import monotonic
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored

@@ -17,7 +17,7 @@ from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.check.kinds.resting import AtBounds, Resting
-from lyapcheck.check.loop import proves
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
-from lyapcheck.check.loop import proves
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from flint import arb
 
-from lyapcheck.check.loop import proves
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.centred import CentredEvaluator, of_error, triangle
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member

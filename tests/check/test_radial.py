@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
-from lyapcheck.check.loop import BrokenTree, ClosedLoop
-from lyapcheck.check.loop.closed_loop import root_above
+from lyapcheck.check.loop.boxes import BrokenTree
+from lyapcheck.check.loop.closed_loop import ClosedLoop, root_above
 from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, proves_radially
 from lyapcheck.check.loop.rank_one import rank_one_bound
 from lyapcheck.check.numbers.balls import precision

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness, statement_of
-from lyapcheck.check.loop import proves
 from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.epsilon import epsilon
-from lyapcheck.check.loop import proves
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop import leaves, proves
+from lyapcheck.check.loop.boxes import leaves
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named

@@ -16,8 +16,9 @@ import pytest
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
 from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.kinds.settling import require_margin
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.least import Well
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import Parts
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.control.gains import GainSet
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load

@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
-from lyapcheck.check.loop.decay import Disturbance
+from lyapcheck.check.loop.decay.estimate import Disturbance
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.search.decay import disturbance_bound, settling_bound

@@ -15,7 +15,7 @@ from lyapcheck.files.names import file_stem
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.answers.epsilon.nearby import NearbyResult
-    from lyapcheck.check.loop import ClosedLoop
+    from lyapcheck.check.loop.closed_loop import ClosedLoop
 
 PROOF = "epsilon"
 

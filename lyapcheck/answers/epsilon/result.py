@@ -24,7 +24,7 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.nearby import NearbyResult
-    from lyapcheck.check.loop import ClosedLoop
+    from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.output.annotations import Annotation
     from lyapcheck.search.falsify import Witness

@@ -12,8 +12,8 @@ from fractions import Fraction
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
-from lyapcheck.check.loop import ClosedLoop, proves, sharing
-from lyapcheck.check.loop.closed_loop import RateProof
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.proof import proves, sharing
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require

@@ -24,8 +24,7 @@ from lyapcheck.check.kinds.decreasing import (
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
 from lyapcheck.check.kinds.phases import lightened
 from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.loop import ClosedLoop
-from lyapcheck.check.loop.closed_loop import RateProof
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
 from lyapcheck.check.loop.decay.estimate import BITS, reach_of
 from lyapcheck.check.loop.decay.speeds import secant_above, slowed
 from lyapcheck.check.numbers.balls import precision, to_arb

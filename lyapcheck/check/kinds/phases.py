@@ -16,9 +16,9 @@ from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.kinds.settling import Envelope, require_falling
-from lyapcheck.check.loop import ClosedLoop
-from lyapcheck.check.loop.closed_loop import RateProof
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded, secant_above, slowed
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
 from lyapcheck.check.loop.radial import RadialBounds

@@ -17,8 +17,9 @@ from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text, require_mass
 from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.loop import ClosedLoop
-from lyapcheck.check.loop.decay import Disturbance, Estimate, Margin
+from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require

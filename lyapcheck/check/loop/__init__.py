@@ -14,9 +14,3 @@ those of h.
 
 References: ``reyes2019family`` (11), (12), (15).
 """
-
-from lyapcheck.check.loop.boxes import Box, BrokenTree, leaves
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.proof import proves, proves_part, shared_between, sharing
-
-__all__ = ["Box", "BrokenTree", "ClosedLoop", "leaves", "proves", "proves_part", "shared_between", "sharing"]

@@ -29,8 +29,3 @@ still reached in finite time.
 
 References: ``reyes2019family`` (11), (12), (15).
 """
-
-from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
-from lyapcheck.check.loop.decay.margin import Margin
-
-__all__ = ["Disturbance", "Estimate", "Margin"]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from lyapcheck.check.loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.radial import BITS, Parts, RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision
