@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 
 import pytest
 from hypothesis import settings
@@ -15,6 +16,10 @@ from tests.helpers.one_process import one_process
 settings.register_profile("fast", deadline=None, max_examples=10)
 settings.register_profile("thorough", deadline=None, max_examples=400)
 settings.load_profile("fast")
+
+# Each of the many processes that tests start would else compile the whole package for itself.
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # What an earlier run has found is not what is tested, nor does a test leave anything to a later run.
 os.environ[store.OFF] = "1"
