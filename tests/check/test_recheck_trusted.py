@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -115,6 +116,41 @@ def test_the_page_on_trust_says_how_large_the_checker_is():
     now += (sum(len(code_lines(module)) for module in known), totals(modules(every))[0])
     for text, size, slack in zip(said.groups(), now, (2, 200, 200, 200), strict=True):
         assert abs(size - int(text.replace(",", ""))) <= slack
+
+
+FORMULAS = (
+    "agrees all_of constant for_all for_small identity implies norm_bound parts signs trigonometric kinds"
+)
+PURPOSES = {
+    "`kinds/`, formulas": FORMULAS,
+    "`kinds/`, every n": "every_n bound_every_n",
+    "`kinds/`, one arm": "inertia coriolis gravity compared chain chain_identity",
+    "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting",
+    "`kinds/`, theorems": "stability stable_arm property",
+}
+
+
+def purpose(module):
+    """The row of the page in which a module is counted."""
+    room, _, rest = module.removeprefix("lyapcheck.check").lstrip(".").partition(".")
+    name = module.rpartition(".")[2]
+    own = next((row for row, names in PURPOSES.items() if name in names.split()), "")
+    return own if room == "kinds" else f"`{room}/`" if rest or room in ROOMS else "files of the folder itself"
+
+
+ROOMS = ("numbers", "expressions", "letters", "systems", "loop")
+
+
+def test_the_page_on_trust_says_what_the_lines_are_for():
+    page = (Path(__file__).parents[2] / "docs" / "trusted.md").read_text(encoding="utf-8")
+    counted = Counter()
+    for module in {one.module for one in definitions().values()}:
+        counted[purpose(module)] += len(code_lines(module))
+    assert set(counted) == {*PURPOSES, *(f"`{room}/`" for room in ROOMS), "files of the folder itself"}
+    for row, now in counted.items():
+        said = re.search(rf"\| {re.escape(row)} \| ([\d,]+) \|", page)
+        assert said is not None, row
+        assert abs(now - int(said[1].replace(",", ""))) <= 100, (row, now)
 
 
 def smallest():
