@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from . import alone, certificates, epsilon, gate, simulate, table, throughput
+from . import alone, batches, certificates, epsilon, gate, simulate, table, throughput
 from .machine import description
 from .render import markdown
 from .results import CommandResult
@@ -30,23 +30,26 @@ def progress(line: str) -> None:
 
 def main() -> None:
     """Measure, then write the document in one piece."""
-    measured, proofs, many, rates = [], [], [], []
+    measured, proofs, many, rates, runs = [], [], [], [], []
     for result in commands():
         progress(f"{result.command}: {result.seconds:.2f} s")
         measured.append(result)
     for proof in certificates.benchmark():
         progress(f"certificates on {proof.arm}, m = {proof.m}: {proof.costs[-1].boxes} boxes")
         proofs.append(proof)
-    for proof in certificates.many_joints():
+    for row in certificates.many_joints():
         progress(
-            f"bounds in ‖e‖ on {proof.arm}, m = {proof.m}: {proof.costs[-1].share:.1%} of the falsified ε₀"
+            f"epsilon on {row.arm}, m = {row.m}: {row.certified / row.falsified:.1%} in {row.seconds:.0f} s"
         )
-        many.append(proof)
+        many.append(row)
     for rate in throughput.benchmark():
         progress(f"{rate.function} on {rate.arm}: {next(iter(rate.rates.values())):.2e} states/s")
         rates.append(rate)
+    for way in batches.benchmark():
+        progress(f"{way.way}: {way.rate:.0f} runs/s")
+        runs.append(way)
     OUT.parent.mkdir(exist_ok=True)
-    OUT.write_text(markdown(description(), measured, rates, proofs, many), encoding="utf-8")
+    OUT.write_text(markdown(description(), measured, rates, proofs, many, runs), encoding="utf-8")
     progress(f"written: {OUT.relative_to(Path.cwd()) if OUT.is_relative_to(Path.cwd()) else OUT.name}")
 
 

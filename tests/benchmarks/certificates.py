@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,19 +13,18 @@ from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
 from lyapcheck.check.loop.proof import proves
-from lyapcheck.check.verify import verify
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.schur import Problem
 
-from .results import CertificateResult, Cost
+from .measure import LYAPCHECK, processor_seconds
+from .results import CertificateResult, Cost, ManyResult
 
 T = TypeVar("T")
 
 ARMS = ("pendulum1", "reyes-kelly2", "buap3")
-MANY = ("ur5",)
+MANY = (("px100", (1,)), ("px150", (1,)), ("ur5", (1, 2, 3)), ("panda", (1,)))
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEMBERS = (1, 2, 3, 4, 5)
 SHARES = tuple(Fraction(n, 1000) for n in (900, 950, 980, 990, 995))
@@ -50,28 +51,24 @@ def benchmark(
             yield CertificateResult(arm, model.n, m, float(witness.eps0), costs)
 
 
-def many_joints(
-    arms: tuple[str, ...] = MANY, members: tuple[int, ...] = (1, 2, 3)
-) -> Iterator[CertificateResult]:
-    """Arms of six joints: the one ε₀ that bounds in ‖e‖ alone can prove."""
-    for arm in arms:
-        file = read_gain_file(EXAMPLES / f"{arm}_gains.toml")
-        model = load_robot(str(EXAMPLES / f"{arm}.toml"))
-        for item in file.gains:
-            if item.m in members:
-                yield _many(arm, ControlledArm(item, model))
+def many_joints(arms: Sequence[tuple[str, tuple[int, ...]]] = MANY) -> Iterator[ManyResult]:
+    """The whole command ``epsilon`` on arms of four joints and more, and ``recheck`` of its certificate."""
+    for arm, members in arms:
+        for m in members:
+            yield _many(arm, m)
 
 
-def _many(arm: str, controlled: ControlledArm) -> CertificateResult:
-    witness = falsify(controlled)
-    proof, searched = _timed(lambda: radial_epsilon(controlled))
-    if witness is None or proof is None or controlled.gains.m is None:
-        raise RuntimeError(f"nothing was proved, or nothing refuted, on {arm}")
-    verdict, checked = _timed(lambda: verify(proof.statement, proof.certificate))
-    if verdict.verdict != "proved":
-        raise RuntimeError(f"the checker refused ε₀ = {float(proof.loop.eps0):.6g} on {arm}")
-    cost = Cost(float(proof.loop.eps0 / witness.eps0), proof.boxes, searched, checked)
-    return CertificateResult(arm, controlled.n, controlled.gains.m, float(witness.eps0), (cost,))
+def _many(arm: str, m: int) -> ManyResult:
+    with tempfile.TemporaryDirectory() as folder:
+        line = [LYAPCHECK, "epsilon", str(EXAMPLES / f"{arm}_gains.toml"), "--m", str(m)]
+        line += ["--no-store", "--format", "json", "--certificates", folder]
+        output, seconds = processor_seconds(line)
+        (row,) = json.loads(output)["results"]
+        (proof,) = Path(folder).glob("*.certified.json")
+        _, checked = processor_seconds([LYAPCHECK, "recheck", str(proof)])
+        certified, falsified = float(row["certified"]), float(row["falsified"])
+        joints = load_robot(arm).n
+        return ManyResult(arm, joints, m, certified, falsified, seconds, proof.stat().st_size, checked)
 
 
 def gains(arm: str, m: int) -> GainSet:

@@ -60,21 +60,22 @@ def _timed(command: list[str], runs: int) -> Timing:
 
 
 def in_turn(one: list[str], other: list[str], runs: int = REPEATS) -> list[tuple[float, float]]:
-    """The processor times of two commands run one after the other, pair by pair; their output is not read.
+    """The processor times of two commands run one after the other, pair by pair.
 
     Of processes this short the wall time says more of what else the machine does.
     """
     pairs = []
     for _ in range(runs + 1):
-        pairs.append((_processor_seconds(one), _processor_seconds(other)))
+        pairs.append((processor_seconds(one)[1], processor_seconds(other)[1]))
     return pairs[1:]  # the first pair has warmed up both
 
 
-def _processor_seconds(command: list[str]) -> float:
+def processor_seconds(command: list[str]) -> tuple[str, float]:
+    """What a command prints, and the processor time that it and its processes take."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return done.stdout, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def states_per_second(function: Callable[[], object], states: int, repeats: int = REPEATS) -> float:

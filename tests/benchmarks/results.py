@@ -79,3 +79,45 @@ class CertificateResult:
     m: int
     falsified: float
     costs: tuple[Cost, ...]
+
+
+@dataclass(frozen=True)
+class RunsResult:
+    """Runs a second by one way.
+
+    Args:
+        way: its name.
+        runs: how many at once.
+        rate: runs a second.
+        difference: the largest difference of a final position (rad) or rate (rad/s) from a sharper solution.
+    """
+
+    way: str
+    runs: int
+    rate: float
+    difference: float
+
+
+@dataclass(frozen=True)
+class ManyResult:
+    """The command ``epsilon`` on an arm of many joints.
+
+    Args:
+        arm: its name.
+        joints: how many.
+        m: the member of the family.
+        certified: the ε₀ that is proved.
+        falsified: the one that a state refutes.
+        seconds: processor time of the whole command.
+        bytes: of the certificate.
+        checked: processor time of ``recheck``.
+    """
+
+    arm: str
+    joints: int
+    m: int
+    certified: float
+    falsified: float
+    seconds: float
+    bytes: int
+    checked: float

@@ -12,12 +12,12 @@ import pytest
 from lyapcheck import load_robot
 from lyapcheck.robots.numeric import NumericModel
 
-from . import certificates, epsilon, gate, simulate, table, throughput
+from . import batches, certificates, epsilon, gate, simulate, table, throughput
 from .by_hand import arms
 from .machine import description
 from .measure import Disagreement, states_per_second
 from .render import markdown
-from .results import CertificateResult, CommandResult, Cost, RateResult
+from .results import CertificateResult, CommandResult, Cost, ManyResult, RateResult, RunsResult
 
 MEASURED = [
     CommandResult("lyapcheck table", 0.25, 5, "mpmath", 0.5, "equal"),
@@ -27,7 +27,7 @@ RATES = [RateResult("V", "buap3", 3, {"lyapcheck": 2e7, "CasADi": 1e6}, 3e-16)]
 PROOFS = [
     CertificateResult("buap3", 3, 2, 0.1665327, (Cost(0.9, 4019, 0.25, 0.5), Cost(0.995, 6000, 3.5, None)))
 ]
-MANY = [CertificateResult("ur5", 6, 1, 1.25, (Cost(0.774, 5, 4.0, 3.0),))]
+MANY = [ManyResult("ur5", 6, 1, 1.0, 1.25, 30.0, 56_400, 0.61)]
 
 
 def cells(text, first):
@@ -49,9 +49,9 @@ def test_a_certificate_has_its_boxes_and_seconds_or_a_dash():
     assert cells(text, "buap3 (n = 3) | 2")[2:] == ["0.166533", "4019 / 0.25 s / 0.50 s", "— (6000)"]
 
 
-def test_an_arm_of_many_joints_has_one_share():
+def test_an_arm_of_many_joints_has_one_line():
     text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
-    assert cells(text, "ur5 (n = 6)")[1:] == ["1", "1.25", "77.4%", "5 / 4.00 s / 3.00 s"]
+    assert cells(text, "ur5 (n = 6)")[1:] == ["1", "1", "1.25", "80.0%", "30.00 s", "56 kB", "0.61 s"]
 
 
 @pytest.mark.slow
@@ -68,6 +68,12 @@ def test_certificates_are_measured_on_the_joints_an_arm_has():
 def test_a_share_that_is_not_proved_has_no_time_of_the_checker():
     (result,) = certificates.benchmark(("reyes-kelly2",), (2,), (Fraction(101, 100), Fraction(99, 100)), 300)
     assert [cost.checked for cost in result.costs] == [None, None]
+
+
+def test_runs_have_their_ratio():
+    rows = [RunsResult("lyapcheck", 400, 1600.0, 1e-9), RunsResult("CVODES", 400, 160.0, 2e-7)]
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, rows)
+    assert cells(text, "CVODES")[1:] == ["400", "160", "0.100", "2e-07"]
 
 
 def test_every_table_row_is_as_wide_as_its_head():
@@ -176,10 +182,20 @@ def test_the_motion_by_hand_is_the_simulated_one():
 
 
 @pytest.mark.slow
-def test_an_arm_of_six_joints_is_proved_for_half_of_what_is_refuted():
-    (result,) = certificates.many_joints(members=(2,))
-    assert result.joints == 6
-    assert 0.5 < result.costs[0].share < 1
+def test_an_arm_of_four_joints_is_proved_for_half_of_what_is_refuted():
+    (result,) = certificates.many_joints((("px100", (1,)),))
+    assert (result.joints, result.m) == (4, 1)
+    assert 0.5 < result.certified / result.falsified < 1
+    assert result.bytes > 1000
+    assert 0 < result.checked < result.seconds
+
+
+@pytest.mark.slow
+def test_every_way_to_many_runs_ends_alike():
+    ours, *others = batches.benchmark(20, 1)
+    assert (ours.way, ours.runs) == ("lyapcheck", 20)
+    assert any("CVODES" in other.way for other in others)
+    assert all(0 < other.difference < 1e-5 for other in others)
 
 
 @pytest.mark.slow
