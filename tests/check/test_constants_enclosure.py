@@ -76,14 +76,6 @@ def test_an_enclosure_has_no_truth_value():
         bool(Enclosure.exact(1))
 
 
-def test_less_is_decided_only_where_it_is_certain():
-    a, b = Enclosure(Fraction(0), Fraction(2)), Enclosure(Fraction(1), Fraction(3))
-    assert a.less(b) is None
-    assert a.less(Fraction(3)) is True
-    assert b.less(Fraction(1)) is False
-    assert Enclosure.exact(1).less(Enclosure.exact(1)) is False
-
-
 @pytest.mark.parametrize("bad", ["nan", "inf", "[0 +/- inf]"])
 def test_a_ball_without_ends_is_refused(bad):
     with pytest.raises(ValueError, match="encloses nothing"):

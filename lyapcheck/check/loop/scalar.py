@@ -22,11 +22,6 @@ class ScalarForm:
     drift: Fraction
     cross: Fraction
 
-    def theta(self, eps: Fraction) -> tuple[Fraction, Fraction, Fraction]:
-        """(θ'11, θ'12, θ'22) at one ε."""
-        off = -eps * (self.cross + eps * self.drift) / 2
-        return eps * self.stiffness, off, self.friction - eps * self.drift
-
     def margin(self, eps: Fraction) -> Fraction:
         """det Θ'(ε)/ε = k (β − ε c) − ¼ ε (d + ε c)²."""
         return (

@@ -64,13 +64,6 @@ class Enclosure:
         """The smallest double that is not below ``upper``."""
         return 0.0 - Enclosure(-self.upper, -self.lower).float_lower
 
-    def less(self, other: Enclosure | Fraction | int) -> bool | None:
-        """Whether this number is below the other one; ``None`` where the intervals do not decide it."""
-        low, high = (other.lower, other.upper) if isinstance(other, Enclosure) else (other, other)
-        if self.upper < low:
-            return True
-        return False if self.lower >= high else None
-
     def decimals(self, digits: int) -> tuple[str, str]:
         """Decimal strings of ``digits`` significant digits, rounded outward, that enclose the number.
 
@@ -103,7 +96,7 @@ class Enclosure:
         return max(0, digits - _integer_digits(max(abs(self.lower), abs(self.upper))))
 
     def __bool__(self) -> NoReturn:
-        raise TypeError("an enclosure has no truth value; ask less(...) and treat None as not decided")
+        raise TypeError("an enclosure has no truth value; compare its ends")
 
 
 def dyadic(point: arb) -> Fraction:
