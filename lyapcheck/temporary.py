@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory, TemporaryFile
 
 ROOM = 65_536
 """Bytes that a folder must take."""
@@ -28,6 +26,8 @@ def pending(path: str | Path) -> Iterator[None]:
 @contextmanager
 def temporary_folder() -> Iterator[str]:
     """A new folder that is removed at the end, also where the command is ended by a signal."""
+    from tempfile import TemporaryDirectory  # with shutil and random: commands that need none start sooner
+
     with TemporaryDirectory(prefix="lyapcheck-") as folder, pending(folder):
         yield folder
 
@@ -38,6 +38,8 @@ def try_writing(folder: str | Path) -> None:
     Raises:
         OSError: the folder cannot be written to, or its disk is full.
     """
+    from tempfile import TemporaryFile
+
     with TemporaryFile(dir=folder) as stream:
         stream.write(bytes(ROOM))
 
@@ -46,6 +48,8 @@ def clear() -> None:
     """Remove what is pending: for a process that ends here and now."""
     for path in tuple(_pending):
         if os.path.isdir(path):
+            import shutil  # whoever made a folder has loaded it
+
             shutil.rmtree(path, ignore_errors=True)
         elif os.path.exists(path):
             os.unlink(path)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
@@ -56,6 +55,8 @@ def write_whole(path: Path, content: str | bytes) -> None:
     Raises:
         InputError: the file system refuses.
     """
+    import tempfile
+
     temporary = None
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
