@@ -154,7 +154,7 @@ class _At:
         self.N, self.spread = 0.5 * (lower + upper) * scale, 0.5 * (upper - lower) * scale
         H = np.maximum(np.abs(h.lo), np.abs(h.hi))
         k = np.maximum(of.kp - eps * of.fast, 1e-12)
-        t = np.sqrt(b / (eps * k)[:, :, None])
+        t = np.sqrt((eps * k)[:, :, None] / b)
         R = of.Q.T * H[:, :, None]
         self.kappa = np.maximum(k - eps / 2 * np.sum(R * t, axis=2), 1e-12)
         lost = eps * (H @ of.Q) + eps**2 / 2 * np.sum(R / t, axis=1) + eps * b**2 / (4 * self.kappa)

@@ -9,14 +9,18 @@ and N does not depend on q. What C(q,h) does is symmetric, or cubic in h:
     |wᵀC(q,h)w| ≤ Σ_j |h_j| wᵀQ_j w,      |hᵀC(q,h)w| = |½ Σ_j w_j hᵀ(∂M/∂q_j)h| ≤ Σ_j |w_j| hᵀQ_j h.
 
 After σ = h and the damping are eliminated as in ``lyapcheck.check.loop``, with h_i² ≤ H_i |σ_i| and
-|σ_i w_j| ≤ ½(t σ_i² + w_j²/t), one form in (w, p) is left for each e, with a multiplier l of p's bound:
+|σ_i w_j| ≤ ½(t σ_i² + w_j²/t), t = t_ij, one form in (w, p) is left for each e, with a multiplier l of p's bound:
 
     wᵀWw − 2ε pᵀG w + ε pᵀZ p ≻ 0,      G = ½(I + l N) − ¼ ε B κ⁻¹,      Z = l U⁻¹ − ¼ ε² κ⁻¹,
     W = B − ε Σ_j |h_j| Q_j − ½ ε² Σ_i Q_ji H_i/t − ¼ ε B κ⁻¹ B,      κ_i = k̃_i − ½ ε Σ_j Q_ji H_i t,
     k̃_i = k_pi − ¼ ε (L k_vi + b_i' − b_i),
 
 W, Z and κ diagonal. B ≥ b stands at its lower ends b: the rest costs at most ¼ ε² (b' − b) h².
-In y = w − εσ all falls as ε grows, so that a box is judged at its largest ε. Over a box
+With a = εσ and π = εp held, each term of
+
+    wᵀ(W + ¼ ε B κ⁻¹ B)w − aᵀBw + aᵀκa/ε + πᵀa − πᵀ(I + l N)w + l πᵀU⁻¹π/ε
+
+falls as ε grows, for any t_ij > 0, so that a box is judged at its largest ε. Over a box
 N = N₀ ± Δ, and |p_i Δ_ij w_j| ≤ ½ Δ_ij (x p_i² + w_j²/x) for any x > 0. Signs of e go over to w and p, so
 that e ≥ 0 is enough.
 
@@ -95,10 +99,10 @@ class BoxForm:
         k = [kp - eps * fast for kp, fast in zip(self.kp, self.fast, strict=True)]
         if not all(x > 0 for x in k):
             return None
-        # t_ij = root_j/stiff_i, any positive numbers: these weigh σ_i and w_j as stiffness and friction do
+        # t_ij = stiff_i/root_j, any positive numbers: k̃_i and b_j lose the same share
         stiff = [arb(float((eps * x).sqrt())) for x in k]
         kappa = [
-            k[i] - eps / 2 * H[i] / stiff[i] * _sum(Q[j][i] * self.root[j] for j in joints) for i in joints
+            k[i] - eps / 2 * H[i] * stiff[i] * _sum(Q[j][i] / self.root[j] for j in joints) for i in joints
         ]
         if not all(x > 0 for x in kappa):
             return None
@@ -109,11 +113,11 @@ class BoxForm:
         ]
         if not all(x > 0 for x in Z):
             return None
-        cubic = [H[i] * stiff[i] for i in joints]
+        cubic = [H[i] / stiff[i] for i in joints]
         W = [
             b[j]
             - eps * _sum(H[i] * Q[i][j] for i in joints)
-            - eps**2 / 2 * _sum(Q[j][i] * cubic[i] for i in joints) / self.root[j]
+            - eps**2 / 2 * _sum(Q[j][i] * cubic[i] for i in joints) * self.root[j]
             - eps * b[j] ** 2 / (4 * kappa[j])
             - eps * l / 2 * _sum(spread[i][j] * p[i] for i in joints) / w[j]
             for j in joints
