@@ -21,7 +21,7 @@ from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.proof import Proof
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 83, 85, 87, 90, 93, 95, 97))
-"""Shares of the falsified ε₀ that are tried one after the other; then the middle before the one that failed."""
+"""Shares of the falsified ε₀ that are tried one after the other; then the middle below the one that fails."""
 MAX_BOXES = 100_000
 """Of one share: as many as the checker judges in half a minute."""
 MORE = 1.01

@@ -9,7 +9,7 @@ and N does not depend on q. What C(q,h) does is symmetric, or cubic in h:
     |wᵀC(q,h)w| ≤ Σ_j |h_j| wᵀQ_j w,      |hᵀC(q,h)w| = |½ Σ_j w_j hᵀ(∂M/∂q_j)h| ≤ Σ_j |w_j| hᵀQ_j h.
 
 After σ = h and the damping are eliminated as in ``lyapcheck.check.loop``, with h_i² ≤ H_i |σ_i| and
-|σ_i w_j| ≤ ½(t σ_i² + w_j²/t), t = t_ij, one form in (w, p) is left for each e, with a multiplier l of p's bound:
+|σ_i w_j| ≤ ½(t σ_i² + w_j²/t), t = t_ij, one form in (w, p) is left for each e, with a multiplier l:
 
     wᵀWw − 2ε pᵀG w + ε pᵀZ p ≻ 0,      G = ½(I + l N) − ¼ ε B κ⁻¹,      Z = l U⁻¹ − ¼ ε² κ⁻¹,
     W = B − ε Σ_j |h_j| Q_j − ½ ε² Σ_i Q_ji H_i/t − ¼ ε B κ⁻¹ B,      κ_i = k̃_i − ½ ε Σ_j Q_ji H_i t,
