@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache, lru_cache
 from inspect import isabstract
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -137,6 +137,7 @@ def _one_class(cls: Any, data: Any, where: str) -> Any:
     return result
 
 
+@cache
 def members(base: type) -> dict[str, Any]:
     """The kinds of statement, rules or pieces of the checker by name; not what others derive."""
     result: dict[str, Any] = {}

@@ -12,6 +12,9 @@ from lyapcheck.check.codec import name_of
 from lyapcheck.check.judgement import Judgement, shortened
 from lyapcheck.check.refusal import Refused, plain
 from lyapcheck.check.statement import Piece, Proof, Statement
+from lyapcheck.check.verify import each_once
+
+__all__ = ["certificate_of", "decided_by", "each_once", "judged"]
 
 
 def certificate_of(content: bytes) -> tuple[Certificate, Any]:

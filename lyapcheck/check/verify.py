@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -26,6 +28,7 @@ class Accepted:
 
 Rule = Callable[[Any, Any], Accepted]
 RULES: dict[tuple[type[Statement], type[Proof]], Rule] = {}
+_SHOWN: ContextVar[dict[tuple[Statement, Proof], Accepted] | None] = ContextVar("shown", default=None)
 
 S = TypeVar("S", bound=Statement)
 P = TypeVar("P", bound=Proof)
@@ -46,6 +49,20 @@ def rule_for(kind: type[Statement], by: type[Proof]) -> Rule | None:
     return next((RULES[base, by] for base in kind.__mro__ if (base, by) in RULES), None)
 
 
+@contextmanager
+def each_once() -> Iterator[None]:
+    """Judge each pair of statement and proof once inside, also where others rest on it.
+
+    Soundness: a verdict depends on the pair alone. Only for pairs that the codec has read: what a script
+    derives from these classes may call itself equal to anything.
+    """
+    token = _SHOWN.set({})
+    try:
+        yield
+    finally:
+        _SHOWN.reset(token)
+
+
 def verify(statement: Statement, proof: Proof) -> Accepted:
     """What a proof shows about a statement.
 
@@ -63,6 +80,15 @@ def verify(statement: Statement, proof: Proof) -> Accepted:
         (``expressions.defined``), and on nothing that searches. Whatever goes wrong inside them, an overflow
         or a division by zero included, is a refusal.
     """
+    shown = _SHOWN.get()
+    if shown is None:
+        return _verified(statement, proof)
+    if (statement, proof) not in shown:
+        shown[statement, proof] = _verified(statement, proof)
+    return shown[statement, proof]
+
+
+def _verified(statement: Statement, proof: Proof) -> Accepted:
     try:
         statement.require_well_formed()
         judge = rule_for(type(statement), type(proof))

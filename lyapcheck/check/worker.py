@@ -39,14 +39,15 @@ def serve(limits: Limits) -> None:
     limited = _limit(limits)
     judging = import_module("lyapcheck.check.judging")  # now: it must find room within the limits
     _send(answers, {"limited": limited})
-    while line := requests.readline():
-        request = json.loads(line)
-        _limit_seconds(limits)
-        finding = asdict(judging.judged(requests.read(request["size"]), request["full"]))
-        last = _is_spent(limits)
-        _send(answers, {"finding": finding, "last": last})
-        if last:
-            return
+    with judging.each_once():
+        while line := requests.readline():
+            request = json.loads(line)
+            _limit_seconds(limits)
+            finding = asdict(judging.judged(requests.read(request["size"]), request["full"]))
+            last = _is_spent(limits)
+            _send(answers, {"finding": finding, "last": last})
+            if last:
+                return
 
 
 def _send(answers: IO[bytes], answer: dict[str, Any]) -> None:

@@ -17,6 +17,7 @@ from lyapcheck._types import Array
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
+    LargerKv,
     PositiveAndDecreasing,
     StateWitness,
     closed_loop_of,
@@ -57,6 +58,8 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
         return _by_state(loop, proof)
     if certifies(loop.tail, loop.eps0):
         return by_norms(loop)
+    if isinstance(proof, LargerKv):  # P is larger for a smaller K_v, so that the tree serves as it is
+        proof = proof.proof
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
         rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
         raise NotPrinted(f"a proof by {rule}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -14,15 +15,18 @@ import numpy as np
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon import EpsilonResult
+    from lyapcheck.check.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.search.proof import Proof as EpsilonProof
 
 MOST = 8
 """The largest m of the sliders."""
 POSTURES = 13
 SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
 """k_v of the map, N·m."""
-BOXES = 5_000
+BOXES = 30_000
 """Budget of branch and bound for one place of the map: every report has all its certificates judged again."""
 DIGITS = 3
 
@@ -86,7 +90,7 @@ def gain_map(
         goal: (n,) the step of each joint from rest at home, rad.
         scales: k_v, N·m, the same in every joint.
     """
-    return [_cell(model, one, Fraction(kv), goal) for _, one in sorted(sets.items()) for kv in scales]
+    return [cell for _, one in sorted(sets.items()) for cell in _row(model, one, scales, goal)]
 
 
 def map_path(cell: Data) -> str:
@@ -94,20 +98,43 @@ def map_path(cell: Data) -> str:
     return f"certificates/map/m{cell['m']}.kv{cell['kv']}.json"
 
 
-def _cell(model: RobotModel, one: GainSet, kv: Fraction, goal: Sequence[float]) -> Cell:
+def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[float]) -> list[Cell]:
+    """The places of one m: what is proved for a k_v serves smaller ones that have no larger ε₀ of their own.
+
+    So one tree of boxes is judged for many places.
+    """
     from lyapcheck.answers.epsilon import epsilon
+
+    cells: list[Cell] = []
+    served: EpsilonProof | None = None
+    for kv in sorted(map(Fraction, scales), reverse=True):
+        gains = _at(one, kv, model)
+        result = epsilon(gains, model, max_boxes=BOXES)
+        known = None if served is None else served.for_smaller(gains.kv)
+        if known is not None and known.accepted() and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
+            result = replace(result, certified=known.loop.eps0, proof=known)
+        served = result.proof
+        cells.append(_cell(result, model, kv, goal))
+    return cells[::-1]
+
+
+def _digits(result: EpsilonResult) -> Fraction:
+    """The ε₀ that the map would show, 0 for none."""
+    return Fraction(0) if result.certified is None else Fraction(map_eps0(result.certified))
+
+
+def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence[float]) -> Cell:
     from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.simulate.closed_loop import simulate
 
-    gains = _at(one, kv, model)
-    result = epsilon(gains, model, max_boxes=BOXES)
+    gains = result.gains
     run = simulate(gains, model, goal, stop=False)
     times = [math.nan if t is None else float(t) for t in run.settling]
     settling = max(times) if all(map(math.isfinite, times)) else None
     peaks = zip(run.peak_torque, model.torque_limit, strict=True)
     shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
     data = {
-        "m": one.m,
+        "m": gains.m,
         "kv": f"{float(kv):g}",
         "eps0": None if result.certified is None else map_eps0(result.certified),
         "settling": None if settling is None else float(f"{settling:.{DIGITS}g}"),
@@ -149,6 +176,33 @@ def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[Cell]:
         for one in cells
     )
     return cells if holds else []
+
+
+def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str, Certificate]:
+    """By names of gain sets the ε₀ that the map proves with a larger k_v: no tree of boxes is judged twice.
+
+    Args:
+        cells: of the map, in the order of k_v, judged in this process.
+        sets: the gain set of each m, of the K_p of the map.
+    """
+    from lyapcheck.check.certificate import judge
+    from lyapcheck.check.judging import certificate_of
+    from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
+    from lyapcheck.check.refusal import Refused
+
+    result: dict[str, Certificate] = {}
+    for cell in cells:
+        one = sets[cell.data["m"]]
+        if cell.certificate is None or one.name in result:
+            continue
+        of_cell, _ = certificate_of(cell.certificate.encode())
+        stated, proof = of_cell.statement, of_cell.proof
+        if isinstance(stated, Decreasing) and isinstance(proof, PositiveAndDecreasing):
+            for_set = replace(of_cell, statement=replace(stated, kv=one.kv), proof=LargerKv(stated.kv, proof))
+            with suppress(Refused):
+                judge(for_set)
+                result[one.name] = for_set
+    return result
 
 
 def holds_of(cell: Data, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:

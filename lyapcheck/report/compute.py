@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.proof import main_unnamed
-from lyapcheck.report.bench import Cell, map_path
+from lyapcheck.report.bench import map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -26,7 +26,7 @@ from lyapcheck.report.drawings import (
 )
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
-from lyapcheck.report.jobs import gains_job, map_job, proofs_job
+from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.report.kept import question, read, written
 from lyapcheck.report.model import Data, behind
 from lyapcheck.robots import load
@@ -35,7 +35,7 @@ from lyapcheck.temporary import pending
 if TYPE_CHECKING:
     from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
-    from lyapcheck.report.jobs import ProofsData
+    from lyapcheck.report.jobs import MapData, ProofsData
     from lyapcheck.report.notes import Notes
 
 Job = Future[Any]
@@ -70,15 +70,15 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, progress)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))
-    parts = [job.result() for job in jobs.sets]
+    mapped: MapData = jobs.map.result()
+    parts = [with_the_map(job.result(), mapped.for_sets) for job in jobs.sets]
     proofs: ProofsData = jobs.proofs.result()
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
     certificates: dict[str, str] = {}
-    for part in (*proofs.proofs, *parts):
-        certificates |= part.certificates
+    for made in [*(one.certificates for one in proofs.proofs), *(part.certificates for part in parts)]:
+        certificates |= made
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
-    places: list[Cell] = jobs.map.result()
-    certificates |= {map_path(one.data): one.certificate for one in places if one.certificate}
+    certificates |= {map_path(one.data): one.certificate for one in mapped.cells if one.certificate}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
@@ -93,7 +93,7 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        cells=[one.data for one in places],
+        cells=[one.data for one in mapped.cells],
         figures=figures,
         certificates=certificates,
     )

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
     from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.control.gains import GainSet
     from lyapcheck.report.bench import Cell
@@ -202,13 +203,36 @@ def goal_of(model: RobotModel) -> list[float]:
     return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
 
 
-def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> list[Cell]:
+@dataclass(frozen=True)
+class MapData:
+    """The places of the map, and by names of gain sets the certificates of ε₀ that it proves for them."""
+
+    cells: list[Cell]
+    for_sets: Mapping[str, Certificate]
+
+
+def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
     """The map over m and k_v, computed or that of the study."""
-    from lyapcheck.report.bench import gain_map, kept_map
+    from lyapcheck.check.verify import each_once
+    from lyapcheck.report.bench import for_the_sets, gain_map, kept_map
     from lyapcheck.robots import load
 
     model = load(robot)
-    return gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
+    with each_once():
+        cells = gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
+        return MapData(cells, for_the_sets(cells, sets))
+
+
+def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
+    """The same, resting on what the map proves where that is as good to the digits shown."""
+    from lyapcheck.check.kinds.decreasing import Decreasing
+
+    path, one = part.epsilon["certificates"].get("certified"), known.get(part.epsilon["name"])
+    if path is None or one is None or not isinstance(one.statement, Decreasing):
+        return part
+    if rounded(one.statement.eps0, up=False) != part.epsilon["certified"]:
+        return part
+    return replace(part, certificates={**part.certificates, path: one.text()})
 
 
 def _run_data(run: Run) -> RunData:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
+    LargerKv,
     PositiveAndDecreasing,
     statement_of,
 )
@@ -25,11 +27,15 @@ RateData = BoxTree | RadialBounds | LinkBounds
 
 @dataclass(frozen=True)
 class Proof:
-    """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it."""
+    """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it.
+
+    ``kv`` is a larger K_v if the data are for that.
+    """
 
     loop: ClosedLoop
     by: RateData
     inertia: Bisection | Links | LinksAtCorners
+    kv: tuple[Fraction, ...] = field(default=(), kw_only=True)
 
     @property
     def boxes(self) -> int:
@@ -44,7 +50,12 @@ class Proof:
     @property
     def certificate(self) -> Shown:
         """The proof as certificates bring it forward."""
-        return PositiveAndDecreasing(self.inertia, self.by)
+        proof = PositiveAndDecreasing(self.inertia, self.by)
+        return LargerKv(self.kv, proof) if self.kv else proof
+
+    def for_smaller(self, kv: tuple[Fraction, ...]) -> Proof:
+        """The same for a K_v of which no entry is larger."""
+        return replace(self, loop=replace(self.loop, kv=kv), kv=self.kv or self.loop.kv)
 
     def accepted(self, jobs: int = 1) -> bool:
         """Whether the checker accepts it, in so many processes."""

@@ -37,6 +37,7 @@ from lyapcheck.check.kinds.coriolis import (
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
+    LargerKv,
     PositiveAndDecreasing,
     StateWitness,
     closed_loop_of,
@@ -297,6 +298,8 @@ def of_the_loop() -> Iterator[Row]:
     for name in PROPERTIES:
         yield name.replace(" ", "-"), property_of(name, h), None
     yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
+    damped = PositiveAndDecreasing(Bisection(), BoxTree("."))
+    yield "larger-kv", replace(decreasing(UNIT, F(1, 10)), kv=(F(1, 2),)), LargerKv((F(1),), damped)
     yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
     yield "linked", LINKED, linked()
     yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness(*NO_ARM)

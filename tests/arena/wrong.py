@@ -237,6 +237,18 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("rate",), {"rule": "bisection"}, "no proof of dV/dt < 0"),
         (("inertia",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
     ],
+    ("Decreasing", "larger K_v"): [
+        (("kv",), [], "no K_v for a joint"),
+        (("kv",), ["1/4"], "a K_v that is smaller"),
+        (("kv",), [LARGE], "a K_v for which there is no proof"),
+        (("proof", "rate", "tree"), "", "no tree of boxes"),
+        (("proof", "inertia"), {"rule": "as is well known"}, "no proof of M ≻ 0"),
+        (
+            ("proof",),
+            {"rule": "state", "viscous": [], "parameters": [], "q": [], "e": [], "w": []},
+            "a state",
+        ),
+    ],
     ("Decreasing", "state"): [
         (("w",), ["0"], "the origin"),
         (("w",), [], "a state without rates"),

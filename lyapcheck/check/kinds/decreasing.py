@@ -6,7 +6,7 @@ References: ``reyes2019family`` (11), (12), (15).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
@@ -103,6 +103,15 @@ class PositiveAndDecreasing(Proof):
 
 
 @dataclass(frozen=True)
+class LargerKv(Proof):
+    """A proof of the same with a K_v that no entry of this one exceeds."""
+
+    rule = "larger K_v"
+    kv: tuple[Fraction, ...]
+    proof: PositiveAndDecreasing
+
+
+@dataclass(frozen=True)
 class StateWitness(Proof):
     """An arm within the ranges and a state of it at which dV/dt > 0."""
 
@@ -124,6 +133,19 @@ def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
         raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
     proof.rate.require_shown(loop)
     return Accepted("proved", weakest([positive, "enclosure"]))
+
+
+@rule(Decreasing, LargerKv)
+def by_larger_kv(statement: Decreasing, proof: LargerKv) -> Accepted:
+    """Soundness: V is without K_v, and dV/dt has it in K_v h(w) alone, which is K_v D w with 0 ≼ D ≼ L I.
+
+    A ``RateProof`` holds for every such D: with K_v' ≥ K_v for D' = D K_v/K_v', and K_v' D' = K_v D.
+    """
+    require(len(proof.kv) == len(statement.kv), "kv", len(proof.kv), "must be as many as in the statement")
+    for low, high in zip(statement.kv, proof.kv, strict=True):
+        require(0 < low <= high, "kv", low, f"must be above 0 and at most {high}")
+    grade = require_proved(replace(statement, kv=proof.kv), proof.proof, "the same with a larger K_v")
+    return Accepted("proved", grade)
 
 
 def mass_positive(statement: Decreasing) -> MassAbove:

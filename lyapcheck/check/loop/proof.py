@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
@@ -22,6 +22,9 @@ WORTH_SHARING = 20_000
 """Characters of a tree from which a second process pays for its start."""
 MORE_HALVINGS = 12
 """How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
+TRIES = 64
+SELDOM = 8
+"""After so many tries an evaluator that has shown less than one box in so many waits for smaller ones."""
 
 
 _JOBS = ContextVar("jobs", default=1)
@@ -93,14 +96,35 @@ def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
     if certifies(loop.tail, loop.eps0):
         return all(True for _ in boxes)  # the tree is read to its end, though no box need be judged
     with precision(BITS):
-        evaluators = Evaluator(loop, BALLS), CentredEvaluator(loop), Evaluator(loop, SPANS)
+        means = [
+            _Means(Evaluator(loop, BALLS)),
+            _Means(CentredEvaluator(loop)),
+            _Means(Evaluator(loop, SPANS)),
+        ]
         # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
         mine = (box for k, box in enumerate(boxes) if k // BLOCK % parts == part)
-        return all(_shown(evaluators, box) for box in mine)
+        return all(_shown(means, box) for box in mine)
 
 
-def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
-    """Whether P ≻ 0 is shown on a box, by one of the evaluators, cut further where that is needed.
+@dataclass
+class _Means:
+    """An evaluator, and how often it was tried and has shown a box."""
+
+    evaluator: Evaluator
+    tried: int = 0
+    succeeded: int = 0
+
+    def proves(self, box: Box, depth: int) -> bool:
+        """Whether P ≻ 0 is shown; not asked of a box that was hardly cut if the answer is seldom yes."""
+        if depth < 2 and self.tried >= TRIES and self.succeeded * SELDOM < self.tried:
+            return False
+        result = self.evaluator.proves(box)
+        self.tried, self.succeeded = self.tried + 1, self.succeeded + result
+        return result
+
+
+def _shown(means: list[_Means], box: Box) -> bool:
+    """Whether P ≻ 0 is shown on a box, by one of the means, cut further where that is needed.
 
     The side that is cut is the widest beside what it was at the start.
     """
@@ -108,11 +132,11 @@ def _shown(evaluators: tuple[Evaluator, ...], box: Box) -> bool:
     while stack:
         part, depth = stack.pop()
         # each costs several times what the one before does: halves are tried without spans first
-        if any(evaluator.proves(part) for evaluator in evaluators[: 2 + (depth > 0)]):
+        if any(one.proves(part, depth) for one in means[: 2 + (depth > 0)]):
             continue
         if depth == MORE_HALVINGS:
             return False
-        whole = [high - low for low, high in evaluators[0].loop.start]
+        whole = [high - low for low, high in means[0].evaluator.loop.start]
         side = max(range(len(part)), key=lambda i: (part[i][1] - part[i][0]) / whole[i])
         stack += [(half, depth + 1) for half in halves(part, side)]
     return True
