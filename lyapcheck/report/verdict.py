@@ -56,10 +56,13 @@ def badges(report: Report) -> tuple[Badge, ...]:
         held = set(report.verdicts((report.notes.paper.theorem,), "published")) == {"proved"}
         proof = Badge("printed proof", "holds", "good") if held else Badge("printed proof", "open", "open")
     judged = [row for row in report.gate if applies(row)]
-    passed = sum(row["verdict"] == "accepted" for row in judged)
-    tone = "good" if passed == len(judged) else "warn"
+    passed = [row for row in judged if row["verdict"] == "accepted"]
+    failed = [row for row in judged if row not in passed]
+    tone = "warn" if failed else "good"
     slips = len(report.weighing("C"))
-    tables = Badge("tables", f"{passed} of {len(judged)} gain sets pass, {slips} misprints", tone)
+    parts = (passed, "passes", "pass"), (failed, "does not", "do not")
+    words = [f"{_members(rows)} {one if len(rows) == 1 else more}" for rows, one, more in parts if rows]
+    tables = Badge("tables", f"{', '.join(words)}; {slips} misprints", tone)
     differs = report.weighing("D")
     if report.sensitivity is None:
         experiment = Badge("experiment", "not compared", "open")
@@ -173,6 +176,10 @@ def _gains(report: Report) -> tuple[str, ...]:
     rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
     subject = "" if report.own else "Gains of Table 2: "
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
+
+
+def _members(rows: Sequence[Data]) -> str:
+    return f"m = {and_list([str(row['m']) for row in rows])}"
 
 
 def _named(rows: Sequence[Data]) -> str:

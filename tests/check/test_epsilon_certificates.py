@@ -14,6 +14,7 @@ import pytest
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
+from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -184,3 +185,27 @@ def test_an_unbounded_function_has_nothing_certified() -> None:
     result = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
     assert (result.certified, certificates(result)) == (None, {})
     assert "unbounded" in result.reasons["certified"]
+
+
+def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(
+    pair: tuple[Certificate, Certificate],
+) -> None:
+    """K_v brakes alone: for less of it, of more than nothing, in each joint; a joint with more is refused."""
+    certified = pair[0]
+    stated, proof = certified.statement, certified.proof
+    assert isinstance(stated, Decreasing)
+    assert isinstance(proof, PositiveAndDecreasing)
+
+    def judged(kv: tuple[Fraction, ...], larger: tuple[Fraction, ...] = stated.kv) -> str:
+        other = replace(certified, statement=replace(stated, kv=kv), proof=LargerKv(larger, proof))
+        return judge(reread(other)).verdict
+
+    first, second = stated.kv
+    assert judged((first, second)) == judged((first / 1000, second / 3)) == "proved"
+    for worse in ((first * F(1001, 1000), second), (first / 2, second * 2), (F(0), second), (-first, second)):
+        with pytest.raises(Refused, match="kv"):
+            judged(worse)
+    with pytest.raises(Refused, match="must be as many"):
+        judged((first, second), (first,))
+    with pytest.raises(Refused):
+        judged(stated.kv, (first * 10**9, second))

@@ -13,6 +13,7 @@ import flint
 import pytest
 
 import lyapcheck
+import lyapcheck.check.verify as verify_module
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of
@@ -21,8 +22,12 @@ from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.guard import Guard
 from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.judging import judged
+from lyapcheck.check.kinds.constant import Constant, SeparateBalls
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.render import as_json, text
+from lyapcheck.check.statement import Relation
+from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.output.formats import JudgedFormat
@@ -345,6 +350,24 @@ def shows(file, verdict, *parts):
     """A certificate that was judged, with what it decides."""
     finding = Judgement(digest=file, verdict=verdict, statement="S", shows=parts)
     return Checked(Document(file, Path(file)), finding, "accepted", "", "exact")
+
+
+def test_a_pair_of_statement_and_proof_is_judged_once_and_a_refused_one_never_taken(monkeypatch):
+    """Equal pairs alone: the same proof of another statement is judged by itself, inside or not."""
+    asked = []
+    plain = verify_module._verified
+    monkeypatch.setattr(verify_module, "_verified", lambda *pair: asked.append(pair) or plain(*pair))
+    true, false = (Constant(Relation(("num", "0"), "<", ("num", right))) for right in ("1", "0"))
+    proof = SeparateBalls(128)
+    with each_once():
+        assert verify(true, proof) == verify(true, proof)
+        for _ in range(2):
+            with pytest.raises(Refused):
+                verify(false, proof)
+    assert asked == [(true, proof), (false, proof), (false, proof)]
+    verify(true, proof)
+    verify(true, proof)
+    assert len(asked) == 5
 
 
 def test_proved_and_refuted_is_an_alarm_that_names_both(monkeypatch):
