@@ -353,20 +353,19 @@ def shows(file, verdict, *parts):
 
 
 def test_a_pair_of_statement_and_proof_is_judged_once_and_a_refused_one_never_taken(monkeypatch):
-    """Equal pairs alone: the same proof of another statement is judged by itself, inside or not."""
     asked = []
     plain = verify_module._verified
     monkeypatch.setattr(verify_module, "_verified", lambda *pair: asked.append(pair) or plain(*pair))
-    true, false = (Constant(Relation(("num", "0"), "<", ("num", right))) for right in ("1", "0"))
-    proof = SeparateBalls(128)
+    stated = Constant(Relation(("num", "0"), "<", ("num", "1")))
+    proof, no_proof = SeparateBalls(128), SeparateBalls(1)
     with each_once():
-        assert verify(true, proof) == verify(true, proof)
+        assert verify(stated, proof) == verify(stated, proof)
         for _ in range(2):
             with pytest.raises(Refused):
-                verify(false, proof)
-    assert asked == [(true, proof), (false, proof), (false, proof)]
-    verify(true, proof)
-    verify(true, proof)
+                verify(stated, no_proof)
+    assert asked == [(stated, proof), (stated, no_proof), (stated, no_proof)]
+    verify(stated, proof)
+    verify(stated, proof)
     assert len(asked) == 5
 
 
