@@ -11,6 +11,8 @@ from lyapcheck.report.page.drawing import figure
 from lyapcheck.report.text import letter, member_words, short_number, span_words
 
 FOLDED = ("C", "D")
+NEAR = 0.05
+"""Sides that differ by less than this share of each other are told apart by their difference."""
 
 
 def findings_section(report: Report) -> Markup:
@@ -97,7 +99,8 @@ def _witness(witness: Witness) -> Markup:
     )
     low, high = float(witness.left[0]), float(witness.right[0])
     if low * high > 0 and witness.operator != "=":
-        sides += f" (ratio {low / high:.3g})"
+        ratio = low / high
+        sides += f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
     title = "A small witness" if witness.small else "A witness"
     return element(
         "div",
