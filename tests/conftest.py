@@ -6,15 +6,16 @@ import os
 import sys
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from lyapcheck import store
 from tests.helpers.one_process import one_process
 
 # The same properties in both; ``make test-slow`` looks at more examples. No deadlines: how long an example
 # takes says more of the machine than of the code.
-settings.register_profile("fast", deadline=None, max_examples=10)
-settings.register_profile("thorough", deadline=None, max_examples=400)
+NO_CLOCK = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("fast", NO_CLOCK, max_examples=10)
+settings.register_profile("thorough", NO_CLOCK, max_examples=400)
 settings.load_profile("fast")
 
 # Each of the many processes that tests start would else compile the whole package for itself.
