@@ -10,6 +10,8 @@ MAX_NESTING = 400
 """Levels of objects and lists; an expression may have 300 of them."""
 MAX_ARM = 9
 """Joints of an arm."""
+MOST_CORNERS = 256
+"""Of the ranges of an arm's parameters."""
 SHOWN = 300
 """Characters of a statement, or of its author's words, unless the whole is asked for."""
 

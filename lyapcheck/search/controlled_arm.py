@@ -12,9 +12,9 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
+from lyapcheck.check.loop.affine import corners_of
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.decay.speeds import slowed
-from lyapcheck.check.loop.links import corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error

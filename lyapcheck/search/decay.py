@@ -55,7 +55,7 @@ def settling_bound(
     T = Σ (v_k − v_{k+1})/φ_k over levels of V from V at the start down to min k_pi U(δ).
 
     Args:
-        controlled: gains and arm, at nominal numbers.
+        controlled: gains and arm, at nominal numbers or over ranges.
         e0: (n,) q_d − q at the start, rad; it holds for all starts that are no farther, joint by joint.
         w0: (n,) rates at the start, rad/s, and likewise; rest if missing.
         delta: δ > 0, rad.
@@ -67,7 +67,7 @@ def settling_bound(
     Raises:
         InputError: an unbounded h, ranges, or values that are not finite or of the wrong number.
 
-    Soundness: for (11) at exactly the nominal numbers; the checker has accepted the statement.
+    Soundness: for (11) at exactly the nominal numbers, or at all in the ranges; the checker has accepted it.
 
     References: ``reyes2019family`` (11), (12), (15).
     """
@@ -97,7 +97,7 @@ def disturbance_bound(
     """A level of V, and with it errors, that every motion from a start comes down to under a disturbance.
 
     Args:
-        controlled: gains and arm, at nominal numbers.
+        controlled: gains and arm, at nominal numbers or over ranges.
         e0: (n,) q_d − q at the start, rad; it holds for all starts that are no farther, joint by joint.
         w0: (n,) rates at the start, rad/s, and likewise; rest if missing.
         torque: (n,) bounds of a torque of any sign, N·m; none if empty.
@@ -170,7 +170,8 @@ class _Wanted:
         largest, last = (_short(estimate.reach(level)) for level in (result.envelope[0][1], result.level))
         statement = Settling(
             mass=loop.arm.mass,
-            viscous=loop.arm.viscous,
+            viscous=loop.friction,
+            parameters=loop.parameters,
             family=loop.family,
             m=loop.m,
             kp=loop.kp,

@@ -6,16 +6,22 @@ from fractions import Fraction
 from math import degrees
 
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
+from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.search.controlled_arm import ControlledArm
 
 
 def not_positive(controlled: ControlledArm) -> str:
-    """Why nothing is certified of an arm whose M(q) ≻ 0 is not proved; empty where it is."""
+    """Why nothing is certified of an arm whose M(q) ≻ 0 is not proved over its ranges; empty where it is."""
     from lyapcheck.claims.procedures.inertia import find_mass_above
 
-    statement = MassAbove(controlled.arm.mass, (), Fraction(0))
+    loop = controlled.loop(Fraction(1))
+    try:
+        at_corners(loop)
+    except Refused as refusal:
+        return f"no bounds over these ranges: {refusal}; vary fewer numbers, such as masses and friction"
+    statement = MassAbove(loop.arm.mass, loop.parameters, Fraction(0))
     try:
         if verify(statement, controlled.inertia_proof).verdict == "proved":
             return ""

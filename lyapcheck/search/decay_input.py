@@ -26,8 +26,6 @@ def start_of(
     if not controlled.family.bounded:
         rule = f"{controlled.gains.name} has an unbounded h, of which no margin is known"
         raise argument_error("gains", controlled.gains.name, rule, "choose gains of a bounded family")
-    if controlled.ranges:
-        raise argument_error("ranges", "", "bounds are for the nominal arm only", "leave the ranges out")
     rates = (0.0,) * controlled.n if w0 is None else w0
     problems = [*_vector("e0", e0, controlled.n, LARGEST), *_vector("w0", rates, controlled.n, FASTEST)]
     if not 0.0 < delta <= LARGEST:

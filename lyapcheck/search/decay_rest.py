@@ -34,8 +34,9 @@ def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence
         return None
     shown = AtRest(Resting(gains.family, gains.m, kp, held, errors), AtBounds())
     if not any(torque):
-        arm = controlled.arm
-        whole = ComesToRest(arm.mass, arm.viscous, gains.family, gains.m, kp, tuple(gains.kv), held, errors)
+        loop = controlled.loop(Fraction(1))
+        arm = loop.arm.mass, loop.friction, loop.parameters
+        whole = ComesToRest(*arm, gains.family, gains.m, kp, tuple(gains.kv), held, errors)
         shown = AtRest(whole, EnergyFalls(controlled.inertia_proof))
     return shown if accepted(shown.statement, shown.proof) else None
 

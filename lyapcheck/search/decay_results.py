@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.at_corners import RateAtCorners
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
@@ -47,8 +48,9 @@ class Shown:
         """What it rests on."""
         parts = [(part.friction, part.stiffness, rate, eps0) for part, rate, eps0 in self._parts()]
         frictions, stiffnesses, rates, eps0s = zip(*parts, strict=True)
-        boxes = sum(getattr(rate, "tree", "").count(".") for rate in rates)
-        boxed = all(isinstance(rate, BoxTree) for rate in rates)
+        every = [one for rate in rates for one in (rate.each if isinstance(rate, RateAtCorners) else [rate])]
+        boxes = sum(getattr(rate, "tree", "").count(".") for rate in every)
+        boxed = all(isinstance(rate, BoxTree) for rate in every)
         by = "branch and bound" if boxed else "bounds in ‖e‖ alone"
         return Provenance(by, boxes, min(eps0s), max(frictions), max(stiffnesses), len(parts))
 
@@ -82,7 +84,7 @@ class MotionBound:
     Args:
         name: of the gain set.
         m: its member, if its family has members.
-        robot: name of the arm, at nominal numbers.
+        robot: name of the arm, at nominal numbers or over ranges.
         shown: what the checker accepted; none where it accepted nothing.
         reason: why there is nothing.
     """

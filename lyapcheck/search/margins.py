@@ -10,8 +10,10 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
+from lyapcheck.check.kinds.at_corners import RateAtCorners
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.branch_and_bound import certify
@@ -40,7 +42,7 @@ class Attempt:
     """A margin, and untrusted data for dV/dt < 0 of its reduced closure."""
 
     margin: Margin
-    by: BoxTree | RadialBounds
+    by: BoxTree | RadialBounds | RateAtCorners
 
 
 def candidates(
@@ -49,7 +51,7 @@ def candidates(
     """One margin for each η, with the largest ε₀ that samples, or the bounds in ‖e‖, allow.
 
     Args:
-        controlled: gains and nominal arm, with a bounded h.
+        controlled: gains and arm, with a bounded h.
         disturbed: whether damping has to be left for disturbances.
         shares: the η.
     """
@@ -75,7 +77,7 @@ def margin_at(
 ) -> Margin:
     """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
     loop = controlled.loop(eps0)
-    rows = zip(loop.arm.viscous, loop.kp, strict=True)
+    rows = zip((low for low, _ in loop.friction), loop.kp, strict=True)
     split = max(friction * b * eps0 / (4 * LOSS * STIFFNESS * k) for b, k in rows)
     return Margin(loop, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
 
@@ -90,16 +92,23 @@ def attempts(controlled: ControlledArm, margin: Margin, max_boxes: int = MAX_BOX
             yield Attempt(tried, by)
 
 
-def _data(controlled: ControlledArm, margin: Margin, max_boxes: int) -> BoxTree | RadialBounds | None:
-    """Untrusted data for the reduced closure."""
+def _data(
+    controlled: ControlledArm, margin: Margin, max_boxes: int
+) -> BoxTree | RadialBounds | RateAtCorners | None:
+    """Untrusted data for the reduced closure, at each corner where parameters range."""
     loop = margin.reduced
     if not loop.admissible:
         return None
-    if controlled.n <= MOST_JOINTS:
-        outcome = certify(Problem(loop), max_boxes)
-        return BoxTree(outcome.tree) if outcome.proved else None
-    data = reduced_radial(margin)
-    return data
+    found: list[BoxTree | RadialBounds] = []
+    for corner in at_corners(loop):
+        if controlled.n > MOST_JOINTS:
+            found.append(reduced_radial(margin))
+            continue
+        outcome = certify(Problem(corner), max_boxes)
+        if not outcome.proved:
+            return None
+        found.append(BoxTree(outcome.tree))
+    return RateAtCorners(tuple(found)) if loop.parameters else found[0]
 
 
 def reduced_radial(margin: Margin) -> RadialBounds:
@@ -121,18 +130,20 @@ def _root_below(value: Fraction) -> Fraction:
 def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
     """Whether P ≻ 0 at random q and e of all sizes."""
     random = np.random.default_rng(SEED)
-    angles = len(controlled.loop(Fraction(1)).angles)
-    q = random.uniform(-np.pi, np.pi, (SAMPLES, angles))
+    angles = controlled.loop(Fraction(1)).angles
+    q = random.uniform(-np.pi, np.pi, (SAMPLES, len(angles)))
     e = random.normal(size=(SAMPLES, controlled.n))
     e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
     if controlled.within:
         q, e = q[::NEAR], e[::NEAR]
         e = np.clip(e, *(sign * np.array(controlled.within, dtype=float) for sign in (-1.0, 1.0)))
-    points = np.hstack((q, e))
-    boxes = np.stack((points, points), axis=1)
+
+    def holds(loop: ClosedLoop) -> bool:
+        points = np.hstack((q[:, [angles.index(joint) for joint in loop.angles]], e))
+        return bool(Problem(loop).proved(np.stack((points, points), axis=1)).all())
 
     def allows(loop: ClosedLoop) -> bool:
-        return loop.admissible and bool(Problem(loop).proved(boxes).all())
+        return loop.admissible and all(map(holds, at_corners(loop)))
 
     return allows
 
@@ -142,7 +153,8 @@ def _by_bounds(inertia: RadialBounds) -> Callable[[ClosedLoop], bool]:
 
     def allows(loop: ClosedLoop) -> bool:
         rows = zip(loop.arm.viscous, inertia.weights, strict=True)
-        return holds_radially(loop, _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows)))
+        data = _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows))
+        return loop.admissible and all(holds_radially(corner, data) for corner in at_corners(loop))
 
     return allows
 

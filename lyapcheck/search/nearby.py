@@ -17,7 +17,6 @@ import numpy as np
 
 from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.kinds.decreasing import statement_of
-from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.numbers.balls import precision, to_arb
@@ -26,7 +25,7 @@ from lyapcheck.search.closed_loop import closed_loop_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_below
 from lyapcheck.search.falsify import Witness, promising, smallest_refuted
-from lyapcheck.search.phases import floor_below, lightest
+from lyapcheck.search.phases import floor_below, light_proof, lightest
 from lyapcheck.search.proof import Proof, RateData
 from lyapcheck.search.sample import States, fastest_directions, sample, slow_sample, spread
 from lyapcheck.search.worst_states import finite_states, slow_states
@@ -105,7 +104,8 @@ class NearbyProof(Proof):
     def certificate(self) -> SlowerAndNearer:
         """The proof as certificates bring it forward."""
         floors = self.floors or (Fraction(0),) * self.loop.n
-        lightness = (Bisection(),) * len(self.lightest)
+        by = light_proof(self.loop.arm.mass, self.loop.parameters)
+        lightness = (by,) * len(self.lightest)
         return SlowerAndNearer(self.inertia, floors, self.by, self.lightest, lightness)
 
 

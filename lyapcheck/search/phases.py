@@ -14,9 +14,11 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck._types import SEED, Progress
+from lyapcheck._types import SEED, Array, Progress
+from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.inertia import Bisection, Mass, MassAbove
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin, lightened
+from lyapcheck.check.loop.affine import corners_of, is_affine
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate, reach_of
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded
@@ -25,6 +27,7 @@ from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_above, short_below
@@ -55,7 +58,7 @@ class Phases:
     """What is known when some phases are over.
 
     Args:
-        controlled: gains and arm, at nominal numbers.
+        controlled: gains and arm, at nominal numbers or over ranges.
         start: bounds of |e_i| and |w_i|.
         goal: rad.
         max_boxes: the budget of each attempt.
@@ -167,7 +170,8 @@ class Phases:
         within = [(time, self._kept(level)) for time, level in ends]
         statement = StaysWithin(
             mass=loop.arm.mass,
-            viscous=loop.arm.viscous,
+            viscous=loop.friction,
+            parameters=loop.parameters,
             family=loop.family,
             m=loop.m,
             kp=loop.kp,
@@ -177,7 +181,7 @@ class Phases:
             within=(*within, (self.time, (self.goal,) * n)),
             after=self._after(),
         )
-        lightness = tuple(Bisection() for x in self.lightest if x)
+        lightness = tuple(light_proof(loop.arm.mass, loop.parameters) for x in self.lightest if x)
         proof = FallingPhases(self.controlled.inertia_proof, self.lightest, lightness, tuple(self.made))
         return Shown(statement, proof)
 
@@ -216,7 +220,10 @@ def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
     loop = controlled.loop(Fraction(1))
     mass, parameters = loop.arm.mass, loop.parameters
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, controlled.n))
-    least = 1.0 / np.diagonal(np.linalg.inv(controlled.numeric.mass(q)), axis1=1, axis2=2).max(axis=0)
+    least = np.min(
+        [1.0 / np.diagonal(np.linalg.inv(M), axis1=1, axis2=2).max(axis=0) for M in _masses(controlled, q)],
+        axis=0,
+    )
     found = []
     for joint, inertia in enumerate(least.tolist()):
         tried = (short_below(Fraction(inertia) * share) for share in SHARES)
@@ -225,9 +232,24 @@ def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
     return tuple(found)
 
 
+def _masses(controlled: ControlledArm, q: Array) -> list[Array]:
+    """M at many angles, at each corner of its ranges."""
+    plant = controlled.ranged
+    corners = corners_of(controlled.loop(Fraction(1)).parameters)
+    arms = (plant.fixed(**dict(zip(plant.parameters, corner, strict=True))) for corner in corners)
+    return [NumericModel(arm).mass(q) for arm in arms]
+
+
+def light_proof(mass: Mass, parameters: tuple[Ends, ...]) -> Bisection | MassAtCorners:
+    """What shows such bounds: boxes of angles, at each corner of the ranges if M is affine in parameters."""
+    count = len(list(corners_of(parameters)))
+    return MassAtCorners((Bisection(),) * count) if parameters and is_affine(mass, len(mass)) else Bisection()
+
+
 def _shown(mass: Mass, parameters: tuple[Ends, ...]) -> bool:
     """Whether the checker sees at once that a matrix is positive definite throughout."""
+    above = MassAbove(mass, parameters, Fraction(0))
     try:
-        return verify(MassAbove(mass, parameters, Fraction(0)), Bisection()).verdict == "proved"
+        return verify(above, light_proof(mass, parameters)).verdict == "proved"
     except Refused:
         return False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from lyapcheck._types import SEED, Array
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.radial import BITS, Inequality, Parts, RadialBounds, Table
 from lyapcheck.check.numbers.balls import precision
@@ -80,25 +82,26 @@ def holds_radially(loop: ClosedLoop, data: RadialBounds) -> bool:
 
 def radial_data(controlled: ControlledArm) -> RadialBounds | None:
     """Weights, μ, ν and the tree behind them: the tightest that the checker accepts within the budget."""
-    loop = controlled.loop(Fraction(1))
+    loops = at_corners(controlled.loop(Fraction(1)))
     # where boxes of the leading angles are too many, all angles are bounded by the sizes of their harmonics
-    for angles in (_leading_angles(loop), ()):
-        result = _Attempts(loop, angles).tightest()
+    for angles in (_leading_angles(loops[0]), ()):
+        result = _Attempts(loops, angles).tightest()
         if result is not None:
             return result
     return None
 
 
 class _Attempts:
-    """Trees of boxes of some angles for ever tighter μ."""
+    """Trees of boxes of some angles for ever tighter μ, of one arm or of it at all corners of its ranges."""
 
-    def __init__(self, loop: ClosedLoop, angles: tuple[int, ...]) -> None:
-        weights = tuple(_root_below(low) for low, _ in loop.friction)
-        self.loop = loop
+    def __init__(self, loops: Sequence[ClosedLoop], angles: tuple[int, ...]) -> None:
+        weights = tuple(_root_below(low) for low, _ in loops[0].friction)
+        self.loops = loops
         # μ and ν do not matter yet
         self.blank = RadialBounds(weights, Fraction(1), Fraction(1), angles, ".", CUTS)
-        self.parts = Parts(loop, self.blank)
-        self.largest = Fraction(_largest(self.parts))
+        parts = [Parts(loop, self.blank) for loop in loops]
+        self.largest = Fraction(max(map(_largest, parts)))
+        self.far = max(part.far for part in parts)
 
     def tightest(self) -> RadialBounds | None:
         """What resists a small ν resists it beside any μ, so the loosest μ shows first which ν can be had."""
@@ -110,26 +113,28 @@ class _Attempts:
 
     def tried(self, share: Fraction, margin: Fraction) -> RadialBounds | None:
         """The data with a tree, if one was found within the budget."""
-        mu = _short(self.largest * margin + self.parts.far)
-        lowest = min(_short(self.largest * share + self.parts.far), mu)
+        mu = _short(self.largest * margin + self.far)
+        lowest = min(_short(self.largest * share + self.far), mu)
         data = replace(self.blank, inertia=mu, lowest=lowest)
-        tree = _tree(self.loop, data)
+        tree = _tree(self.loops, data)
         return None if tree is None else replace(data, tree=tree)
 
 
-def _tree(loop: ClosedLoop, data: RadialBounds) -> str | None:
-    """A tree of boxes of the chosen angles that shows μ, or ``None`` within the budget."""
+def _tree(loops: Sequence[ClosedLoop], data: RadialBounds) -> str | None:
+    """A tree of boxes of the chosen angles that shows μ of every loop, or ``None`` within the budget."""
     with precision(BITS):
-        parts = Parts(loop, data)
+        of_each = [Parts(loop, data) for loop in loops]
 
         def prove(boxes: Array) -> NDArray[np.bool_]:
-            proved = _between(parts, boxes)
-            # balls are wider than intervals: what the checker would refuse is halved once more
-            proved[proved] = [parts.shown_over(_sides(box)) for box in boxes[proved]]
+            proved = np.ones(len(boxes), dtype=np.bool_)
+            for parts in of_each:
+                proved[proved] = _between(parts, boxes[proved])
+                # balls are wider than intervals: what the checker would refuse is halved once more
+                proved[proved] = [parts.shown_over(_sides(box)) for box in boxes[proved]]
             return proved
 
         if not data.angles:
-            return "." if parts.shown_over(()) else None
+            return "." if all(parts.shown_over(()) for parts in of_each) else None
         count = len(data.angles)
         start = np.stack([np.full(count, -PI_ABOVE), np.full(count, PI_ABOVE)])[None]
         return cover(start, prove, _widest, MAX_BOXES).tree or None

@@ -125,8 +125,47 @@ ON_SETTLING: list[Attack] = [
         [(at(S, "torque", 0), "-1/100")],
         "a negative bound of the torque",
     ),
-    ("settle-no-viscous", "ext.settling", [(at(S, "viscous", 0), "0")], "no friction"),
-    ("settle-driven", "ext.settling", [(at(S, "viscous", 0), "-1")], "friction that drives"),
+    ("settle-no-viscous", "ext.settling", [(at(S, "viscous", 0), ["0", "0"])], "no friction"),
+    ("settle-driven", "ext.settling", [(at(S, "viscous", 0), ["-1", "-1"])], "friction that drives"),
+    *(
+        (f"ranged-{what}-{name}", f"ext.{name}-ranged", [(at(S, *place), value)], why)
+        for name in ("settling", "phases")
+        for what, place, value, why in (
+            ("less", ("viscous", 0), ["1/2", "6/5"], "friction below that of the proof"),
+            ("more", ("viscous", 0), ["1", "20"], "more friction than the stiffness pays for"),
+            ("back", ("viscous", 0), ["6/5", "1"], "an empty range of friction"),
+            ("heavy", ("parameters", 0), ["9/10", "3/2"], "inertia above μ"),
+            ("light", ("parameters", 0), ["-1", "1"], "inertia that may vanish"),
+            ("empty", ("parameters", 0), ["1", "9/10"], "an empty range of inertia"),
+            ("unranged", ("parameters",), [], "a parameter without a range"),
+        )
+    ),
+    (
+        "ranged-one-corner",
+        "ext.settling-ranged",
+        [(at(P, "decreasing", "rate", "each", 1), None)],
+        "no proof at one corner",
+    ),
+    ("ranged-no-corner", "ext.settling-ranged", [(at(P, "decreasing", "rate", "each"), [])], "no corner"),
+    (
+        "ranged-stopping",
+        "ext.stopping-ranged",
+        [(at(S, "viscous", 0), ["0", "1"])],
+        "friction that may vanish",
+    ),
+    ("ranged-massless", "ext.stopping-ranged", [(at(S, "parameters", 0), ["-1", "1"])], "inertia below 0"),
+    *(
+        (
+            f"ranged-{name}-square",
+            f"ext.{name}-ranged",
+            [(at(S, "mass", 0, 0, 0, 0), [0, 0, 2])],
+            "M that bends",
+        )
+        for name in ("settling", "phases")
+    ),
+    ("corners-mass", "ext.mass-at-corners", [(at(S, "parameters", 0), ["1/4", "1"])], "a lighter corner"),
+    ("corners-mass-square", "ext.mass-at-corners", [(at(S, "mass", 0, 0, 0, 0), [0, 0, 2])], "M that bends"),
+    ("corners-mass-none", "ext.mass-at-corners", [(at(P, "each"), [])], "no corner"),
     ("settle-kp", "ext.settling", [(at(S, "kp", 0), "-1")], "a negative stiffness"),
     ("settle-kp-soft", "ext.settling", [(at(S, "kp", 0), "1/10")], "a softer controller"),
     ("settle-kv", "ext.settling", [(at(S, "kv", 0), "-1")], "negative damping"),

@@ -12,10 +12,12 @@ from dataclasses import replace
 from fractions import Fraction as F
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from lyapcheck.check.certificate import About, Certificate
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.agrees import Agrees, Corners
+from lyapcheck.check.kinds.at_corners import MassAtCorners, RateAtCorners
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.chain import (
     ChainAbove,
@@ -62,7 +64,7 @@ from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWit
 from lyapcheck.check.kinds.property import PROPERTIES
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
-from lyapcheck.check.kinds.stopping import ComesToRest
+from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.radial import RadialBounds
@@ -193,7 +195,8 @@ REDUCED = RadialBounds((F(4, 5),), F(8, 5), F(0), (), ".", (F(0), F(1)))
 """At three quarters of the friction."""
 SETTLING = Settling(
     mass=((UNIT,),),
-    viscous=(F(1),),
+    viscous=((F(1), F(1)),),
+    parameters=(),
     family="tanh",
     m=None,
     kp=(F(1),),
@@ -238,6 +241,7 @@ SECOND = replace(
 STAYS_WITHIN = StaysWithin(
     mass=SETTLING.mass,
     viscous=SETTLING.viscous,
+    parameters=(),
     family="tanh",
     m=None,
     kp=SETTLING.kp,
@@ -249,7 +253,26 @@ STAYS_WITHIN = StaysWithin(
 )
 PHASES = FallingPhases(Bisection(), (F(9, 10),), (Bisection(),), (FIRST, SECOND))
 STOPPING = ComesToRest(
-    SETTLING.mass, SETTLING.viscous, "tanh", None, SETTLING.kp, SETTLING.kv, (F(1, 2),), (F(3, 5),)
+    SETTLING.mass, SETTLING.viscous, (), "tanh", None, SETTLING.kp, SETTLING.kv, (F(1, 2),), (F(3, 5),)
+)
+RANGING: dict[str, Any] = {
+    "mass": (((((0, 0, 1), F(1)),),),),
+    "viscous": ((F(1), F(6, 5)),),
+    "parameters": ((F(9, 10), F(1)),),
+}
+"""The same joint with ranges for inertia and friction."""
+RANGED_LEVELS = replace(
+    LEVELS, decreasing=PositiveAndDecreasing(MassAtCorners((Bisection(),) * 2), RateAtCorners((REDUCED,) * 2))
+)
+RANGED_PHASES = replace(
+    PHASES,
+    positive=MassAtCorners((Bisection(),) * 2),
+    lightest=(F(4, 5),),
+    lightness=(MassAtCorners((Bisection(),) * 2),),
+    phases=tuple(
+        replace(phase, rate=RateAtCorners((BoxTree("."),) * 2))
+        for phase in (FIRST, replace(SECOND, floors=(F(17, 20),)))
+    ),
 )
 RESTING = Resting("hyperbolic", 2, (F(10), F(5)), (F(2), F(5)), (F(3, 5), None))
 
@@ -314,6 +337,11 @@ def of_the_loop() -> Iterator[Row]:
     pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)
     yield "pushed", pushed, replace(LEVELS, slack=F(1, 5))
     yield "phases", STAYS_WITHIN, PHASES
+    yield "settling-ranged", replace(SETTLING, **RANGING), RANGED_LEVELS
+    yield "phases-ranged", replace(STAYS_WITHIN, **RANGING), RANGED_PHASES
+    yield "stopping-ranged", replace(STOPPING, **RANGING), EnergyFalls(Bisection())
+    mass_range = MassAbove(RANGING["mass"], RANGING["parameters"], F(1, 2))
+    yield "mass-at-corners", mass_range, MassAtCorners((Bisection(),) * 2)
     yield "stopping", STOPPING, None
     yield "not-stopping", replace(STOPPING, errors=(F(1, 2),)), None
     yield "resting", RESTING, None

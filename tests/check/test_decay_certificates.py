@@ -114,8 +114,8 @@ FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
     ("smaller errors on the way", put(["1/2", "1"], "statement", "largest_errors"), "allows at most"),
     ("a farther start", put(["1", "8/5"], "statement", "errors_at_start"), "where V may start"),
     ("a faster start", put(["1", "0"], "statement", "rates_at_start"), "where V may start"),
-    ("far more friction", put(["300", "7/40"], "statement", "viscous"), "."),
-    ("less friction", put(["2", "7/40"], "statement", "viscous"), "."),
+    ("far more friction", put([["300", "300"], ["7/40", "7/40"]], "statement", "viscous"), "."),
+    ("less friction", put([["2", "2"], ["7/40", "7/40"]], "statement", "viscous"), "."),
     ("another stiffness", put(["59", "6"], "statement", "kp"), "."),
     ("another member", put(2, "statement", "m"), "."),
     ("a larger ε₀", put("7/10", "statement", "eps0"), "."),
@@ -173,7 +173,8 @@ def test_altered_phases_are_refused(
 def test_coming_to_rest_is_decided() -> None:
     """Whatever the gains, on an arm that is one; (19) is not asked."""
     one = (((0, 0), F(1)),)
-    statement = ComesToRest(((one,),), (F(1),), "hyperbolic", 1, (F(2),), (F(50),), (F(1),), (F(11, 20),))
+    friction, gains = ((F(1), F(1)),), ("hyperbolic", 1, (F(2),), (F(50),))
+    statement = ComesToRest(((one,),), friction, (), *gains, (F(1),), (F(11, 20),))
     assert propose(statement).verdict is Verdict.PROVED
     assert "w → 0" in statement.text()
     near = replace(statement, errors=(F(1, 2),))
@@ -183,7 +184,7 @@ def test_coming_to_rest_is_decided() -> None:
     with pytest.raises(Refused):
         verify(replace(statement, mass=(((((0, 0), F(-1)),),),)), EnergyFalls(Bisection()))
     with pytest.raises(Refused, match="must be positive"):
-        verify(replace(statement, viscous=(F(0),)), EnergyFalls(Bisection()))
+        verify(replace(statement, viscous=((F(0), F(1)),)), EnergyFalls(Bisection()))
 
 
 def test_another_arm_is_refused(made: dict[str, Certificate]) -> None:

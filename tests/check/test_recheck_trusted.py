@@ -125,7 +125,8 @@ PURPOSES = {
     "`kinds/`, formulas": FORMULAS,
     "`kinds/`, every n": "every_n bound_every_n",
     "`kinds/`, one arm": "inertia coriolis gravity compared chain chain_identity",
-    "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting",
+    "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting "
+    "ranges at_corners",
     "`kinds/`, theorems": "stability stable_arm property",
 }
 

@@ -16,6 +16,7 @@ from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.states import controlled_arm_of
 from lyapcheck.search.decay import disturbance_bound, settling_bound
@@ -39,9 +40,14 @@ def _two(a: str, b: str, c: str) -> Mass:
     return ((first, (off, part)), ((off, part), (off,)))
 
 
+RANGED: Mass = (((((0, 0, 1), Fraction(1)), ((0, 1, 1), Fraction(1, 4))),),)
+"""One joint whose inertia ranges."""
+PARAMETERS: tuple[Ends, ...] = ((Fraction(4, 5), Fraction(1)),)
+
+
 @dataclass(frozen=True)
 class Asked:
-    """What a bound is asked for."""
+    """What a bound is asked for; friction is up to ``more`` times as large."""
 
     mass: Mass
     viscous: str
@@ -53,6 +59,8 @@ class Asked:
     rate: float = 0.0
     torque: str = "0"
     dry: str = "0"
+    more: str = "1"
+    parameters: tuple[Ends, ...] = ()
 
 
 ASKED = (
@@ -61,6 +69,7 @@ ASKED = (
     Asked(_one("3/2", "1/2"), "3/2", "algebraic", None, "15", "1", 0.7, dry="1/5"),
     Asked(_one("1", "1/4"), "1", "hyperbolic", 2, "20", "1", 0.6, rate=1.0),
     Asked(_two("3", "1", "1"), "1", "tanh", None, "20", "1", 0.5, torque="1/20", dry="1/20"),
+    Asked(RANGED, "1", "arctan", None, "20", "1", 0.5, more="3/2", parameters=PARAMETERS),
 )
 
 
@@ -75,10 +84,9 @@ def found(index: int, in_phases: bool = False) -> tuple[Settling | StaysWithin, 
     n = len(asked.mass)
     each = [Fraction(getattr(asked, name)) for name in ("viscous", "kp", "kv", "torque", "dry")]
     b, kp, kv, torque, dry = ((x,) * n for x in each)
-    ranges = tuple((x, x) for x in b)
-    controlled = controlled_arm_of(
-        Decreasing(asked.mass, ranges, (), asked.family, asked.m, kp, kv, Fraction(1), ())
-    )
+    ranges = tuple((x, x * Fraction(asked.more)) for x in b)
+    stated = Decreasing(asked.mass, ranges, asked.parameters, asked.family, asked.m, kp, kv, Fraction(1), ())
+    controlled = controlled_arm_of(stated, ranges=bool(asked.parameters))
     start = ((asked.start,) * n, (asked.rate,) * n)
     if any(torque) or any(dry):
         shown = disturbance_bound(controlled, *start, torque, dry, max_boxes=MAX_BOXES).shown
@@ -95,7 +103,8 @@ def decide_settling(statement: Settling | StaysWithin) -> Any:
     for index, asked in enumerate(ASKED):
         if in_phases and index not in UNDISTURBED:
             continue
-        if len(asked.mass) == len(statement.mass) and asked.family == statement.family:
+        same = bool(asked.parameters) == bool(statement.parameters)
+        if same and len(asked.mass) == len(statement.mass) and asked.family == statement.family:
             try:
                 statement.require_well_formed()
                 verify(statement, found(index, in_phases)[1])

@@ -42,10 +42,16 @@ REST = (
 )
 PHASES = "As the motion calms down, V with ε = ε₀ falls for larger ε₀, within these errors and speeds:"
 NONE, TORQUE = "—", "torque"
+AT_NOMINAL = "at nominal numbers"
 LEGEND = (
-    "certified: accepted by the checker, at nominal numbers, for all postures and all motions from starts no "
+    "certified: accepted by the checker, {}, for all postures and all motions from starts no "
     "farther than this one, joint by joint.",
-    "simulated: one run.",
+    "simulated: {}.",
+)
+NOMINAL = "at nominal numbers", "one run"
+RANGED = (
+    "for every arm with {}, constant in time, its other numbers nominal",
+    "the worst of one run at each corner of the ranges, which proves nothing of what lies between",
 )
 NOT_IN_RECORDS = ("envelope", "phases", "after", "statement", "rest_statement")
 
@@ -68,7 +74,10 @@ class Comparisons(Answer):
         """The times of all gain sets, then the errors of each, joint by joint."""
         behind = (Section(result.settling.name, tuple(_behind(result))) for result in self.results)
         assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
-        notes = (*LEGEND, *(f"{text}." for text in assumed))
+        varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
+        about = (RANGED[0].format(varies), RANGED[1]) if varies else NOMINAL
+        legend = (text.format(one) for text, one in zip(LEGEND, about, strict=True))
+        notes = (*legend, *(f"{text}." for text in assumed))
         return Document(title(self.results), (_times(self.results), *behind), notes)
 
     def data(self) -> dict[str, Any]:
@@ -87,7 +96,13 @@ class Comparisons(Answer):
                 }
                 for part in ("settling", "disturbance")
             }
-            rows.append({key: value for key, value in (row | parts).items() if key != "assumptions"})
+            rows.append(
+                {
+                    key: value
+                    for key, value in (row | parts).items()
+                    if key not in ("assumptions", "vary", "unvaried")
+                }
+            )
         return rows
 
     def annotations(self) -> list[Annotation]:
@@ -120,12 +135,27 @@ class Comparisons(Answer):
 def _times(results: Sequence[Comparison]) -> Table:
     """When the errors are small for good, if nothing acts."""
     angles = ", ".join(dict.fromkeys(angle_text(result.settling.delta) for result in results))
-    rows = [
-        (result.settling.name, seconds_up(result.settling.time), simulated_time(result), ratio_text(result))
+    rows: list[tuple[str, ...]] = [
+        (
+            result.settling.name,
+            seconds_up(result.settling.time),
+            simulated_time(result),
+            ratio_text(result),
+            *_cost(result),
+        )
         for result in results
     ]
-    heads = ("gains", "certified", "simulated", "ratio")
+    over = (AT_NOMINAL, "cost of the ranges") if any(result.unvaried for result in results) else ()
+    heads = ("gains", "certified", "simulated", "ratio", *over)
     return Table(heads, tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
+
+
+def _cost(result: Comparison) -> tuple[str, ...]:
+    """The certified time without ranges, and by how much these lengthen it; nothing where there are none."""
+    if result.unvaried is None:
+        return ()
+    nominal, now = result.unvaried.settling.time, result.settling.time
+    return seconds_up(nominal), f"{float(now / nominal) - 1:+.1%}" if nominal and now else NONE
 
 
 def _behind(result: Comparison) -> list[Table | Bullets]:
@@ -151,10 +181,12 @@ def _errors(result: Comparison) -> list[Table]:
     if result.settling.largest_errors:
         columns.append(("on the way", list(map(angle_up, result.settling.largest_errors))))
     acting = _acting(result)
+    nominal = None if result.unvaried is None else result.unvaried.disturbance
     columns += [(f"{name} N·m", [f"{float(x):g}" for x in values]) for name, values in acting.items()]
     if acting:
         columns += [
             ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
+            *([] if nominal is None else [(AT_NOMINAL, list(map(angle_up, nominal.errors)) or [NONE] * n)]),
             ("disturbed, simulated", list(map(angle_up, result.simulated_errors))),
         ]
         if left.resting is not None and not left.comes_to_rest:
@@ -187,11 +219,16 @@ def _rest(result: Comparison) -> list[Table]:
     left = result.disturbance
     if not left.comes_to_rest or not any(left.dry):
         return []
-    rows = [
+    rows: list[tuple[str, ...]] = [
         (joint, angle_up(bound), angle_up(run), f"{float(bound) / run:.3g} ×" if bound and run else NONE)
         for joint, bound, run in zip(result.joints, left.rest, result.simulated_rest, strict=True)
     ]
-    return [Table(("joint", "at most", "simulated", "ratio"), tuple(rows), REST)]
+    heads: tuple[str, ...] = ("joint", "at most", "simulated", "ratio")
+    if result.unvaried is not None:
+        nominal = result.unvaried.disturbance.rest
+        rows = [(*row, angle_up(bound)) for row, bound in zip(rows, nominal, strict=True)]
+        heads += (AT_NOMINAL,)
+    return [Table(heads, tuple(rows), REST)]
 
 
 def _caption(result: Comparison) -> str:

@@ -5,21 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck._types import Array, Progress
 from lyapcheck.answers.bounds.kept import kept_bounds
+from lyapcheck.robots.vary import corners, only_varied
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.vary import Vary
     from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound
     from lyapcheck.simulate.task import Task
 
+    Varied = tuple[RobotModel, Sequence[Vary]]
+    """An arm with ranges, and which."""
 
 JUST_INSIDE = 0.95
 """Where a run starts, beside the certified bound of rest: simulated friction lets a joint creep."""
@@ -43,6 +48,9 @@ class Comparison:
             of the task, and of one let go just inside the certified bound of rest.
         simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
         assumptions: what is taken for granted about the arm.
+        varies: the ranges over which the bounds hold, as typed; of runs at all their corners the worst
+            counts.
+        unvaried: the same at nominal numbers, where something varies.
     """
 
     gains: GainSet
@@ -55,6 +63,8 @@ class Comparison:
     simulated_errors: tuple[float, ...]
     simulated_rest: tuple[float, ...]
     assumptions: tuple[str, ...]
+    varies: tuple[str, ...] = ()
+    unvaried: Comparison | None = None
 
     @property
     def certified(self) -> bool:
@@ -72,6 +82,7 @@ def compare(
     *,
     max_boxes: int,
     jobs: int = 1,
+    varied: Varied | None = None,
     on_progress: Progress | None = None,
 ) -> Comparison:
     """The bounds of a task and the run.
@@ -85,11 +96,27 @@ def compare(
         dry: (n,) bounds of dry friction, N·m; what is known of the arm if missing.
         max_boxes: the budget of each attempt at a proof.
         jobs: processes for the checker.
+        varied: the arm with ranges, and what varies; the bounds are asked over them as well.
         on_progress: told the share done.
     """
     progress = on_progress or (lambda fraction, note: None)
-    controlled = ControlledArm(gain_set, model)
-    friction = coulomb(model) if dry is None else tuple(dry)
+    unvaried, controlled, arms = None, ControlledArm(gain_set, model), [model]
+    if varied is not None:
+        unvaried = compare(
+            gain_set,
+            model,
+            task,
+            delta,
+            torque,
+            dry,
+            max_boxes=max_boxes,
+            jobs=jobs,
+            on_progress=lambda f, note: progress(0.4 * f, note),
+        )
+        ranged = only_varied(*varied)
+        controlled = ControlledArm(gain_set, ranged, ranges=True)
+        arms = [arm for _, arm in corners(*varied)]
+    friction = tuple(dry) if dry is not None else coulomb(model) if varied is None else most_coulomb(ranged)
     settling, left = kept_bounds(
         controlled,
         task.step,
@@ -99,30 +126,66 @@ def compare(
         friction,
         max_boxes=max_boxes,
         jobs=jobs,
-        on_progress=lambda f, note: progress(0.9 * f, note),
+        on_progress=lambda f, note: progress(0.9 * f if varied is None else 0.4 + 0.4 * f, note),
     )
-    progress(0.9, "simulation")
-    duration = task.T
-    calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, duration)
-    while inside_from(calm.t, calm.e, delta) is None and _longer(settling, duration):
-        duration *= LONGER
-        calm = disturbed(gain_set, model, task.q_d, task.q0, task.w0, duration)
-    pushed = disturbed(gain_set, model, task.q_d, task.q0, task.w0, task.T, torque=list(torque), dry=friction)
-    let_go = [goal - JUST_INSIDE * float(x or 0) for goal, x in zip(task.q_d, left.rest, strict=True)]
-    runs = [(let_go, None), (task.q0, task.w0)]
-    ends = (disturbed(gain_set, model, task.q_d, *start, T=2 * task.T, dry=friction).e[-1] for start in runs)
+    runs = []
+    for index, arm in enumerate(arms):
+        progress(0.9 if varied is None else 0.8 + 0.2 * index / len(arms), "simulation")
+        held = coulomb(arm) if dry is None else tuple(dry)
+        runs.append(_Runs.of(gain_set, arm, task, delta, torque, held, settling, left))
+    times = [run.time for run in runs]
     return Comparison(
         gains=gain_set,
         joints=model.joints,
         settling=settling,
         disturbance=left,
         task=task,
-        simulated_for=duration,
-        simulated_time=inside_from(calm.t, calm.e, delta),
-        simulated_errors=last_errors(pushed.e),
-        simulated_rest=tuple(np.max(np.abs(list(ends)), axis=0).tolist()),
+        simulated_for=max(run.duration for run in runs),
+        simulated_time=None if None in times else max(time for time in times if time is not None),
+        simulated_errors=tuple(np.max([run.errors for run in runs], axis=0).tolist()),
+        simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
         assumptions=model.assumptions,
+        varies=() if varied is None else tuple(one.text for one in varied[1]),
+        unvaried=unvaried,
     )
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """What runs of one arm show: see `Comparison`."""
+
+    time: float | None
+    duration: float
+    errors: tuple[float, ...]
+    rest: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls,
+        gain_set: GainSet,
+        model: RobotModel,
+        task: Task,
+        delta: float,
+        torque: Sequence[float],
+        dry: Sequence[float],
+        settling: SettlingBound,
+        left: DisturbanceBound,
+    ) -> _Runs:
+        """The task undisturbed, long enough to be compared; disturbed; and two motions that friction ends."""
+        goal = task.q_d
+        duration = task.T
+        calm = disturbed(gain_set, model, goal, task.q0, task.w0, duration)
+        while inside_from(calm.t, calm.e, delta) is None and _longer(settling, duration):
+            duration *= LONGER
+            calm = disturbed(gain_set, model, goal, task.q0, task.w0, duration)
+        pushed = disturbed(gain_set, model, goal, task.q0, task.w0, task.T, torque=list(torque), dry=dry)
+        let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(goal, left.rest, strict=True)]
+        ends = [
+            disturbed(gain_set, model, goal, q0, w0, 2 * task.T, dry=dry).e[-1]
+            for q0, w0 in ((let_go, None), (task.q0, task.w0))
+        ]
+        rest = tuple(np.max(np.abs(ends), axis=0).tolist())
+        return cls(inside_from(calm.t, calm.e, delta), duration, last_errors(pushed.e), rest)
 
 
 def _longer(settling: SettlingBound, duration: float) -> bool:
@@ -133,6 +196,11 @@ def _longer(settling: SettlingBound, duration: float) -> bool:
 def coulomb(model: RobotModel) -> tuple[float, ...]:
     """Dry friction of the arm, N·m; 0 where nothing is known."""
     return tuple(0.0 if number is None else float(number.value) for number in model.coulomb)
+
+
+def most_coulomb(model: RobotModel) -> tuple[Fraction, ...]:
+    """The most that it may be in its ranges."""
+    return tuple(Fraction(0) if number is None else number.bounds[1] for number in model.coulomb)
 
 
 def inside_from(t: Array, e: Array, delta: float) -> float | None:

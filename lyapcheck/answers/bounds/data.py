@@ -34,6 +34,8 @@ def comparison_data(result: Comparison) -> dict[str, Any]:
             "rest": [_degrees(x) for x in result.simulated_rest],
         },
         "assumptions": list(result.assumptions),
+        "vary": list(result.varies),
+        "unvaried": None if result.unvaried is None else comparison_data(result.unvaried),
     }
 
 

@@ -43,8 +43,8 @@ def kept_bounds(
     e0: Sequence[float],
     w0: Sequence[float] | None,
     delta: float,
-    torque: Sequence[float],
-    dry: Sequence[float],
+    torque: Sequence[Fraction | float],
+    dry: Sequence[Fraction | float],
     *,
     max_boxes: int,
     jobs: int,
@@ -106,7 +106,8 @@ class Asked:
         gains, model = self.controlled.gains, self.controlled.model
         own = (gains.family, gains.m, gains.kp, gains.kv, gains.angle_unit)
         numbers = (self.start, self.delta, self.acting.torque, self.acting.dry)
-        return {"bounds": store.exact(own, model, numbers), "boxes": max_boxes}
+        asked = {"bounds": store.exact(own, model, numbers), "boxes": max_boxes}
+        return asked | ({"ranges": True} if self.controlled.ranges else {})
 
     def read(self, kept: Any, jobs: int) -> Bounds | None:
         """What was written, if the checker accepts all of it, and it is about what is asked."""
@@ -148,7 +149,8 @@ class Asked:
     def _loop(self) -> dict[str, Any]:
         loop = self.controlled.loop(Fraction(1))
         own = {"family": loop.family, "m": loop.m, "kp": loop.kp, "kv": loop.kv}
-        return {"mass": loop.arm.mass, "viscous": loop.arm.viscous, **own}
+        arm = {"mass": loop.arm.mass, "viscous": loop.friction, "parameters": loop.parameters}
+        return arm | own
 
     @property
     def _begins(self) -> dict[str, Any]:

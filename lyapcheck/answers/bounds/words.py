@@ -29,7 +29,8 @@ def title(results: Sequence[Comparison]) -> str:
 def _one(result: Comparison) -> str:
     bound = result.settling
     mark = "✓" if result.certified else "?"
-    about = f"{mark} {bound.name} on {bound.robot}:"
+    over = f" with {', '.join(result.varies)}" if result.varies else ""
+    about = f"{mark} {bound.name} on {bound.robot}{over}:"
     if bound.time is None:
         return f"{about} no settling time is certified"
     within = f"every |e_i| ≤ {angle_text(bound.delta)} for good within {seconds_up(bound.time)}"

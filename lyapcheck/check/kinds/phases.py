@@ -12,8 +12,9 @@ from fractions import Fraction
 from itertools import pairwise
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
+from lyapcheck.check.kinds.decreasing import friction_text
+from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text
+from lyapcheck.check.kinds.ranges import of_arm, require_arm
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.kinds.settling import Envelope, require_falling
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
@@ -25,7 +26,7 @@ from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Proof, Total
+from lyapcheck.check.statement import Ends, Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Times = tuple[tuple[Fraction, tuple[Fraction, ...]], ...]
@@ -47,13 +48,15 @@ class DiesOut:
 class StaysWithin(Total):
     """Every solution of (11) from some starts has |e_i| within bounds from times on.
 
-    ``mass`` is M(q), kg·m²; ``viscous`` the diagonal of B, N·m·s/rad; ``family`` and ``m`` name h; ``kp`` and
+    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
+    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
     ``kv`` are in N·m. ``errors_at_start``, rad, and ``rates_at_start``, rad/s, bound each |e_i(0)| and
     |w_i(0)|, for any q(0). ``after`` says how errors die out.
     """
 
     mass: Mass
-    viscous: tuple[Fraction, ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
     family: str
     m: int | None
     kp: tuple[Fraction, ...]
@@ -65,9 +68,8 @@ class StaysWithin(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint, none below 0 where sizes are bounded; times that rise."""
-        require_mass(self.mass, ())
-        n = len(self.mass)
-        for subject in ("viscous", "kp", "kv", *SIZES):
+        n = require_arm(self.mass, self.parameters, self.viscous)
+        for subject in ("kp", "kv", *SIZES):
             size = len(getattr(self, subject))
             require(size == n, subject, size, f"must be {n}, one a joint")
         sizes = [(subject, getattr(self, subject)) for subject in SIZES]
@@ -100,11 +102,7 @@ class StaysWithin(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
-        return (
-            "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            TORQUE,
-            "no other torque acts",
-        )
+        return (*of_arm(self.parameters, self.viscous), "no other torque acts")
 
     def text(self) -> str:
         """The statement in one line."""
@@ -117,8 +115,9 @@ class StaysWithin(Total):
             f"every solution of (11) that starts with "
             f"|e_i(0)| ≤ {angles_text(self.errors_at_start)} and |w_i(0)| ≤ "
             f"{list_text(self.rates_at_start)} rad/s, at any q(0), has {within}{self._dying()}; "
-            f"for B = {diagonal_text(self.viscous)}, h = {self.family}{member_m}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)} and {mass_text(self.mass, ())}"
+            f"for B = {friction_text(self.viscous)}, h = {self.family}{member_m}, "
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)} "
+            f"and {mass_text(self.mass, self.parameters)}"
         )
 
     def _dying(self) -> str:
@@ -176,7 +175,9 @@ def by_phases(statement: StaysWithin, proof: FallingPhases) -> Accepted:
     E does not rise, so that speeds keep below what E is at the start of a phase, and floors that hold then
     hold from then on. V ≤ v bounds the errors, as M ≻ 0 leaves Σ k_pi U(e_i) ≤ V; so does E.
     """
-    grades = [require_proved(MassAbove(statement.mass, (), Fraction(0)), proof.positive, "M ≻ 0")]
+    grades = [
+        require_proved(MassAbove(statement.mass, statement.parameters, Fraction(0)), proof.positive, "M ≻ 0")
+    ]
     grades += _require_lightest(statement, proof)
     require(len(proof.phases) > 0, "phases", 0, "must be at least one")
     energy = last = eps0 = time = Fraction(0)
@@ -225,9 +226,16 @@ def _require_dying(statement: StaysWithin, estimate: Estimate, time: Fraction, l
 
 def _estimate(statement: StaysWithin, phase: Phase) -> Estimate:
     """What follows from the margin of a phase, which is shown here."""
-    arm = Arm(statement.mass, statement.viscous)
+    arm = Arm(statement.mass, tuple(low for low, _ in statement.viscous))
     gains = statement.family, statement.m, statement.kp, statement.kv
-    loop = ClosedLoop(arm, *gains, phase.eps0, within=phase.within)
+    loop = ClosedLoop(
+        arm,
+        *gains,
+        phase.eps0,
+        parameters=statement.parameters,
+        viscous=statement.viscous,
+        within=phase.within,
+    )
     shares = (phase.friction, phase.stiffness, phase.split, Fraction(0))
     margin = Margin(slowed(loop, phase.floors), *shares, phase.inertia)
     signs = "have a sign or size that does not fit: gains, B, K̃, ε₀ and shares must be positive"
@@ -261,12 +269,13 @@ def _require_lightest(statement: StaysWithin, proof: FallingPhases) -> list[str]
     for i, by in zip(used, proof.lightness, strict=True):
         inertia = proof.lightest[i]
         require(inertia > 0, "lightest", inertia, "must not be negative")
-        lighter = MassAbove(lightened(statement.mass, i, inertia), (), Fraction(0))
+        mass = lightened(statement.mass, i, inertia, len(statement.parameters))
+        lighter = MassAbove(mass, statement.parameters, Fraction(0))
         grades.append(require_proved(lighter, by, f"M − {number_text(inertia)} at joint {i + 1} ≻ 0"))
     return grades
 
 
-def lightened(mass: Mass, joint: int, inertia: Fraction, parameters: int = 0) -> Mass:
+def lightened(mass: Mass, joint: int, inertia: Fraction, parameters: int) -> Mass:
     """M, a polynomial in so many parameters, with a number taken from one entry of its diagonal."""
     constant = (0,) * (2 * len(mass) + parameters), -inertia
     return tuple(

@@ -13,9 +13,9 @@ from hashlib import sha256
 from itertools import pairwise
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
-from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text, require_mass
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, friction_text, statement_of
+from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text
+from lyapcheck.check.kinds.ranges import of_arm, require_arm
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
@@ -23,7 +23,7 @@ from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Total
+from lyapcheck.check.statement import Ends, Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Envelope = tuple[tuple[Fraction, Fraction], ...]
@@ -34,7 +34,8 @@ Envelope = tuple[tuple[Fraction, Fraction], ...]
 class Settling(Total):
     """Every solution of (11) from some starts, under a torque d − φ, stays below levels of V and errors.
 
-    ``mass`` is M(q), kg·m²; ``viscous`` the diagonal of B, N·m·s/rad; ``family`` and ``m`` name h; ``kp`` and
+    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
+    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
     ``kv`` are in N·m; ``eps0`` is ε₀ of (12). ``torque`` bounds each |d_i|, and ``dry`` each |φ_i| with
     φ_i w_i ≥ 0, in N·m. ``errors_at_start``, rad, and ``rates_at_start``, rad/s, bound each |e_i(0)| and
     |w_i(0)|, for any q(0). ``errors`` bounds |e_i|, rad, from the last time of ``envelope`` on,
@@ -42,7 +43,8 @@ class Settling(Total):
     """
 
     mass: Mass
-    viscous: tuple[Fraction, ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
     family: str
     m: int | None
     kp: tuple[Fraction, ...]
@@ -58,9 +60,8 @@ class Settling(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint, none below 0 where sizes are bounded; times that rise and levels that fall."""
-        require_mass(self.mass, ())
-        n = len(self.mass)
-        for subject in ("viscous", "kp", "kv", *SIZES):
+        n = require_arm(self.mass, self.parameters, self.viscous)
+        for subject in ("kp", "kv", *SIZES):
             size = len(getattr(self, subject))
             require(size == n, subject, size, f"must be {n}, one a joint")
         for subject in SIZES:
@@ -82,8 +83,7 @@ class Settling(Total):
             "no other torque acts than d within its bounds" if any(self.torque) else "no other torque acts"
         )
         return (
-            "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            TORQUE,
+            *of_arm(self.parameters, self.viscous),
             *([friction] if any(self.dry) else []),
             others,
         )
@@ -98,9 +98,9 @@ class Settling(Total):
             f"{list_text(self.rates_at_start)} rad/s, at any q(0), "
             f"has |e_i(t)| ≤ {angles_text(self.errors)} for all t ≥ {last} s, "
             f"|e_i(t)| ≤ {angles_text(self.largest_errors)} for all t ≥ {first} s, "
-            f"and V of (13) is {_envelope_text(self.envelope)}; for B = {diagonal_text(self.viscous)}, "
+            f"and V of (13) is {_envelope_text(self.envelope)}; for B = {friction_text(self.viscous)}, "
             f"h = {self.family}{member_m}, K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
-            f"ε₀ = {number_text(self.eps0)} and {mass_text(self.mass, ())}"
+            f"ε₀ = {number_text(self.eps0)} and {mass_text(self.mass, self.parameters)}"
         )
 
     def _acting(self) -> str:
@@ -139,6 +139,7 @@ class FallingLevels(Proof):
 def by_levels(statement: Settling, proof: FallingLevels) -> Accepted:
     """Soundness: V starts below the first level, and falls through each band in the time that is stated.
 
+    All of it holds for every arm in the ranges, which is the same one throughout a motion.
     In a band −dV/dt is at least its fall φ > 0, so that V passes it in its height over φ and does not come
     back; a level without a band below it is kept only where nothing acts, as −dV/dt ≥ 0 then. V ≤ v bounds
     the errors, as M ≻ 0 leaves Σ k_pi U(e_i) ≤ V.
@@ -179,12 +180,14 @@ def require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fracti
 def margin_of(statement: Settling, proof: FallingLevels) -> Margin:
     """What dV/dt is said to be below 0 by."""
     loop = ClosedLoop(
-        Arm(statement.mass, statement.viscous),
+        Arm(statement.mass, tuple(low for low, _ in statement.viscous)),
         statement.family,
         statement.m,
         statement.kp,
         statement.kv,
         statement.eps0,
+        parameters=statement.parameters,
+        viscous=statement.viscous,
     )
     shares = (proof.friction, proof.stiffness, proof.split, proof.slack)
     return Margin(loop, *shares, proof.inertia)

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.decreasing import member_text
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
+from lyapcheck.check.kinds.decreasing import friction_text, member_text
+from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text
+from lyapcheck.check.kinds.ranges import of_arm, require_arm
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof, Total
+from lyapcheck.check.statement import Ends, Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
@@ -27,12 +27,14 @@ from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weake
 class ComesToRest(Total):
     """Every solution of (11) with a torque −φ, φ_i w_i ≥ 0, has w → 0 and lim sup |e_i| ≤ ``errors``.
 
-    ``mass`` is M(q), kg·m²; ``viscous`` the diagonal of B, N·m·s/rad; ``family`` and ``m`` name h; ``kp`` and
+    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
+    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
     ``kv`` are in N·m; ``dry`` bounds each |φ_i|, N·m; ``errors`` are in rad, ``None`` bounds nothing.
     """
 
     mass: Mass
-    viscous: tuple[Fraction, ...]
+    viscous: tuple[Ends, ...]
+    parameters: tuple[Ends, ...]
     family: str
     m: int | None
     kp: tuple[Fraction, ...]
@@ -47,13 +49,11 @@ class ComesToRest(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint; gains and B above 0."""
-        require_mass(self.mass, ())
-        n = len(self.mass)
-        for subject in ("viscous", "kp", "kv", "dry", "errors"):
+        n = require_arm(self.mass, self.parameters, self.viscous)
+        for subject in ("kp", "kv", "dry", "errors"):
             size = len(getattr(self, subject))
             require(size == n, subject, size, f"must be {n}, one a joint")
-        for subject in ("viscous", "kv"):
-            least = min(getattr(self, subject))
+        for subject, least in (("viscous", min(self.viscous)[0]), ("kv", min(self.kv))):
             require(least > 0, subject, least, "must be positive")
         self.resting.require_well_formed()
 
@@ -61,8 +61,7 @@ class ComesToRest(Total):
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
         return (
-            "the robot is (1) with exactly this M(q), C by Christoffel symbols, and exactly this B",
-            TORQUE,
+            *of_arm(self.parameters, self.viscous),
             "dry friction opposes each joint's motion, or holds it, with at most the torque stated",
             "no other torque acts",
         )
@@ -72,9 +71,9 @@ class ComesToRest(Total):
         return (
             "every absolutely continuous solution of (11) with a torque −φ on its right, "
             f"|φ_i| ≤ {list_text(self.dry)} N·m and φ_i w_i ≥ 0 (dry friction), comes to rest, w → 0, with "
-            f"lim sup |e_i| ≤ {angles_text(self.errors)}; for B = {diagonal_text(self.viscous)}, "
+            f"lim sup |e_i| ≤ {angles_text(self.errors)}; for B = {friction_text(self.viscous)}, "
             f"h = {member_text(self.family, self.m)}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)} and {mass_text(self.mass, ())}"
+            f"K_v = {diagonal_text(self.kv)} and {mass_text(self.mass, self.parameters)}"
         )
 
 
@@ -89,7 +88,8 @@ class EnergyFalls(Proof):
 @rule(ComesToRest, EnergyFalls)
 def by_energy(statement: ComesToRest, proof: EnergyFalls) -> Accepted:
     """Soundness: the argument above; M(q) is a polynomial in sines and cosines, so M ≻ 0 holds uniformly."""
-    positive = require_proved(MassAbove(statement.mass, (), Fraction(0)), proof.inertia, "M ≻ 0")
+    above = MassAbove(statement.mass, statement.parameters, Fraction(0))
+    positive = require_proved(above, proof.inertia, "M ≻ 0")
     near = require_proved(statement.resting, AtBounds(), "states of rest")
     return Accepted("proved", weakest([positive, near]))
 

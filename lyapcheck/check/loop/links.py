@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from itertools import product
-from math import prod
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
+from lyapcheck.check.loop.affine import at_corner, corners_of, is_affine
 from lyapcheck.check.loop.chain import Posture, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import Algebra
@@ -37,29 +36,15 @@ def makes_at_corners(
     Soundness: M then is everywhere a mean of its values at the corners, and so are its rates.
     """
     n, corners = len(mass), list(corners_of(parameters))
-    affine = all(max(p[2 * n :], default=0) <= 1 for row in mass for entry in row for p, _ in entry)
     real = all(len(links) == n and all(link.fits for link in links) for links in arms)
     return (
-        affine
+        is_affine(mass, n)
         and real
         and len(arms) == len(corners)
         and all(
-            makes(links, [[_at(entry, 2 * n, corner) for entry in row] for row in mass])
+            makes(links, [[at_corner(entry, 2 * n, corner) for entry in row] for row in mass])
             for links, corner in zip(arms, corners, strict=True)
         )
-    )
-
-
-def corners_of(parameters: Sequence[Ends]) -> Iterator[tuple[Fraction, ...]]:
-    """The corners of the ranges of the parameters; one where nothing ranges."""
-    return product(*([low, high] if low < high else [low] for low, high in parameters))
-
-
-def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
-    """The entry with numbers for the parameters, each to the power 0 or 1."""
-    return tuple(
-        (powers[:angles], c * prod(x for x, p in zip(parameters, powers[angles:], strict=True) if p))
-        for powers, c in entry
     )
 
 

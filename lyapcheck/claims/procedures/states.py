@@ -159,8 +159,8 @@ def _by_boxes(statement: Decreasing) -> SearchResult:
     return shown(tree, f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
 
 
-def controlled_arm_of(statement: Decreasing) -> ControlledArm:
-    """The arm at the middle of its ranges under the controller, for a search."""
+def controlled_arm_of(statement: Decreasing, *, ranges: bool = False) -> ControlledArm:
+    """The arm at the middle of its ranges, or over them, under the controller, for a search."""
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
@@ -172,7 +172,8 @@ def controlled_arm_of(statement: Decreasing) -> ControlledArm:
         kv=statement.kv,
         angle_unit="rad",
     )
-    return ControlledArm(gains, _plant(statement).fixed())
+    plant = _plant(statement)
+    return ControlledArm(gains, plant if ranges else plant.fixed(), ranges)
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

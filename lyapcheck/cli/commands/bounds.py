@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot
+from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder, write_whole
 from lyapcheck.cli.progress import Advance, progress
 from lyapcheck.cli.show import show
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
 MOST_TORQUE = 1e6
@@ -28,6 +29,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("file", metavar="FILE", type=Path, help="A gain file of bounded controllers.")
     add_robot(parser)
+    add_vary(parser)
     about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
     parser.add_argument("--target", metavar="ANGLES", help=about)
     parser.add_argument(
@@ -49,6 +51,7 @@ def arguments(parser: Parser) -> None:
 def run(
     file: Path,
     robot: str | None,
+    vary: list[str] | None,
     target: str | None,
     start: str | None,
     delta: float,
@@ -65,13 +68,15 @@ def run(
 
     From V and a margin of dV/dt < 0: a time after which every error stays below --delta, for all postures,
     how errors die out from then on, the errors that bounded torques and dry friction can leave, and where
-    every motion comes to rest under dry friction alone.
+    every motion comes to rest under dry friction alone. With --vary for every arm in the ranges, beside what
+    holds at nominal numbers.
 
     Exit code 0: all bounds are certified, 2: unusable input, 3: one is not.
 
     Examples:
       lyapcheck bounds gains.toml --delta 0.5
       lyapcheck bounds gains.toml --disturbance 0.1,0.1,0.05 --friction 0,0,0
+      lyapcheck bounds gains.toml --vary viscous=-30%..+0%
     """
     from lyapcheck import store
     from lyapcheck.control.gains import read_gain_file
@@ -80,7 +85,9 @@ def run(
     if no_store:
         store.switch_off()
     gain_file = read_gain_file(file)
-    model = load(robot_name(robot, [gain_file]))
+    name, ranges = robot_name(robot, [gain_file]), varies(vary)
+    model = load(name)
+    varied = (load(name, vary=ranges), ranges) if ranges else None
     require_joints([gain_file], model)
     problems: list[Problem] = []
     task = _task(model, target, start, time, problems)
@@ -91,7 +98,9 @@ def run(
         raise InputError(problems)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
-        result = _compare(gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, advance)
+        result = _compare(
+            gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, varied, advance
+        )
     if folder is not None:
         _write_certificates(folder, result)
     from lyapcheck.answers.bounds.answer import Comparisons
@@ -154,6 +163,7 @@ def _compare(
     asked: Asked,
     max_boxes: int,
     jobs: int,
+    varied: tuple[RobotModel, tuple[Vary, ...]] | None,
     advance: Advance,
 ) -> list[Comparison]:
     """The bounds of every gain set."""
@@ -166,6 +176,15 @@ def _compare(
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
         result.append(
-            compare(gain_set, model, task, *asked, max_boxes=max_boxes, jobs=jobs, on_progress=tell)
+            compare(
+                gain_set,
+                model,
+                task,
+                *asked,
+                max_boxes=max_boxes,
+                jobs=jobs,
+                varied=varied,
+                on_progress=tell,
+            )
         )
     return result

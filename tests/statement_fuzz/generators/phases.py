@@ -9,6 +9,7 @@ from random import Random
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
 from tests.statement_fuzz.generators.resting import resting
 from tests.statement_fuzz.generators.robots import robot, scaled
+from tests.statement_fuzz.generators.settling import factored
 from tests.statement_fuzz.motions import UNDISTURBED, found
 from tests.statement_fuzz.oracle.phases import worst
 from tests.statement_fuzz.subject import ComesToRest, DiesOut, StaysWithin
@@ -48,10 +49,11 @@ def stays_within(random: Random) -> Made:
                 ("rates_at_start", worse, LEAST),
                 ("kp", better, Fraction(0)),
                 ("viscous", better, Fraction(0)),
+                ("parameters", better, Fraction(0)),
                 ("kv", better, Fraction(0)),
             )
         )
-        values = tuple(max(x, least) * factor for x in getattr(statement, name))
+        values = tuple(factored(x, factor, least) for x in getattr(statement, name))
         return Made(replace(statement, **{name: values}), f"other {name}")
     mass = tuple(tuple(scaled(entry, worse) for entry in row) for row in statement.mass)
     return Made(replace(statement, mass=mass), "a heavier arm")
@@ -75,9 +77,11 @@ def comes_to_rest(random: Random) -> Made:
     n, kind = len(still.kp), random.random()
     arm = robot(random, n, kind < 0.9, plain=True)
     each = tuple(Fraction(random.choice((1, 2, 5)), random.choice((1, 2, 4))) for _ in range(n))
+    friction = tuple((x, x * random.choice((1, 1, 2))) for x in each)
     statement = ComesToRest(
-        arm.mass, each, still.family, still.m, still.kp, each[::-1], still.torque, still.errors
+        arm.mass, friction, (), still.family, still.m, still.kp, each[::-1], still.torque, still.errors
     )
     if kind >= 0.95:
-        return Made(replace(statement, viscous=(-each[0], *each[1:])), "friction that drives", FALSE)
+        driving = (-each[0], -each[0]), *friction[1:]
+        return Made(replace(statement, viscous=driving), "friction that drives", FALSE)
     return Made(statement, "motions that dry friction ends", FALSE if kind >= 0.9 else rest.truth)

@@ -15,12 +15,20 @@ from tests.statement_fuzz.subject import Settling
 BETTER = (Fraction(999, 1000), Fraction(9, 10), Fraction(1, 2), Fraction(1, 20), Fraction(0))
 LEAST = Fraction(1, 10**6)
 WORSE = (Fraction(1001, 1000), Fraction(11, 10), Fraction(2), Fraction(20))
-SMALLER = ("errors", "largest_errors", "kp", "viscous", "kv")
+SMALLER = ("errors", "largest_errors", "kp", "viscous", "kv", "parameters")
 LARGER = ("errors_at_start", "rates_at_start", "torque", "dry")
 
 
+def factored(value: Any, factor: Fraction, least: Fraction = Fraction(0)) -> Any:
+    """A number, or the lower end of a range, so many times as large."""
+    if isinstance(value, tuple):
+        low = max(value[0], least) * factor
+        return low, max(low, value[1])
+    return max(value, least) * factor
+
+
 def _with(statement: Settling, name: str, factor: Fraction, least: Fraction = Fraction(0)) -> Settling:
-    values = tuple(max(x, least) * factor for x in getattr(statement, name))
+    values = tuple(factored(x, factor, least) for x in getattr(statement, name))
     return replace(statement, **{name: values})
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from random import Random
 from typing import Any
 
@@ -19,14 +20,27 @@ STEP = 0.03
 MOST_STEPS = 600
 MARGIN = 1e-4
 """Relative; above the error of the motion by orders of magnitude."""
+SHARES = (Fraction(0), Fraction(1), Fraction(0), Fraction(1), Fraction(1, 2))
+"""Of the way through a range."""
 STEEPEST = 5.0
 """Dry friction is at most f and has the sign of w: f tanh(kw), with kf as large as the step can follow."""
+
+
+def ranges(statement: Any) -> tuple[Any, Any]:
+    """Those of friction and of parameters."""
+    return statement.viscous, statement.parameters
+
+
+def within(ends: Any, random: Random) -> list[Fraction]:
+    """One number of each range, mostly an end of it."""
+    return [low + (high - low) * random.choice(SHARES) for low, high in ends]
 
 
 class Motion:
     """Many motions at once: angles, errors and rates in columns.
 
-    They start at the corners of what the statement lets them start from, or of ``errors`` and ``rates``.
+    One arm in the ranges is taken at random. They start at the corners of what the statement lets them start
+    from, or of ``errors`` and ``rates``.
     """
 
     def __init__(self, statement: Any, random: Random, errors: Any = None, rates: Any = None) -> None:
@@ -44,7 +58,7 @@ class Motion:
         self.dry = np.array([[float(x)] for x in dry])
         self.steep = STEEPEST / max(0.1, float(np.max(self.dry)))
         self.dry = np.where(generator.random(MOTIONS) < 0.5, 1.0, 0.0) * self.dry
-        self.loop: Loop = loop_of(statement, statement.viscous, ())
+        self.loop: Loop = loop_of(statement, *(within(part, random) for part in ranges(statement)))
 
     def slope(self, z: Any) -> Any:
         """The derivatives of q, e and w."""

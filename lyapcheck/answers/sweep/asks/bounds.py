@@ -14,7 +14,6 @@ from lyapcheck.answers.sweep.tasks import task_of
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"delta": 1.0, "time": 5.0, "max_boxes": 20_000, "target": (), "start": ()}
-NOMINAL = "bounds are about an arm at its nominal numbers; ask them without a variation"
 
 
 def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
@@ -24,12 +23,13 @@ def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
 
 def _asked(question: Question, jobs: int) -> Answered:
     known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
-    if known.ranges:
-        return answered(question, "undecided", None, reason=NOMINAL)
+    varied = (known.model, known.ranges) if known.ranges else None
+    model = arm(question.robot).model
     assert question.gains is not None
-    task = task_of(known.model, options)
+    task = task_of(model, options)
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
-    found = compare(question.gains, known.model, task, delta, max_boxes=options["max_boxes"], jobs=jobs)
+    budget = {"max_boxes": options["max_boxes"], "jobs": jobs}
+    found = compare(question.gains, model, task, delta, varied=varied, **budget)
     return answered(
         question,
         VERDICTS[Exit.PROVED if found.certified else Exit.UNDECIDED],

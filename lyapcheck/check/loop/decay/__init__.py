@@ -9,8 +9,12 @@ so a proof of dV/dt < 0 for the smaller friction (1 − η)B and the smaller sti
 
     −dV/dt ≥ κ ε hᵀK_p h + η yᵀB w = Σ [κ k_pi ε h_i² + η b_i (y_i² + ε h_i y_i)].
 
-That is a sum over joints. A torque d = d' − φ, |d'_i| ≤ d̄_i, |φ_i| ≤ f_i and φ_i w_i ≥ 0 (dry friction), adds
-yᵀd to dV/dt, and yᵀd ≤ Σ |y_i| d̄_i + ε Σ f_i |h_i| because −wᵀφ ≤ 0. With shares t, s > 0 of the damping,
+That is a sum over joints. Where B is anywhere from b to b + Δ the proof is for (1 − η)b and
+(1 − κ)K_p − ¼ ε₀ Δ, as δ_i y_i w_i ≥ −¼ ε² δ_i h_i² for 0 ≤ δ_i ≤ Δ_i, and b_i is the lower end throughout;
+ranges of parameters in M are those of the proof and of μ (``lyapcheck.check.loop.corners``).
+
+A torque d = d' − φ, |d'_i| ≤ d̄_i, |φ_i| ≤ f_i and φ_i w_i ≥ 0 (dry friction), adds yᵀd to dV/dt, and
+yᵀd ≤ Σ |y_i| d̄_i + ε Σ f_i |h_i| because −wᵀφ ≤ 0. With shares t, s > 0 of the damping,
 
     −dV/dt ≥ (1 − t − s) η Σ b_i y_i² + ε Σ (c_i h_i² − f_i |h_i|) − K,
     c_i = κ k_pi − η b_i ε₀/(4t),     K = Σ d̄_i²/(4 s η b_i).

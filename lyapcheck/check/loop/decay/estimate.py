@@ -73,14 +73,14 @@ class Estimate:
         self.steepest = self.damping / loop.eps0
         self.stiffness = tuple(
             margin.stiffness * k - margin.friction * b * loop.eps0 / (4 * margin.split)
-            for k, b in zip(loop.kp, loop.arm.viscous, strict=True)
+            for k, b in zip(loop.kp, margin.viscous, strict=True)
         )
         if min(self.stiffness) < 0:
             raise ValueError("the share t of the damping is too small for the mixed terms")
         self.loss = sum(
             (
                 d * d / (4 * margin.slack * margin.friction * b)
-                for d, b in zip(disturbance.torque, loop.arm.viscous, strict=True)
+                for d, b in zip(disturbance.torque, margin.viscous, strict=True)
                 if d
             ),
             Fraction(0),
