@@ -67,6 +67,6 @@ Ltac computed := lazymatch goal with
   | |- forall i x, rel i x -> _ => first [exact h1_correct | exact dh1_correct | exact h_R_2_correct | exact dh_R_2_correct | exact h_R_3_correct | exact dh_R_3_correct
       | exact h_R_4_correct | exact dh_R_4_correct | exact h_R_5_correct | exact dh_R_5_correct | exact h_R_6_correct | exact dh_R_6_correct
       | apply h_correct; lia | apply dh_correct; lia]
-  | |- _ => unfold enough; cbn [Loop.gammaf Loop.rhof Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12 joints];
+  | |- _ => unfold enough, enough_moving; repeat split; cbn [Loop.gammaf Loop.rhof Loop.Lf member_of member_1 member_2 member_3 member_4 member_5 member_6 member_7 member_8 member_9 member_10 member_11 member_12 joints];
       unfold Q2R; cbn [Qnum Qden]; simpl INR; interval with (i_prec 100)
   end.

@@ -187,7 +187,19 @@ Definition enough (bar : R) : Prop := let reach := sqrt (INR n) * Loop.gammaf f 
 Theorem certified_by_norms : enough (Q2R eps0) -> certified A m kp kv eps0.
 Proof.
   intros E. split; [exact pd|]. intros qd. rewrite <- f_h, <- f_U.
-  exact (Converge.stable_by_norms n rb f g qd proper_f (Q2R eps0) (Q2R c1) (Q2R c2) (positive_Q _ Heps0) (positive_Q _ Hc1) (positive_Q _ Hc2) c1_small E).
+  exact (Converge.stable_by_norms n rb f g proper_f qd (Q2R eps0) (Q2R c1) (Q2R c2) (positive_Q _ Heps0) (positive_Q _ Hc1) (positive_Q _ Hc2) c1_small E).
+Qed.
+(** A goal that moves, by norms alone. *)
+Definition enough_moving (vd : Q) : Prop := let reach := sqrt (INR n) * Loop.gammaf f in let G := reach * Loop.Lf f / (reach + Loop.Lf f) in
+  let drift := Q2R kc * reach + Q2R beta * (Loop.rhof f + G) in let cross := Q2R vmax * Loop.Lf f + Q2R hi + Q2R kc * Q2R vd in
+  let kp0 := Q2R kmin - Q2R eps0 * (Q2R kc * Q2R vd) in
+  Q2R c1 < kp0 /\ Q2R eps0 * (cross + Q2R eps0 * drift) ^ 2 <= 4 * (kp0 - Q2R c1) * (Q2R lo - Q2R c2 - Q2R eps0 * drift).
+Theorem certified_tracking_by_norms vd : enough_moving vd -> certified_tracking A m kp kv eps0 vd.
+Proof.
+  intros [E1 E2]. split; [exact pd|]. intros r v H. rewrite <- f_h, <- f_U.
+  pose proof (positive_Q _ Heps0). pose proof (positive_Q _ Hc1). pose proof (positive_Q _ Hc2). split.
+  - exact (Converge.tracking_falls n rb f g r v (Q2R vd) H (Q2R eps0) (Q2R c1) (Q2R c2) ltac:(auto) ltac:(auto) ltac:(auto) E1 E2).
+  - exact (Converge.tracks_by_norms n rb f g proper_f r v (Q2R vd) H (Q2R eps0) (Q2R c1) (Q2R c2) ltac:(auto) ltac:(auto) ltac:(auto) E1 E2).
 Qed.
 
 (** *** By boxes *)
@@ -390,7 +402,7 @@ Proof.
       replace (eps n (Q2R eps0) (e t)) with (ep A eps0 (e t)) by (unfold ep, eps; fold (norm n (e t)); pose proof (Loop.norm_pos n (e t)) as N; fold (norm n (e t)) in N; field; lra).
       unfold S_at, Sm in *. unfold Loop.hv. rewrite f_h, f_dh. exact K.
   - eapply Rle_trans; [apply (Loop.rate_bound n rb f g qd e w (Q2R eps0) P0 t)|]. cbv zeta.
-    apply Loop.form_decreases with (bar := Q2R eps0 / (1 + Q2R rad)); auto using Loop.norm_pos, c1_small.
+    apply Loop.form_decreases with (bar := Q2R eps0 / (1 + Q2R rad)); auto using Loop.norm_pos, Loop.cross_pos, c1_small.
     split; [exact (proj1 (Loop.eps_range n e (Q2R eps0) P0 t))|]. unfold eps. fold (norm n (e t)).
     apply Rmult_le_compat_l; [lra|]. apply Rinv_le_contravar; lra.
 Qed.
@@ -398,7 +410,7 @@ Theorem certified_by_boxes : certified A m kp kv eps0.
 Proof.
   split; [exact pd|]. intros qd. rewrite <- f_h, <- f_U.
   pose proof (positive_Q _ Heps0) as P0. pose proof (positive_Q _ Hc1) as P1. pose proof (positive_Q _ Hc2) as P2. split.
-  - exact (Converge.falls_everywhere n rb f g qd (Q2R eps0) P0 (Q2R c1) (Q2R c2) P1 P2 (decreases qd)).
-  - exact (Converge.gas n rb f g qd proper_f (Q2R eps0) P0 (Q2R c1) (Q2R c2) P1 P2 (decreases qd)).
+  - exact (Converge.falls_everywhere n rb f g (Q2R eps0) P0 qd (Q2R c1) (Q2R c2) P1 P2 (decreases qd)).
+  - exact (Converge.gas n rb f g proper_f (Q2R eps0) P0 qd (Q2R c1) (Q2R c2) P1 P2 (decreases qd)).
 Qed.
 End Certified.

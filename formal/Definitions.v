@@ -60,13 +60,13 @@ Variable n : nat.                                  (* joints *)
 Variables (Mq : vec -> mat) (Cq : vec -> vec -> mat) (bv : vec).
 Variables (hf Uf : R -> R) (kp kv qd : vec).       (* the function with its integral, the gains, the goal q_d *)
 
-(** (11) holds at time t: e' = -w and M(q) w' = K_p h(e) - K_v h(w) - B w - C(q, w) w with q = q_d - e. *)
-Definition solves_at (e w : R -> vec) (t : R) : Prop :=
-  let q := fun j => qd j - e t j in
-  forall i, (i < n)%nat ->
-    is_derive (fun s => e s i) t (- w t i) /\ ex_derive (fun s => w s i) t /\
-    apply_ n (Mq q) (fun j => Derive (fun s => w s j) t) i
-      = kp i * hf (e t i) - kv i * hf (w t i) - bv i * w t i - apply_ n (Cq q (w t)) (w t) i.
+(** The loop at time t, with q and dq/dt there: e' = -w and M(q) w' = K_p h(e) - K_v h(w) - B w - C(q, dq/dt) w. *)
+Definition closed_at (q dq : vec) (e w : R -> vec) (t : R) : Prop := forall i, (i < n)%nat ->
+  is_derive (fun s => e s i) t (- w t i) /\ ex_derive (fun s => w s i) t /\
+  apply_ n (Mq q) (fun j => Derive (fun s => w s j) t) i
+    = kp i * hf (e t i) - kv i * hf (w t i) - bv i * w t i - apply_ n (Cq q dq) (w t) i.
+(** (11) holds at time t: q = q_d - e, and as q_d is constant, dq/dt = w. *)
+Definition solves_at (e w : R -> vec) (t : R) : Prop := closed_at (fun j => qd j - e t j) (w t) e w t.
 (** A motion, from time 0 on. *)
 Definition solution (e w : R -> vec) : Prop := forall t, 0 <= t -> solves_at e w t.
 
@@ -87,7 +87,28 @@ Definition stable : Prop := forall eta, 0 < eta -> exists z, 0 < z /\
 Definition attractive : Prop := forall e w, solution e w ->
   forall eta, 0 < eta -> exists T, forall t, T <= t -> norm n (e t) < eta /\ norm n (w t) < eta.
 Definition globally_asymptotically_stable : Prop := stable /\ attractive.
+
+(** *** (21): a goal r(t) with the velocity v(t).  K_p h(e) - K_v h(w) + M r'' + C r' + B r' + g is the torque that
+    closes the same loop, with q = r - e and dq/dt = v + w. *)
+Variables r v : R -> vec.
+(** A motion, from time t0 on. *)
+Definition tracks (t0 : R) (e w : R -> vec) : Prop := forall t, t0 <= t ->
+  closed_at (fun j => r t j - e t j) (fun j => v t j + w t j) e w t.
+(** |e| and |w| are below c at time t. *)
+Definition within (c : R) (e w : R -> vec) (t : R) : Prop := norm n (e t) < c /\ norm n (w t) < c.
+(** How near a motion has to start to stay near, how far it goes, and how long it takes, whatever the time t0 >= 0. *)
+Definition uniformly_stable : Prop := forall eta, 0 < eta -> exists z, 0 < z /\
+  forall t0 e w, 0 <= t0 -> tracks t0 e w -> within z e w t0 -> forall t, t0 <= t -> within eta e w t.
+Definition uniformly_bounded : Prop := forall z, exists eta,
+  forall t0 e w, 0 <= t0 -> tracks t0 e w -> within z e w t0 -> forall t, t0 <= t -> within eta e w t.
+Definition uniformly_attractive : Prop := forall z eta, 0 < eta -> exists T, 0 <= T /\
+  forall t0 e w, 0 <= t0 -> tracks t0 e w -> within z e w t0 -> forall t, t0 + T <= t -> within eta e w t.
+Definition globally_uniformly_asymptotically_stable : Prop := uniformly_stable /\ uniformly_bounded /\ uniformly_attractive.
 End Loop.
+(** dV/dt < 0 along (21) at every state but the origin, from time 0 on. *)
+Definition decreasing_along n Mq Cq bv hf Uf kp kv (r v : R -> vec) (eps0 : R) : Prop := forall e w t, 0 <= t ->
+  closed_at n Mq Cq bv hf kp kv (fun j => r t j - e t j) (fun j => v t j + w t j) e w t -> away n (e t) (w t) ->
+  exists d, is_derive (fun s => V n Mq hf Uf kp (r s) eps0 (e s) (w s)) t d /\ d < 0.
 
 (** ** What is said of every robot with Properties 2.1 to 2.7, all positive gains and every goal *)
 Definition positive (n : nat) (k : vec) : Prop := forall i, (i < n)%nat -> 0 < k i.
@@ -102,6 +123,12 @@ Definition only_equilibrium (m : nat) : Prop := forall n (rb : robot n) kp kv qd
 (** The proposition of the paper, without (19). *)
 Definition every_robot_is_stable (n m : nat) : Prop := forall (rb : robot n) kp kv qd, positive n kp -> positive n kv ->
   globally_asymptotically_stable n (M rb) (C rb) (b rb) (h m) kp kv qd.
+(** From time 0 on the goal r has the velocity v, at most vd. *)
+Definition goal_moves (n : nat) (r v : R -> vec) (vd : R) : Prop := forall t, 0 <= t ->
+  (forall i, (i < n)%nat -> is_derive (fun s => r s i) t (v t i)) /\ norm n (v t) <= vd.
+(** (21) on every robot, for every goal whose velocity is bounded. *)
+Definition every_robot_tracks (n m : nat) : Prop := forall (rb : robot n) kp kv, positive n kp -> positive n kv ->
+  forall r v vd, goal_moves n r v vd -> globally_uniformly_asymptotically_stable n (M rb) (C rb) (b rb) (h m) kp kv r v.
 
 (** ** An arm of n joints as data: M_ij(q) is the sum of c sin^p1 q_1 ... sin^pn q_n cos^p(n+1) q_1 ... cos^p2n q_n *)
 Definition monomial := (list nat * Q)%type.        (* ([p1; ...; p2n], c) *)
@@ -128,6 +155,11 @@ Definition positive_definite (A : arm) : Prop := forall q,
 Definition certified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := positive_definite A /\ forall qd,
   decreasing (joints A) (M_of A) (C_of A) (b_of A) (h m) (U m) (entries kp) (entries kv) qd (Q2R eps0) /\
   globally_asymptotically_stable (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) qd.
+(** The arm under (21), for every goal whose velocity is at most vd. *)
+Definition certified_tracking (A : arm) (m : nat) (kp kv : list Q) (eps0 vd : Q) : Prop := positive_definite A /\
+  forall r v, goal_moves (joints A) r v (Q2R vd) ->
+  decreasing_along (joints A) (M_of A) (C_of A) (b_of A) (h m) (U m) (entries kp) (entries kv) r v (Q2R eps0) /\
+  globally_uniformly_asymptotically_stable (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) r v.
 (** dV/dt > 0 along some curve through some state other than the origin: what a falsified epsilon_0 says. *)
 Definition falsified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := exists qd e w t d,
   solves_at (joints A) (M_of A) (C_of A) (b_of A) (h m) (entries kp) (entries kv) qd e w t /\

@@ -148,7 +148,7 @@ Let qd : vec := fun i => entries q i + entries e i.
 Lemma rate_value (ec wc : R -> vec) t : ec t = entries e -> wc t = entries w -> 0 < Loop.rate n rb f g qd ec wc (Q2R eps0) t.
 Proof.
   intros Ee Ew. apply (positive_correct _ _ Hrate). unfold rate_I.
-  assert (Eq : Loop.q_of qd ec t = entries q) by (apply functional_extensionality; intros i; unfold Loop.q_of, qd; rewrite Ee; ring).
+  assert (Eq : Loop.q_along (fun _ => qd) ec t = entries q) by (apply functional_extensionality; intros i; unfold Loop.q_along, qd; rewrite Ee; ring).
   pose proof (Loop.norm_pos n (entries e)) as N0.
   replace (Loop.rate n rb f g qd ec wc (Q2R eps0) t) with (rate_at RA n at_goal (fun i j => total_at RA n q (H A i j)) (fun i j k => total_at RA n q (c_of A i j k))
     (fun i => Loop.hf f (entries e i)) (fun i => Loop.dhf f (entries e i)) (entries e) (entries w) (fun i => Loop.hf f (entries w i)) (entries (viscous A)) (entries kp) (entries kv) (rat RA eps0)).
@@ -166,7 +166,7 @@ Proof.
   { intros i. unfold y_at, Loop.yt, y_of. rewrite E2, Ee, Ew. reflexivity. }
   assert (Eg : forall i, gr_at RA n at_goal (fun i => Loop.hf f (entries e i)) (fun i => Loop.dhf f (entries e i)) (entries e) (entries w) (rat RA eps0) i = Loop.gr n f ec wc (Q2R eps0) t i).
   { intros i. unfold gr_at, Loop.gr. rewrite E2, E3, Ee, Ew. cbn [sub mul RA]. rring. }
-  unfold rate_at, Loop.rate. rewrite !sumn_sum, E2, Ee, Ew, Hkp, Hkv, HM, HC, Hbv, Eq. cbn [sub mul add zer RA]. f_equal; [f_equal|].
+  unfold rate_at, Loop.rate, Loop.rate_along. rewrite !sumn_sum, E2, Ee, Ew, Hkp, Hkv, HM, HC, Hbv, Eq. cbn [sub mul add zer RA]. f_equal; [f_equal|].
   - apply Loop.sum_ext; intros i Hi. rewrite Ey. unfold b_of. rring.
   - f_equal. apply Loop.sum_ext; intros i Hi. rewrite Ey, sumn_sum. f_equal. apply Loop.sum_ext; intros j Hj. rewrite C_total, sumn_sum by auto.
     unfold Loop.hv. f_equal. apply Loop.sum_ext; intros k Hk. now rewrite total_value.

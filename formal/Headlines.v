@@ -4,12 +4,13 @@ Import Lyapcheck.Definitions.
 Set Printing Width 118.
 Check proposition_of_the_paper.
 Check V_of_the_paper.
+Check tracking_of_the_paper.
 Check V_is_positive_definite.
 Check V_is_radially_unbounded.
 Check origin_is_only_equilibrium.
 Check pendulums.
 Check h_derive.
 Check U_derive.
-Definition headlines := (proposition_of_the_paper, V_of_the_paper, V_is_positive_definite, V_is_radially_unbounded,
+Definition headlines := (proposition_of_the_paper, V_of_the_paper, tracking_of_the_paper, V_is_positive_definite, V_is_radially_unbounded,
   origin_is_only_equilibrium, pendulums, h_derive, U_derive).
 Print Assumptions headlines.

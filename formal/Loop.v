@@ -135,7 +135,6 @@ Record gains := Gains { kp : vec; kv : vec; kp_min : R; kv_max : R; kp_min_pos :
 Variable rb : robot n.
 Variable f : member.
 Variable g : gains.
-Variable qd : vec.
 
 Definition hv (e : vec) : vec := fun i => hf f (e i).
 
@@ -173,17 +172,18 @@ Proof.
   pose proof (term_le_sum n (fun j => x j * x j) i ltac:(intros; nra) Hi). unfold dot in K. simpl in *. nra.
 Qed.
 Section Along.
-Variables (e w : R -> vec).
+Variables (goal dq e w : R -> vec).                    (* the goal, dq/dt, the error, its velocity *)
+Definition q_along (t : R) : vec := fun j => goal t j - e t j.
 Variable on : R -> Prop.                            (* the times at which the loop is closed *)
-Hypothesis S : forall t, on t -> solves_at n (M rb) (C rb) (b rb) (hf f) (kp g) (kv g) qd e w t.
+Hypothesis S : forall t, on t -> closed_at n (M rb) (C rb) (b rb) (hf f) (kp g) (kv g) (q_along t) (dq t) e w t.
+Hypothesis goal_rate : forall t i, on t -> (i < n)%nat -> is_derive (fun s => goal s i) t (dq t i - w t i).
 Definition dw (t : R) : vec := fun i => Derive (fun s => w s i) t.
 Lemma e_rate t i : on t -> (i < n)%nat -> is_derive (fun s => e s i) t (- w t i).
 Proof. intros Ht Hi. now destruct (S t Ht i Hi). Qed.
 Lemma w_rate t i : on t -> (i < n)%nat -> is_derive (fun s => w s i) t (dw t i).
 Proof. intros Ht Hi. destruct (S t Ht i Hi) as (_ & D & _). now apply Derive_correct. Qed.
-Lemma newton t i : on t -> (i < n)%nat -> apply_ n (M rb (fun j => qd j - e t j)) (dw t) i =
-    kp g i * hf f (e t i) - kv g i * hf f (w t i) - b rb i * w t i
-    - apply_ n (C rb (fun j => qd j - e t j) (w t)) (w t) i.
+Lemma newton t i : on t -> (i < n)%nat -> apply_ n (M rb (q_along t)) (dw t) i =
+    kp g i * hf f (e t i) - kv g i * hf f (w t i) - b rb i * w t i - apply_ n (C rb (q_along t) (dq t)) (w t) i.
 Proof. intros Ht Hi. now destruct (S t Ht i Hi) as (_ & _ & D). Qed.
 Variable eps0 : R.
 Hypothesis eps0_pos : 0 < eps0.
@@ -300,35 +300,34 @@ Proof.
 Qed.
 
 (** *** dV/dt, exactly *)
-Definition q_of (t : R) : vec := fun j => qd j - e t j.
 Definition yt (t : R) : vec := y_of n (hf f) eps0 (e t) (w t).
-Definition rate (t : R) : R :=
+Definition rate_along (t : R) : R :=
   sum n (fun i => - (eps n eps0 (e t) * kp g i * (hf f (e t i) * hf f (e t i))) - yt t i * (kv g i * hf f (w t i) + b rb i * w t i))
-  - eps n eps0 (e t) * dot n (yt t) (apply_ n (C rb (q_of t) (w t)) (hv (e t)))
-  - dot n (yt t) (apply_ n (M rb (q_of t)) (gr t)).
-Lemma q_rate t i : on t -> (i < n)%nat -> is_derive (fun s => q_of s i) t (w t i).
+  - eps n eps0 (e t) * dot n (yt t) (apply_ n (C rb (q_along t) (dq t)) (hv (e t)))
+  - dot n (yt t) (apply_ n (M rb (q_along t)) (gr t)).
+Lemma q_rate t i : on t -> (i < n)%nat -> is_derive (fun s => q_along s i) t (dq t i).
 Proof.
-  intros Ht Hi. unfold q_of. evar_last.
-  - apply (is_derive_minus (fun _ => qd i) (fun s => e s i)); [apply (is_derive_const (V := R_NormedModule))|apply (e_rate); auto].
-  - unfold minus, plus, opp, zero; simpl. ring.
+  intros Ht Hi. unfold q_along. evar_last.
+  - apply (is_derive_minus (fun s => goal s i) (fun s => e s i)); [now apply goal_rate|apply (e_rate); auto].
+  - unfold minus, plus, opp; simpl. ring.
 Qed.
-Theorem V_rate t : on t -> is_derive (fun s => V n (M rb) (hf f) (Uf f) (kp g) qd eps0 (e s) (w s)) t (rate t).
+Theorem V_rate_along t : on t -> is_derive (fun s => V n (M rb) (hf f) (Uf f) (kp g) (goal s) eps0 (e s) (w s)) t (rate_along t).
 Proof.
   intros Ht.
   set (y := yt t). set (dy := fun i => dw t i - gr t i).
-  set (Mt := M rb (q_of t)). set (Ct := C rb (q_of t) (w t)).
+  set (Mt := M rb (q_along t)). set (Ct := C rb (q_along t) (dq t)).
   assert (Hy : forall i, (i < n)%nat -> is_derive (fun s => yt s i) t (dy i)).
   { intros i Hi. apply (is_derive_minus (fun s => w s i) (fun s => eps n eps0 (e s) * hf f (e s i))); [apply (w_rate); auto|apply g_rate; auto]. }
-  assert (HV : is_derive (fun s => V n (M rb) (hf f) (Uf f) (kp g) qd eps0 (e s) (w s)) t
+  assert (HV : is_derive (fun s => V n (M rb) (hf f) (Uf f) (kp g) (goal s) eps0 (e s) (w s)) t
      (/ 2 * sum n (fun i => dy i * apply_ n Mt y i + y i * sum n (fun j => (Ct i j + Ct j i) * y j + Mt i j * dy j))
       + sum n (fun i => kp g i * (hf f (e t i) * - w t i)))).
-  { unfold V. apply (is_derive_plus (fun s => / 2 * dot n (yt s) (apply_ n (M rb (q_of s)) (yt s))) (fun s => sum n (fun i => kp g i * Uf f (e s i)))).
-    - apply (is_derive_scal (fun s => dot n (yt s) (apply_ n (M rb (q_of s)) (yt s)))).
-      apply (is_derive_sum n (fun i s => yt s i * apply_ n (M rb (q_of s)) (yt s) i)). intros i Hi.
-      apply (is_derive_mult (fun s => yt s i) (fun s => apply_ n (M rb (q_of s)) (yt s) i)); [now apply Hy| |intros; apply Rmult_comm].
-      apply (is_derive_sum n (fun j s => M rb (q_of s) i j * yt s j)). intros j Hj.
-      apply (is_derive_mult (fun s => M rb (q_of s) i j) (fun s => yt s j)); [|now apply Hy|intros; apply Rmult_comm].
-      apply (M_rate rb q_of t (w t)); auto. intros; now apply q_rate.
+  { unfold V. apply (is_derive_plus (fun s => / 2 * dot n (yt s) (apply_ n (M rb (q_along s)) (yt s))) (fun s => sum n (fun i => kp g i * Uf f (e s i)))).
+    - apply (is_derive_scal (fun s => dot n (yt s) (apply_ n (M rb (q_along s)) (yt s)))).
+      apply (is_derive_sum n (fun i s => yt s i * apply_ n (M rb (q_along s)) (yt s) i)). intros i Hi.
+      apply (is_derive_mult (fun s => yt s i) (fun s => apply_ n (M rb (q_along s)) (yt s) i)); [now apply Hy| |intros; apply Rmult_comm].
+      apply (is_derive_sum n (fun j s => M rb (q_along s) i j * yt s j)). intros j Hj.
+      apply (is_derive_mult (fun s => M rb (q_along s) i j) (fun s => yt s j)); [|now apply Hy|intros; apply Rmult_comm].
+      apply (M_rate rb q_along t (dq t)); auto. intros; now apply q_rate.
     - apply (is_derive_sum n (fun i s => kp g i * Uf f (e s i))). intros i Hi.
       apply (is_derive_scal (fun s => Uf f (e s i))). evar_last.
       + apply (is_derive_comp (Uf f) (fun s => e s i)); [apply U_rate|apply (e_rate); auto].
@@ -356,13 +355,12 @@ Proof.
   assert (E2 : dot n y (apply_ n Mt dy) = sum n (fun i => y i * (kp g i * hf f (e t i) - kv g i * hf f (w t i) - b rb i * w t i))
        - dot n y (apply_ n Ct (w t)) - dot n y (apply_ n Mt (gr t))).
   { unfold dot at 1. unfold dot at 1 2. rewrite <- !sum_minus. apply sum_ext; intros i Hi.
-    unfold dy. rewrite apply_minus. unfold Mt. change (M rb (q_of t)) with (M rb (fun j => qd j - e t j)).
-    rewrite (newton t i) by auto. unfold Ct, q_of. ring. }
+    unfold dy. rewrite apply_minus. unfold Mt. rewrite (newton t i) by auto. unfold Ct. ring. }
   assert (E3 : dot n y (apply_ n Ct y) = dot n y (apply_ n Ct (w t)) - eps n eps0 (e t) * dot n y (apply_ n Ct (hv (e t)))).
   { rewrite <- dot_scal_r. unfold dot at 1 2 3. rewrite <- sum_minus. apply sum_ext; intros i Hi.
     rewrite <- (apply_scal Ct (eps n eps0 (e t)) (hv (e t)) i), <- Rmult_minus_distr_l. f_equal.
     symmetry. rewrite <- (apply_minus Ct (w t)). reflexivity. }
-  rewrite E2, E3. unfold rate. fold y Mt Ct.
+  rewrite E2, E3. unfold rate_along. fold y Mt Ct.
   match goal with |- ?l = ?r => replace l with
     (sum n (fun i => y i * (kp g i * hf f (e t i) - kv g i * hf f (w t i) - b rb i * w t i)) + sum n (fun i => kp g i * (hf f (e t i) * - w t i))
      - eps n eps0 (e t) * dot n y (apply_ n Ct (hv (e t))) - dot n y (apply_ n Mt (gr t))) by field end.
@@ -403,10 +401,13 @@ Proof.
   assert (T6 : ep * kp_min g * (hi * hi) <= ep * k * (hi * hi)) by (apply Rmult_le_compat_r; nra).
   lra.
 Qed.
-Theorem rate_bound t : let a := norm n (hv (e t)) in let v := norm n (w t) in let ep := eps n eps0 (e t) in
-  rate t <= - (ep * kp_min g * a ^ 2) - b_min rb * v ^ 2 + ep * cross * (a * v) + ep * drift * v ^ 2 + ep ^ 2 * drift * (a * v).
+(** A goal that moves, |r'| <= vd, adds to both terms with h(e). *)
+Theorem rate_bound_along vd t : norm n (dq t) <= vd + norm n (w t) -> 0 <= vd ->
+  let a := norm n (hv (e t)) in let v := norm n (w t) in let ep := eps n eps0 (e t) in
+  rate_along t <= - (ep * (kp_min g - ep * (kc rb * vd)) * a ^ 2) - b_min rb * v ^ 2 + ep * (cross + kc rb * vd) * (a * v)
+    + ep * drift * v ^ 2 + ep ^ 2 * drift * (a * v).
 Proof.
-  intros a v ep. pose proof (eps_range t) as [E0 E1]. fold ep in E0, E1.
+  intros Hq Hvd a v ep. fold v in Hq. pose proof (eps_range t) as [E0 E1]. fold ep in E0, E1.
   pose proof (norm_pos (hv (e t))) as A0. pose proof (norm_pos (w t)) as V0. fold a in A0. fold v in V0.
   pose proof (hv_bound (e t)) as A1. fold a in A1. pose proof b_max_pos. pose proof kv_max_pos.
   pose proof (kc_pos rb). pose proof (beta_pos rb). pose proof (rho_pos f). pose proof (L_pos f). pose proof reach_pos. pose proof drift_pos.
@@ -433,35 +434,39 @@ Proof.
   assert (Y : norm n (yt t) <= v + ep * a).
   { unfold yt, y_of. eapply Rle_trans; [apply (norm_minus (w t) (fun i => ep * hv (e t) i))|]. rewrite norm_scal by lra. unfold v, a. lra. }
   pose proof (norm_pos (yt t)) as Y0.
-  assert (P2 : - (ep * dot n (yt t) (apply_ n (C rb (q_of t) (w t)) (hv (e t)))) <= ep * ((v + ep * a) * (kc rb * v * a))).
-  { pose proof (dot_ge (yt t) (apply_ n (C rb (q_of t) (w t)) (hv (e t)))) as D.
-    pose proof (C_up rb (q_of t) (w t) (hv (e t))) as K. fold v a in K.
-    pose proof (norm_pos (apply_ n (C rb (q_of t) (w t)) (hv (e t)))).
-    assert (norm n (yt t) * norm n (apply_ n (C rb (q_of t) (w t)) (hv (e t))) <= (v + ep * a) * (kc rb * v * a)) by (apply Rmult_le_compat; auto).
+  assert (P2 : - (ep * dot n (yt t) (apply_ n (C rb (q_along t) (dq t)) (hv (e t)))) <= ep * ((v + ep * a) * (kc rb * (vd + v) * a))).
+  { pose proof (dot_ge (yt t) (apply_ n (C rb (q_along t) (dq t)) (hv (e t)))) as D.
+    pose proof (C_up rb (q_along t) (dq t) (hv (e t))) as K. fold a in K.
+    assert (kc rb * norm n (dq t) * a <= kc rb * (vd + v) * a) by (apply Rmult_le_compat_r; [lra|apply Rmult_le_compat_l; lra]).
+    pose proof (norm_pos (apply_ n (C rb (q_along t) (dq t)) (hv (e t)))).
+    assert (norm n (yt t) * norm n (apply_ n (C rb (q_along t) (dq t)) (hv (e t))) <= (v + ep * a) * (kc rb * (vd + v) * a)) by (apply Rmult_le_compat; auto; lra).
     rewrite Ropp_mult_distr_r. apply Rmult_le_compat_l; lra. }
-  assert (P3 : - dot n (yt t) (apply_ n (M rb (q_of t)) (gr t)) <= (v + ep * a) * (beta rb * (ep * (rhof f + G) * v))).
-  { pose proof (dot_ge (yt t) (apply_ n (M rb (q_of t)) (gr t))) as D.
-    pose proof (M_up rb (q_of t) (gr t)) as K. pose proof (gr_bound t) as Gb. fold ep a v in Gb.
-    pose proof (norm_pos (apply_ n (M rb (q_of t)) (gr t))).
+  assert (P3 : - dot n (yt t) (apply_ n (M rb (q_along t)) (gr t)) <= (v + ep * a) * (beta rb * (ep * (rhof f + G) * v))).
+  { pose proof (dot_ge (yt t) (apply_ n (M rb (q_along t)) (gr t))) as D.
+    pose proof (M_up rb (q_along t) (gr t)) as K. pose proof (gr_bound t) as Gb. fold ep a v in Gb.
+    pose proof (norm_pos (apply_ n (M rb (q_along t)) (gr t))).
     assert (beta rb * norm n (gr t) <= beta rb * (ep * (rhof f + G) * v)) by (apply Rmult_le_compat_l; auto).
-    assert (norm n (yt t) * norm n (apply_ n (M rb (q_of t)) (gr t)) <= (v + ep * a) * (beta rb * (ep * (rhof f + G) * v))) by (apply Rmult_le_compat; lra).
+    assert (norm n (yt t) * norm n (apply_ n (M rb (q_along t)) (gr t)) <= (v + ep * a) * (beta rb * (ep * (rhof f + G) * v))) by (apply Rmult_le_compat; lra).
     lra. }
   assert (Z : 0 <= ep * ((v + ep * a) * v)) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; [apply Rplus_le_le_0_compat; [lra|apply Rmult_le_pos; lra]|lra]]).
   assert (Q : kc rb * a + beta rb * (rhof f + G) <= drift).
   { unfold drift. apply Rplus_le_compat_r, Rmult_le_compat_l; lra. }
   apply Rmult_le_compat_l with (r := ep * ((v + ep * a) * v)) in Q; auto.
-  unfold rate. fold ep. nra.
+  unfold rate_along. fold ep. nra.
 Qed.
 
 (** *** dV/dt is as negative as a form allows, for every eps up to some bar *)
-Lemma form_decreases bar c1 c2 ep a v : 0 < ep <= bar -> 0 <= a -> 0 <= v ->
-  c1 < kp_min g -> bar * (cross + bar * drift) ^ 2 <= 4 * (kp_min g - c1) * (b_min rb - c2 - bar * drift) ->
-  - (ep * kp_min g * a ^ 2) - b_min rb * v ^ 2 + ep * cross * (a * v) + ep * drift * v ^ 2 + ep ^ 2 * drift * (a * v)
+Lemma cross_pos : 0 <= cross.
+Proof.
+  pose proof kv_max_pos. pose proof b_max_pos. pose proof (L_pos f). unfold cross. apply Rplus_le_le_0_compat; [apply Rmult_le_pos; lra|lra].
+Qed.
+Lemma form_decreases kp0 d bar c1 c2 ep a v : 0 <= d -> 0 < ep <= bar -> 0 <= a -> 0 <= v ->
+  c1 < kp0 -> bar * (d + bar * drift) ^ 2 <= 4 * (kp0 - c1) * (b_min rb - c2 - bar * drift) ->
+  - (ep * kp0 * a ^ 2) - b_min rb * v ^ 2 + ep * d * (a * v) + ep * drift * v ^ 2 + ep ^ 2 * drift * (a * v)
   <= - (c1 * ep * a ^ 2) - c2 * v ^ 2.
 Proof.
-  intros [E0 E1] A0 V0 K H. pose proof drift_pos as D0. pose proof kv_max_pos. pose proof b_max_pos. pose proof (L_pos f).
-  assert (C0 : 0 <= cross) by (unfold cross; apply Rplus_le_le_0_compat; [apply Rmult_le_pos; lra|lra]).
-  set (k := kp_min g - c1) in *. set (c := drift) in *. set (d := cross) in *. set (bm := b_min rb) in *.
+  intros C0 [E0 E1] A0 V0 K H. pose proof drift_pos as D0.
+  set (k := kp0 - c1) in *. set (c := drift) in *. set (bm := b_min rb) in *.
   assert (Hk : 0 < k) by (unfold k; lra).
   assert (M1 : d + ep * c <= d + bar * c) by (apply Rplus_le_compat_l, Rmult_le_compat_r; lra).
   assert (M2 : 0 <= d + ep * c) by (apply Rplus_le_le_0_compat; [|apply Rmult_le_pos]; lra).
@@ -471,34 +476,58 @@ Proof.
   { apply Rmult_le_compat_l; [lra|]. assert (ep * c <= bar * c) by (apply Rmult_le_compat_r; lra). lra. }
   assert (B2 : (d + ep * c) * (a * v) <= k * a ^ 2 + (d + ep * c) ^ 2 / (4 * k) * v ^ 2).
   { assert (0 <= (2 * k * a - (d + ep * c) * v) ^ 2 / (4 * k)) by (apply Rmult_le_pos; [apply pow2_ge_0|left; apply Rinv_0_lt_compat; lra]).
-    replace ((2 * k * a - (d + ep * c) * v) ^ 2 / (4 * k)) with (k * a ^ 2 - (d + ep * c) * (a * v) + (d + ep * c) ^ 2 / (4 * k) * v ^ 2) in H3 by (field; lra). lra. }
+    replace ((2 * k * a - (d + ep * c) * v) ^ 2 / (4 * k)) with (k * a ^ 2 - (d + ep * c) * (a * v) + (d + ep * c) ^ 2 / (4 * k) * v ^ 2) in H0 by (field; lra). lra. }
   apply Rmult_le_compat_l with (r := ep) in B2; [|lra].
   assert (B3 : ep * ((d + ep * c) ^ 2 / (4 * k)) <= bm - c2 - ep * c).
   { replace (ep * ((d + ep * c) ^ 2 / (4 * k))) with (ep * (d + ep * c) ^ 2 / (4 * k)) by (field; lra). apply Rle_div_l; lra. }
   apply Rmult_le_compat_r with (r := v ^ 2) in B3; [|apply pow2_ge_0].
-  replace (- (ep * kp_min g * a ^ 2)) with (- (c1 * ep * a ^ 2) - ep * (k * a ^ 2)) by (unfold k; ring). lra.
+  replace (- (ep * kp0 * a ^ 2)) with (- (c1 * ep * a ^ 2) - ep * (k * a ^ 2)) by (unfold k; ring). lra.
 Qed.
 End Along.
 
-(** There is a small enough eps0, for all positive gains: no bound of K_v is needed. *)
-Theorem small_exists : exists eps0 c1 c2, 0 < eps0 /\ 0 < c1 /\ 0 < c2 /\ c1 < kp_min g /\
-  eps0 * (cross + eps0 * drift) ^ 2 <= 4 * (kp_min g - c1) * (b_min rb - c2 - eps0 * drift).
+(** *** The goal at rest: (11) *)
+Definition q_of (qd : vec) (e : R -> vec) (t : R) : vec := fun j => qd j - e t j.
+Definition rate (qd : vec) (e w : R -> vec) : R -> R -> R := rate_along (fun _ => qd) w e w.
+Lemma at_rest (qd : vec) (w : R -> vec) t i : is_derive (fun _ : R => qd i) t (w t i - w t i).
+Proof. evar_last; [apply (is_derive_const (V := R_NormedModule))|]. unfold zero; simpl. ring. Qed.
+Theorem V_rate qd e w (on : R -> Prop) : (forall t, on t -> solves_at n (M rb) (C rb) (b rb) (hf f) (kp g) (kv g) qd e w t) ->
+  forall eps0 t, on t -> is_derive (fun s => V n (M rb) (hf f) (Uf f) (kp g) qd eps0 (e s) (w s)) t (rate qd e w eps0 t).
+Proof. intros S eps0 t Ht. apply (V_rate_along (fun _ => qd) w e w on S); auto using at_rest. Qed.
+Theorem rate_bound qd e w eps0 : 0 < eps0 -> forall t, let a := norm n (hv (e t)) in let v := norm n (w t) in let ep := eps n eps0 (e t) in
+  rate qd e w eps0 t <= - (ep * kp_min g * a ^ 2) - b_min rb * v ^ 2 + ep * cross * (a * v) + ep * drift * v ^ 2 + ep ^ 2 * drift * (a * v).
 Proof.
-  pose proof drift_pos as D. pose proof (kp_min_pos g) as K. pose proof (b_min_pos rb) as B.
-  pose proof kv_max_pos. pose proof b_max_pos. pose proof (L_pos f).
-  assert (C0 : 0 <= cross) by (unfold cross; apply Rplus_le_le_0_compat; [apply Rmult_le_pos; lra|lra]).
-  set (q := (cross + drift) ^ 2). assert (Q0 : 0 <= q) by apply pow2_ge_0.
+  intros P t a v ep. pose proof (rate_bound_along (fun _ => qd) w e w eps0 P 0 t ltac:(lra) ltac:(lra)) as K. cbv zeta in K.
+  fold a v ep in K. unfold rate. rewrite !Rmult_0_r, Rminus_0_r, Rplus_0_r in K. exact K.
+Qed.
+
+(** There is a small enough eps0, for all positive gains and all velocities of the goal: no bound of K_v is needed. *)
+Theorem small_exists vd : 0 <= vd -> exists eps0 c1 c2, 0 < eps0 /\ 0 < c1 /\ 0 < c2 /\ c1 < kp_min g - eps0 * (kc rb * vd) /\
+  eps0 * (cross + kc rb * vd + eps0 * drift) ^ 2 <= 4 * (kp_min g - eps0 * (kc rb * vd) - c1) * (b_min rb - c2 - eps0 * drift).
+Proof.
+  intros Hvd. pose proof drift_pos as D. pose proof (kp_min_pos g) as K. pose proof (b_min_pos rb) as B. pose proof cross_pos as C0. pose proof (kc_pos rb) as Pc.
+  set (u := kc rb * vd). assert (U0 : 0 <= u) by (apply Rmult_le_pos; auto).
+  set (q := (cross + u + drift) ^ 2). assert (Q0 : 0 <= q) by apply pow2_ge_0.
   set (k := kp_min g) in *. set (bm := b_min rb) in *.
-  set (x := k * bm / (q + 2 * k * drift + 1)).
-  assert (P : 0 < q + 2 * k * drift + 1) by (assert (0 <= 2 * k * drift) by (apply Rmult_le_pos; lra); lra).
+  set (x := k * bm / (2 * q + 2 * k * drift + 4 * bm * u + 1)).
+  assert (P : 0 < 2 * q + 2 * k * drift + 4 * bm * u + 1).
+  { assert (0 <= 2 * k * drift) by (apply Rmult_le_pos; lra). assert (0 <= 4 * bm * u) by (apply Rmult_le_pos; lra). lra. }
   assert (X0 : 0 < x) by (apply Rdiv_lt_0_compat; [apply Rmult_lt_0_compat|]; lra).
-  exists (Rmin 1 x), (k / 2), (bm / 2). pose proof (Rmin_l 1 x). pose proof (Rmin_r 1 x). set (e := Rmin 1 x) in *.
-  assert (E0 : 0 < e) by (apply Rmin_pos; lra). repeat split; try lra.
-  assert (S1 : (cross + e * drift) ^ 2 <= q).
-  { apply pow_incr. split; [apply Rplus_le_le_0_compat; [lra|apply Rmult_le_pos; lra]|]. assert (e * drift <= 1 * drift) by (apply Rmult_le_compat_r; lra). lra. }
-  assert (S2 : e * (cross + e * drift) ^ 2 <= e * q) by (apply Rmult_le_compat_l; lra).
-  assert (S3 : e * (q + 2 * k * drift + 1) <= k * bm).
-  { apply Rle_trans with (x * (q + 2 * k * drift + 1)); [apply Rmult_le_compat_r; lra|]. right. unfold x. field. lra. }
-  replace (4 * (k - k / 2) * (bm - bm / 2 - e * drift)) with (k * bm - 2 * k * (e * drift)) by field. nra.
+  exists (Rmin 1 x), (k / 4), (bm / 2). pose proof (Rmin_l 1 x). pose proof (Rmin_r 1 x). set (e := Rmin 1 x) in *.
+  assert (E0 : 0 < e) by (apply Rmin_pos; lra).
+  assert (S3 : e * (2 * q + 2 * k * drift + 4 * bm * u + 1) <= k * bm).
+  { apply Rle_trans with (x * (2 * q + 2 * k * drift + 4 * bm * u + 1)); [apply Rmult_le_compat_r; lra|]. right. unfold x. field. lra. }
+  assert (T1 : 0 <= e * q) by (apply Rmult_le_pos; lra). assert (T2 : 0 <= e * (k * drift)) by (apply Rmult_le_pos; [|apply Rmult_le_pos]; lra).
+  assert (T3 : 0 <= e * u) by (apply Rmult_le_pos; lra).
+  assert (S4 : 4 * (e * u) <= k).
+  { apply Rmult_le_reg_l with bm; [lra|]. nra. }
+  assert (S5 : 2 * (e * drift) <= bm).
+  { apply Rmult_le_reg_l with k; [lra|]. nra. }
+  assert (S1 : (cross + u + e * drift) ^ 2 <= q).
+  { assert (0 <= e * drift) by (apply Rmult_le_pos; lra). assert (e * drift <= 1 * drift) by (apply Rmult_le_compat_r; lra). apply pow_incr. lra. }
+  assert (S2 : e * (cross + u + e * drift) ^ 2 <= e * q) by (apply Rmult_le_compat_l; lra).
+  repeat split; try lra.
+  eapply Rle_trans; [exact S2|]. apply Rle_trans with (4 * (k / 2) * (bm - bm / 2 - e * drift)).
+  - nra.
+  - apply Rmult_le_compat_r; lra.
 Qed.
 End Vectors.

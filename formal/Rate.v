@@ -90,7 +90,7 @@ Proof.
      = sum n (fun i => yt n f e w eps0 t i * (ep * dot n (S i) x))).
   { unfold dot at 1 2. rewrite <- sum_scal, <- sum_plus. apply sum_ext; intros i Hi. rewrite <- G1 by auto. ring. }
   replace (norm n h ^ 2) with (dot n h h) by (rewrite <- norm2; ring).
-  unfold rate. change (q_of qd e t) with q. fold ep x h.
+  unfold rate, rate_along. change (q_along (fun _ => qd) e t) with q. fold ep x h.
   assert (G3 : forall a b c d, b + c = d -> a - b - c = a - d) by (intros; lra).
   rewrite (G3 _ _ _ _ G2), <- sum_minus.
   assert (G4 : - (c1 * ep * dot n h h) - F_of (b rb) (fun i => / (4 * k i)) ep S x

@@ -48,14 +48,20 @@ Hypothesis Hm : (1 <= m)%nat.
 Theorem proposition_of_the_paper n : every_robot_is_stable n m.
 Proof.
   intros rb kp kv qd Hp Hv. destruct (some_gains n kp kv Hp) as (g & <- & <-); [intros i Hi; left; auto|].
-  destruct (Converge.stable_for_some_eps0 n rb (hyperbolic m Hm) g qd (proper m Hm)) as (eps0 & _ & _ & S). exact S.
+  destruct (Converge.stable_for_some_eps0 n rb (hyperbolic m Hm) g (proper m Hm) qd) as (eps0 & _ & _ & S). exact S.
 Qed.
 (** And V of (13) shows it, with some eps0. *)
 Theorem V_of_the_paper n (rb : robot n) kp kv qd : positive n kp -> positive n kv ->
   exists eps0, 0 < eps0 /\ decreasing n (M rb) (C rb) (b rb) (h m) (U m) kp kv qd eps0.
 Proof.
   intros Hp Hv. destruct (some_gains n kp kv Hp) as (g & <- & <-); [intros i Hi; left; auto|].
-  destruct (Converge.stable_for_some_eps0 n rb (hyperbolic m Hm) g qd (proper m Hm)) as (eps0 & P & D & _). eauto.
+  destruct (Converge.stable_for_some_eps0 n rb (hyperbolic m Hm) g (proper m Hm) qd) as (eps0 & P & D & _). eauto.
+Qed.
+(** (21): every goal of bounded velocity is tracked, from wherever and whenever a motion starts. *)
+Theorem tracking_of_the_paper n : every_robot_tracks n m.
+Proof.
+  intros rb kp kv Hp Hv r v vd H. destruct (some_gains n kp kv Hp) as (g & <- & <-); [intros i Hi; left; auto|].
+  exact (Converge.tracks_for_some_eps0 n rb (hyperbolic m Hm) g (proper m Hm) r v vd H).
 Qed.
 
 Lemma not_away n e w : ~ away n e w -> forall i, (i < n)%nat -> e i = 0 /\ w i = 0.
@@ -72,7 +78,7 @@ Proof. intros H. unfold norm. rewrite dot_0 by auto. apply sqrt_0. Qed.
 Theorem V_is_positive_definite : V_positive_definite m.
 Proof.
   intros n rb kp qd eps0 Hp P e w. destruct (some_gains n kp (fun _ => 0) Hp) as (g & <- & _); [intros; lra|]. split.
-  - exact (Converge.V_positive n rb (hyperbolic m Hm) g qd (proper m Hm) eps0 P e w).
+  - exact (Converge.V_positive n rb (hyperbolic m Hm) g (proper m Hm) eps0 P qd e w).
   - intros H. pose proof (not_away n e w H) as Z. unfold V.
     assert (Y : forall i, (i < n)%nat -> y_of n (h m) eps0 e w i = 0).
     { intros i Hi. unfold y_of. destruct (Z i Hi) as [-> ->]. rewrite (Family.h_zero m Hm). ring. }
@@ -81,8 +87,8 @@ Qed.
 Theorem V_is_radially_unbounded : V_radially_unbounded m.
 Proof.
   intros n rb kp qd eps0 Hp P K. destruct (some_gains n kp (fun _ => 0) Hp) as (g & <- & _); [intros; lra|].
-  destruct (Converge.V_unbounded n rb (hyperbolic m Hm) g qd (proper m Hm) eps0 P K) as [r H].
-  exists (sqrt (INR n) * Rabs r). intros e w HV. pose proof (H e w HV) as B.
+  destruct (Converge.V_unbounded n rb (hyperbolic m Hm) g (proper m Hm) eps0 P K) as [r H].
+  exists (sqrt (INR n) * Rabs r). intros e w HV. pose proof (H qd e w HV) as B.
   split; apply Converge.bounded_norm_in; try apply Rabs_pos; intros i Hi; (eapply Rle_trans; [apply (B i Hi)|apply Rle_abs]).
 Qed.
 Theorem origin_is_only_equilibrium : only_equilibrium m.

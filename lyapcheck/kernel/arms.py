@@ -101,19 +101,19 @@ def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
     return _applied("falsified_by_state", parts)
 
 
-def by_norms(loop: ClosedLoop) -> str:
-    """The tactics for ``certified`` where ε₀ is so small that norms alone show it."""
-    return _script(loop, None)
+def by_norms(loop: ClosedLoop, moving: bool = False) -> str:
+    """The tactics for ``certified`` where ε₀ is so small that norms alone show it; or for a goal that moves."""
+    return _script(loop, None, "certified_tracking" if moving else "certified")
 
 
-def _script(loop: ClosedLoop, tree: str | None) -> str:
+def _script(loop: ClosedLoop, tree: str | None, goal: str = "certified") -> str:
     parts = _robot(loop) | {
         "f": f"member_{loop.m}",
         "c1": exact(min(loop.kp) * LITTLE),
         "c2": exact(min(loop.arm.viscous) * LITTLE),
     }
     if tree is None:
-        return _applied("certified_by_norms", parts)
+        return _applied(f"{goal}_by_norms", parts)
     count, n = len(loop.angles), loop.n
     errors = loop.start[count : count + n]
     signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
@@ -152,7 +152,8 @@ def _robot(loop: ClosedLoop) -> dict[str, str]:
 def _applied(theorem: str, parts: dict[str, str]) -> str:
     goal, _, _ = theorem.partition("_by_")
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
-    return f"match goal with |- {goal} ?A _ _ _ _ => eapply {theorem} with {chosen}; computed end."
+    given = " _" * (5 if goal == "certified_tracking" else 4)
+    return f"match goal with |- {goal} ?A{given} => eapply {theorem} with {chosen}; computed end."
 
 
 def _range(name: str, m: int | None) -> str:

@@ -171,12 +171,13 @@ def _(statement: Property, proof: Proof) -> str:
 
 @proved.register
 def _(statement: Stable, proof: Proof) -> str:
-    return "intros n; apply proposition_of_the_paper; lia."
+    theorem = "tracking" if statement.argument.system.desired else "proposition"
+    return f"intros n; apply {theorem}_of_the_paper; lia."
 
 
 @proved.register
 def _(statement: StableArm, proof: Proof) -> str:
-    return by_norms(closed_loop_of(on_one_arm(statement)))
+    return by_norms(closed_loop_of(on_one_arm(statement)), statement.argument.system.desired)
 
 
 @proved.register

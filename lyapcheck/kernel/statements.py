@@ -139,12 +139,16 @@ def _(statement: Property) -> str:
 
 @proposition.register
 def _(statement: Stable) -> str:
-    """Stability, for all constants: conditions on them are dropped, which says more."""
-    return f"forall n : nat, every_robot_is_stable n {member_of(statement.argument)}"
+    """Stability, uniform where the goal moves; conditions on constants are dropped, which says more."""
+    said = "tracks" if statement.argument.system.desired else "is_stable"
+    return f"forall n : nat, every_robot_{said} n {member_of(statement.argument)}"
 
 
 @proposition.register
 def _(statement: StableArm) -> str:
+    if statement.argument.system.desired:
+        fastest = dict(statement.numbers).get("vd", Fraction(0))
+        return f"{_of_arm('certified_tracking', on_one_arm(statement))} {exact(fastest)}"
     return _of_arm("certified", on_one_arm(statement))
 
 

@@ -1,4 +1,4 @@
-"""Which systems are loops that ``formal/Definitions.v`` knows: (11) under (6) with h_m, and V of (13).
+"""Which systems are loops that ``formal/Definitions.v`` knows: under (6) or (21) with h_m, and V of (13).
 
 Letters may have any names; torques and energies are compared as the checker compares numbers for every n.
 """
@@ -13,33 +13,35 @@ from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.systems.argument import Argument
-from lyapcheck.check.systems.system import DG, GD, M, S, System, W, minus
+from lyapcheck.check.systems.system import DDQD, DG, DQD, GD, B, C, D, G, M, S, System, W, minus
 from lyapcheck.kernel.terms import NotPrinted
 
 X: Tree = ("var", "x")
 EPS0: Tree = ("var", "eps0")
 TEST: Tree = ("vec", "x")
-GLOBAL = ("strict", "LaSalle")
-"""Theorems that conclude global asymptotic stability of a goal, which is what Coq is asked."""
+GLOBAL = {False: ("strict", "LaSalle"), True: ("uniform",)}
+"""Theorems that conclude what Coq is asked: global asymptotic stability of a goal, uniform for one that moves."""
 
 
 def member_of(argument: Argument) -> int:
     """The m for which a theorem says that (6) with h_m makes the goal of every arm with friction stable.
 
+    With (21) instead of (6) if the goal moves.
+
     Raises:
         NotPrinted: it is about another loop, or says something else.
     """
     system = argument.system
-    if argument.theorem not in GLOBAL or argument.local:
+    if argument.theorem not in GLOBAL[system.desired] or argument.local:
         raise NotPrinted(f"the conclusion of the theorem {argument.theorem}")
-    if len(system.gains) != 2 or system.states or system.desired or system.disturbed:
+    if len(system.gains) != 2 or system.states or system.disturbed:
         raise NotPrinted("a loop that is not (11)")
     if system.friction != "positive":
         raise NotPrinted("arms without friction")
     if [f.of for f in system.functions] != ["e", "w"]:
         raise NotPrinted("a loop without a function of q̃ and one of q̇")
     if not _same(("dot", TEST, system.torque), ("dot", TEST, _torque(system))):
-        raise NotPrinted("a torque that is not (6)")
+        raise NotPrinted("a torque that is neither (6) nor (21)")
     first, second = (_member(f.member.value if f.member else ()) for f in system.functions)
     if first != second:
         raise NotPrinted("two functions that differ")
@@ -80,10 +82,13 @@ def _member(value: Tree) -> int:
 
 
 def _torque(system: System) -> Tree:
-    """(6): K_p h − K_v k + g(q)."""
+    """(6): K_p h − K_v k + g(q); (21): with M q̈_d + C(q, q̇) q̇_d + B q̇_d besides."""
     kp, kv = (("diag", name) for name in system.gains)
     h, k = (("vec", f.name) for f in system.functions)
-    return ("sum", ("apply", kp, h), minus(("apply", kv, k)), GD, DG)
+    more = (GD, DG)
+    if system.desired:
+        more = (("apply", M, DDQD), ("apply", ("sum", C, D), DQD), ("apply", B, DQD), G)
+    return ("sum", ("apply", kp, h), minus(("apply", kv, k)), *more)
 
 
 def _energy(system: System) -> Tree:
