@@ -206,24 +206,32 @@ Proof.
   - evar_last; [apply (is_derive_plus (fun s => wave n (q s) w) (fun s => total n (q s) ts)); [apply (wave_rate q t v w D)|exact IH]|].
     unfold plus; simpl. rewrite <- sum_plus. apply sum_ext; intros; ring.
 Qed.
+Lemma total_same q p ts : (forall i, p i = q i) -> total n p ts = total n q ts.
+Proof.
+  intros E. induction ts as [|[[k a] b] ts IH]; simpl; [reflexivity|]. rewrite IH.
+  assert (P : phase n k p = phase n k q); [|now rewrite P]. apply sum_ext; intros m _. now rewrite E.
+Qed.
+Lemma one_of m l (D : nat -> R) : (l < m)%nat -> sum m (fun k => D k * (if Nat.eqb k l then 1 else 0)) = D l.
+Proof.
+  intros Hl. induction m as [|m IH]; [lia|]. simpl. destruct (Nat.eqb_spec m l) as [->|N].
+  - rewrite (sum_ext l _ (fun _ => 0)); [rewrite Loop.sum_const; ring|]. intros j Hj. destruct (Nat.eqb_spec j l); [lia|ring].
+  - rewrite IH by lia. ring.
+Qed.
+(** A partial derivative, from the derivatives along curves. *)
+Lemma partial_along (F : vec -> R) (D : nat -> R) l q : (l < n)%nat ->
+  (forall p t v, (forall i, p t i = q i) -> (forall i, (i < n)%nat -> is_derive (fun s => p s i) t (v i)) ->
+    is_derive (fun s => F (p s)) t (sum n (fun k => D k * v k))) -> partial F l q = D l.
+Proof.
+  intros Hl HF. apply is_derive_unique. evar_last; [|exact (one_of n l D Hl)].
+  apply (HF (fun x i => if Nat.eqb i l then x else q i) (q l) (fun k => if Nat.eqb k l then 1 else 0)).
+  - intros i. destruct (Nat.eqb_spec i l) as [->|]; reflexivity.
+  - intros k Hk. destruct (Nat.eqb_spec k l); [apply (is_derive_id (K := R_AbsRing))|apply (is_derive_const (V := R_NormedModule))].
+Qed.
 Lemma partial_M i j l q : (l < n)%nat -> partial (fun p => M_of A p i j) l q = total n q (map (slope l) (H i j)).
 Proof.
-  intros Hl. unfold partial. apply is_derive_unique.
-  set (p := fun x (i : nat) => if Nat.eqb i l then x else q i).
-  apply (is_derive_ext (fun x => total n (p x) (H i j))); [intros; symmetry; apply M_total|]. evar_last.
-  - apply (total_rate p (q l) (fun i => if Nat.eqb i l then 1 else 0)). intros k Hk. unfold p. destruct (Nat.eqb_spec k l).
-    + apply (is_derive_id (K := R_AbsRing)).
-    + apply (is_derive_const (V := R_NormedModule)).
-  - assert (E : forall ts, total n (p (q l)) ts = total n q ts).
-    { intros ts. induction ts as [|[[k a] b] ts IH]; simpl; [reflexivity|]. rewrite IH.
-      assert (P : phase n k (p (q l)) = phase n k q); [|now rewrite P].
-      apply sum_ext; intros m _. unfold p. destruct (Nat.eqb_spec m l) as [->|]; reflexivity. }
-    transitivity (sum n (fun k => if Nat.eqb k l then total n q (map (slope l) (H i j)) else 0)).
-    + apply sum_ext; intros k Hk. destruct (Nat.eqb_spec k l) as [->|]; [rewrite E|]; ring.
-    + clear E p. generalize (total n q (map (slope l) (H i j))). intros x. revert Hl. generalize n. clear. intros m Hl.
-      induction m as [|m IH]; [lia|]. simpl. destruct (Nat.eqb_spec m l) as [->|N].
-      * rewrite (sum_ext l _ (fun _ => 0)); [rewrite Loop.sum_const; ring|]. intros j Hj. destruct (Nat.eqb_spec j l); [lia|auto].
-      * rewrite IH by lia. ring.
+  intros Hl. apply (partial_along _ (fun l => total n q (map (slope l) (H i j))) l q Hl). intros p t v E D.
+  apply (is_derive_ext (fun x => total n (p x) (H i j))); [intros; symmetry; apply M_total|].
+  evar_last; [apply (total_rate p t v (H i j) D)|]. apply sum_ext; intros k _. now rewrite (total_same q).
 Qed.
 
 (** Christoffel's symbols as harmonics *)
@@ -257,7 +265,7 @@ Lemma rate_of_M (q : R -> vec) t v : (forall i, (i < n)%nat -> is_derive (fun s 
   forall i j, (i < n)%nat -> (j < n)%nat -> is_derive (fun s => M_of A (q s) i j) t (C_of A (q t) v i j + C_of A (q t) v j i).
 Proof.
   intros D i j Hi Hj. apply (is_derive_ext (fun s => total n (q s) (H i j))); [intros; symmetry; apply M_total|].
-  evar_last; [apply (total_rate q t v (H i j) D)|]. unfold C_of. rewrite <- sum_plus. apply sum_ext; intros k Hk.
+  evar_last; [apply (total_rate q t v (H i j) D)|]. unfold C_of, christoffel. rewrite <- sum_plus. apply sum_ext; intros k Hk.
   assert (Sy : forall a b l, (a < n)%nat -> (b < n)%nat -> partial (fun p => M_of A p a b) l (q t) = partial (fun p => M_of A p b a) l (q t)).
   { intros a b l Ha Hb. apply Derive_ext. intros x. now apply symmetric_true. }
   rewrite (Sy j i k), <- (partial_M i j k) by auto. field.

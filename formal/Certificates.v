@@ -4,7 +4,7 @@ From Coquelicot Require Export Coquelicot.
 From Interval Require Export Tactic.
 Require Export Definitions.
 Require Export Family Bounds Words Stability.
-Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping.
+Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping Properties.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.

@@ -120,6 +120,17 @@ Definition V_radially_unbounded (m : nat) : Prop := forall n (rb : robot n) kp q
 (** The loop can rest nowhere else. *)
 Definition only_equilibrium (m : nat) : Prop := forall n (rb : robot n) kp kv qd, positive n kp -> positive n kv ->
   forall e w, solves_at n (M rb) (C rb) (b rb) (h m) kp kv qd (fun _ => e) (fun _ => w) 0 <-> ~ away n e w.
+(** V lies between two functions of e and w alone, both positive definite: c |y|^2 / 2 + sum of k_pi U(e_i). *)
+Definition V_like (n m : nat) (kp : vec) (eps0 c : R) (e w : vec) : R :=
+  c / 2 * dot n (y_of n (h m) eps0 e w) (y_of n (h m) eps0 e w) + sum n (fun i => kp i * U m (e i)).
+Definition definite (n : nat) (W : vec -> vec -> R) : Prop := forall e w, (away n e w -> 0 < W e w) /\ (~ away n e w -> W e w = 0).
+Definition V_bounded_below (m : nat) : Prop := forall n (rb : robot n) kp eps0, positive n kp -> 0 < eps0 -> exists c,
+  definite n (V_like n m kp eps0 c) /\ forall qd e w, V_like n m kp eps0 c e w <= V n (M rb) (h m) (U m) kp qd eps0 e w.
+Definition V_bounded_above (m : nat) : Prop := forall n (rb : robot n) kp eps0, positive n kp -> 0 < eps0 -> exists c,
+  definite n (V_like n m kp eps0 c) /\ forall qd e w, V n (M rb) (h m) (U m) kp qd eps0 e w <= V_like n m kp eps0 c e w.
+(** Under (21) a motion that is at the origin rests there. *)
+Definition equilibrium_of_tracking (m : nat) : Prop := forall n (rb : robot n) kp kv r v e w, ~ away n e w ->
+  tracks n (M rb) (C rb) (b rb) (h m) kp kv r v 0 (fun _ => e) (fun _ => w).
 (** The proposition of the paper, without (19). *)
 Definition every_robot_is_stable (n m : nat) : Prop := forall (rb : robot n) kp kv qd, positive n kp -> positive n kv ->
   globally_asymptotically_stable n (M rb) (C rb) (b rb) (h m) kp kv qd.
@@ -143,14 +154,43 @@ Definition M_of (A : arm) (q : vec) : mat := fun i j =>
 Definition partial (f : vec -> R) (l : nat) (q : vec) : R :=
   Derive (fun x => f (fun i => if Nat.eqb i l then x else q i)) (q l).
 (** C(q, x) by Christoffel's symbols: C_ij = sum over k of (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i)/2 x_k *)
-Definition C_of (A : arm) (q x : vec) : mat := fun i j => sum (joints A) (fun k =>
-  (partial (fun p => M_of A p i j) k q + partial (fun p => M_of A p i k) j q - partial (fun p => M_of A p j k) i q) / 2 * x k).
+Definition christoffel (n : nat) (Mq : vec -> mat) (q x : vec) : mat := fun i j => sum n (fun k =>
+  (partial (fun p => Mq p i j) k q + partial (fun p => Mq p i k) j q - partial (fun p => Mq p j k) i q) / 2 * x k).
+Definition C_of (A : arm) : vec -> vec -> mat := christoffel (joints A) (M_of A).
 Definition b_of (A : arm) : vec := entries (viscous A).
 
 (** M(q) is symmetric and positive definite, for every q. *)
 Definition positive_definite (A : arm) : Prop := forall q,
   (forall i j, (i < joints A)%nat -> (j < joints A)%nat -> M_of A q i j = M_of A q j i) /\
   (forall x, (exists i, (i < joints A)%nat /\ x i <> 0) -> 0 < dot (joints A) x (apply_ (joints A) (M_of A q) x)).
+(** Properties 2.1, 2.2 and 2.6 with numbers. *)
+Definition M_above (A : arm) (low : Q) : Prop := forall q,
+  (forall i j, (i < joints A)%nat -> (j < joints A)%nat -> M_of A q i j = M_of A q j i) /\
+  (forall x, (exists i, (i < joints A)%nat /\ x i <> 0) ->
+    Q2R low * dot (joints A) x x < dot (joints A) x (apply_ (joints A) (M_of A q) x)).
+Definition M_below (A : arm) (high : Q) : Prop := forall q x, norm (joints A) (apply_ (joints A) (M_of A q) x) <= Q2R high * norm (joints A) x.
+Definition C_below (A : arm) (high : Q) : Prop := forall q x y,
+  norm (joints A) (apply_ (joints A) (C_of A q x) y) <= Q2R high * norm (joints A) x * norm (joints A) y.
+(** Properties 2.1 and 2.3 to 2.5 of an arm with parameters p, each between two numbers: in [mass] their powers follow those of the
+    cosines. *)
+Definition M_with (A : arm) (p q : vec) : mat := fun i j => let n := joints A in fold_right (fun t s =>
+  product (length (fst t) - 2 * n) (fun k => p k ^ nth (2 * n + k) (fst t) 0%nat) * monomial_at n q t + s) 0 (nth j (nth i (mass A) []) []).
+Definition in_ranges (ranges : list (Q * Q)) (p : vec) : Prop := forall k, (k < length ranges)%nat ->
+  Q2R (fst (nth k ranges (0, 0)%Q)) <= p k <= Q2R (snd (nth k ranges (0, 0)%Q)).
+Definition M_symmetric (A : arm) ranges : Prop := forall p q, in_ranges ranges p ->
+  forall i j, (i < joints A)%nat -> (j < joints A)%nat -> M_with A p q i j = M_with A p q j i.
+Definition C_at_rest (A : arm) ranges : Prop := forall p q, in_ranges ranges p ->
+  forall i j, (i < joints A)%nat -> (j < joints A)%nat -> christoffel (joints A) (M_with A p) q (fun _ => 0) i j = 0.
+(** dM is the rate of M, along a curve that has the velocity w at time t. *)
+Definition is_rate (A : arm) (p : vec) (q : R -> vec) (w : vec) (t : R) (dM : mat) : Prop :=
+  (forall i, (i < joints A)%nat -> is_derive (fun s => q s i) t (w i)) ->
+  forall i j, (i < joints A)%nat -> (j < joints A)%nat -> is_derive (fun s => M_with A p (q s) i j) t (dM i j).
+Definition M_rate_by_C (A : arm) ranges : Prop := forall p q w t, in_ranges ranges p ->
+  let C := christoffel (joints A) (M_with A p) (q t) w in is_rate A p q w t (fun i j => C i j + C j i).
+Definition M_rate_less_2C (A : arm) ranges : Prop := forall p q w t, in_ranges ranges p ->
+  let C := christoffel (joints A) (M_with A p) (q t) w in exists dM, is_rate A p q w t dM /\
+  (forall i j, (i < joints A)%nat -> (j < joints A)%nat -> dM i j - 2 * C i j = - (dM j i - 2 * C j i)) /\
+  dot (joints A) w (apply_ (joints A) (fun i j => dM i j - 2 * C i j) w) = 0.
 (** The arm under (6) with h_m: what a certified epsilon_0 says, for every goal q_d. *)
 Definition certified (A : arm) (m : nat) (kp kv : list Q) (eps0 : Q) : Prop := positive_definite A /\ forall qd,
   decreasing (joints A) (M_of A) (C_of A) (b_of A) (h m) (U m) (entries kp) (entries kv) qd (Q2R eps0) /\

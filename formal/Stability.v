@@ -91,6 +91,46 @@ Proof.
   exists (sqrt (INR n) * Rabs r). intros e w HV. pose proof (H qd e w HV) as B.
   split; apply Converge.bounded_norm_in; try apply Rabs_pos; intros i Hi; (eapply Rle_trans; [apply (B i Hi)|apply Rle_abs]).
 Qed.
+(** V for the robot with M = c I. *)
+Lemma V_like_definite n kp eps0 c : positive n kp -> 0 < eps0 -> 0 < c -> definite n (V_like n m kp eps0 c).
+Proof.
+  intros Hp P Hc e w. assert (T : forall i, (i < n)%nat -> 0 <= kp i * U m (e i)).
+  { intros i Hi. apply Rmult_le_pos; [left; now apply Hp|]. destruct (Req_dec (e i) 0) as [->|N]; [rewrite (Family.U_zero m Hm); lra|left; now apply (Family.U_pos m Hm)]. }
+  pose proof (dot_pos n (y_of n (h m) eps0 e w)) as Y. pose proof (Converge.sum_nonneg_in n _ T) as S0. unfold V_like. split.
+  - intros (i & Hi & Hz). destruct (Req_dec (e i) 0) as [E|E].
+    + assert (W : w i <> 0) by (destruct Hz; [contradiction|auto]).
+      assert (0 < dot n (y_of n (h m) eps0 e w) (y_of n (h m) eps0 e w)).
+      { pose proof (term_le_sum n (fun j => y_of n (h m) eps0 e w j * y_of n (h m) eps0 e w j) i ltac:(intros; nra) Hi) as K.
+        unfold dot. cbv beta in K. unfold y_of at 1 2 in K. rewrite E, (Family.h_zero m Hm), Rmult_0_r, Rminus_0_r in K. nra. }
+      assert (0 < c / 2 * dot n (y_of n (h m) eps0 e w) (y_of n (h m) eps0 e w)) by (apply Rmult_lt_0_compat; lra). lra.
+    + assert (0 < kp i * U m (e i)) by (apply Rmult_lt_0_compat; [now apply Hp|now apply (Family.U_pos m Hm)]).
+      pose proof (Converge.term_le_sum_in n (fun i => kp i * U m (e i)) i T Hi). cbv beta in *.
+      assert (0 <= c / 2 * dot n (y_of n (h m) eps0 e w) (y_of n (h m) eps0 e w)) by (apply Rmult_le_pos; lra). lra.
+  - intros H. pose proof (not_away n e w H) as Z. rewrite dot_0, sum_0; [ring| |].
+    + intros i Hi. destruct (Z i Hi) as [-> _]. rewrite (Family.U_zero m Hm). ring.
+    + intros i Hi. unfold y_of. destruct (Z i Hi) as [-> ->]. rewrite (Family.h_zero m Hm). ring.
+Qed.
+Theorem V_is_bounded_below : V_bounded_below m.
+Proof.
+  intros n rb kp eps0 Hp P. exists (alpha rb). split; [apply V_like_definite; auto using alpha_pos|]. intros qd e w. unfold V_like, V.
+  apply Rplus_le_compat_r. set (y := y_of n (h m) eps0 e w). pose proof (M_low rb (fun j => qd j - e j) y). lra.
+Qed.
+Theorem V_is_bounded_above : V_bounded_above m.
+Proof.
+  intros n rb kp eps0 Hp P. exists (beta rb + 1). pose proof (beta_pos rb). split; [apply V_like_definite; auto; lra|]. intros qd e w. unfold V_like, V.
+  apply Rplus_le_compat_r. set (y := y_of n (h m) eps0 e w). set (My := apply_ n (M rb (fun j => qd j - e j)) y).
+  pose proof (cauchy_schwarz n y My). pose proof (M_up rb (fun j => qd j - e j) y) as K. fold My in K. pose proof (norm_pos n y). pose proof (norm2 n y). nra.
+Qed.
+Theorem origin_is_equilibrium_of_tracking : equilibrium_of_tracking m.
+Proof.
+  intros n rb kp kv r v e w H t _ i Hi. pose proof (not_away n e w H) as Z. destruct (Z i Hi) as [Ei Wi]. split; [|split].
+  - rewrite Wi. evar_last; [apply (is_derive_const (V := R_NormedModule))|]. unfold zero; simpl. ring.
+  - eexists. apply (is_derive_const (V := R_NormedModule)).
+  - unfold apply_. rewrite (dot_sym n (M rb _ i)), (dot_sym n (C rb _ _ i)), !dot_0.
+    + rewrite Ei, Wi, (Family.h_zero m Hm). ring.
+    + intros j Hj. apply (Z j Hj).
+    + intros j Hj. apply Derive_const.
+Qed.
 Theorem origin_is_only_equilibrium : only_equilibrium m.
 Proof.
   intros n rb kp kv qd Hp Hv e w. split.

@@ -205,6 +205,19 @@ Lemma gap_nonnegative g b t l s : g * b = t -> 0 < b -> 0 < l -> l * t = s -> 0 
 Proof. intros <- B P <- S. apply Rmult_le_reg_l with (l * b); [now apply Rmult_lt_0_compat|]. lra. Qed.
 Lemma gap_positive g b t l s : g * b = t -> 0 < b -> 0 < l -> l * t = s -> 0 < s -> 0 < g.
 Proof. intros <- B P <- S. apply Rmult_lt_reg_l with (l * b); [now apply Rmult_lt_0_compat|]. lra. Qed.
+(** A leading term l outweighs what is multiplied with a small number. *)
+Lemma small_enough l B : 0 < l -> 0 <= B -> exists small, 0 < small /\ forall x, 0 < x < small -> x <= 1 /\ 0 < l - x * B.
+Proof.
+  intros P B0. exists (Rmin 1 (l / (B + 1))). split; [apply Rmin_pos; [lra|apply Rdiv_lt_0_compat; lra]|]. intros x [X0 X1].
+  pose proof (Rmin_l 1 (l / (B + 1))). pose proof (Rmin_r 1 (l / (B + 1))). split; [lra|].
+  assert (x * (B + 1) < l); [|lra]. apply Rlt_le_trans with (l / (B + 1) * (B + 1)); [apply Rmult_lt_compat_r; lra|right; field; lra].
+Qed.
+Lemma pow_below_one x k : 0 <= x <= 1 -> 0 <= x ^ k <= 1.
+Proof. intros [X0 X1]. split; [now apply pow_le|]. rewrite <- (pow1 k). apply pow_incr. lra. Qed.
+Lemma product_below_one a b : 0 <= a <= 1 -> 0 <= b <= 1 -> 0 <= a * b <= 1.
+Proof. intros. split; [apply Rmult_le_pos; lra|]. rewrite <- (Rmult_1_l 1). apply Rmult_le_compat; lra. Qed.
+Ltac below_one := match goal with |- 0 <= 1 - ?a => enough (0 <= a <= 1) by lra end;
+  repeat first [apply product_below_one | apply pow_below_one]; lra.
 Ltac positive := lazymatch goal with
   | |- 0 < ?a + ?b => first [assumption | apply Rplus_lt_le_0_compat; [solve [positive]|solve [nonneg]] | apply Rplus_le_lt_0_compat; [solve [nonneg]|solve [positive]]]
   | |- 0 < ?a * ?b => first [assumption | apply Rmult_lt_0_compat; positive]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
+from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -22,12 +23,13 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
     closed_loop_of,
 )
+from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
 from lyapcheck.check.loop.closed_loop import ClosedLoop, root_above
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.numbers.harmonics import largest
+from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.search.cover import cover
@@ -130,16 +132,50 @@ def _script(loop: ClosedLoop, tree: str | None, goal: str = "certified") -> str:
     return _applied("certified_by_boxes", parts)
 
 
+def property_script(statement: OfArm, proof: Proof) -> str:
+    """The tactics for one of Properties 2.1 to 2.6.
+
+    Raises:
+        NotPrinted: there is no theorem of Coq's.
+    """
+    if isinstance(statement, MassBelow | CoriolisBelow) and not isinstance(proof, HarmonicSizes):
+        raise NotPrinted(f"an upper bound by {proof.rule}")
+    if type(statement) in BY_ENTRIES:
+        return f"apply {BY_ENTRIES[type(statement)]}; computed."
+    if not isinstance(statement, MassAbove):
+        raise NotPrinted(f"statements of the kind {type(statement).__name__}")
+    angles = angles_in(statement.inertia.mass)
+    lowest = Fraction(_lowest(statement.mass, angles)).limit_denominator(10**6)
+    return _applied("M_above_by_boxes", _lower(angles, (statement.low + lowest) / 2))
+
+
+BY_ENTRIES: dict[type, str] = {
+    MassBelow: "M_below_by_rows",
+    CoriolisBelow: "C_below_by_squares",
+    MassSymmetric: "M_symmetric_by_entries",
+    CoriolisAtRest: "C_is_0_at_rest",
+    RateOfMass: "M_rate_by_entries",
+    RateLessTwiceCoriolis: "M_rate_less_2C_by_entries",
+}
+"""The theorems that have to compute with the entries of M(q) alone."""
+
+
+def _lower(angles: Sequence[int], alpha: Fraction) -> dict[str, str]:
+    """What shows M(q) − alpha I ≻ 0."""
+    turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(angles)
+    return {
+        "angles": f"[{'; '.join(map(str, angles))}]%nat",
+        "ks": "waves_in A",
+        "alpha": exact(alpha),
+        "turn": _sides(turn),
+        "fuel": f"{FUEL}%nat",
+    }
+
+
 def _robot(loop: ClosedLoop) -> dict[str, str]:
     """What shows that the arm is a robot and the gains are positive: for every theorem about one arm."""
     viscous, n = loop.arm.viscous, loop.n
-    turn = [(-PI_ABOVE - SLACK, PI_ABOVE + SLACK)] * len(loop.angles)
-    return {
-        "angles": f"[{'; '.join(map(str, loop.angles))}]%nat",
-        "ks": "waves_in A",
-        "alpha": exact(_lowest(loop)),
-        "turn": _sides(turn),
-        "fuel": f"{FUEL}%nat",
+    return _lower(loop.angles, Fraction(0.9 * _lowest(loop.arm.mass, loop.angles)).limit_denominator(10**6)) | {
         "beta": exact(max(sum((_size(loop, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
         "kc": exact(root_above(_squares(loop))),
         "lo": exact(min(viscous)),
@@ -152,7 +188,7 @@ def _robot(loop: ClosedLoop) -> dict[str, str]:
 def _applied(theorem: str, parts: dict[str, str]) -> str:
     goal, _, _ = theorem.partition("_by_")
     chosen = " ".join(f"({name} := {value})" for name, value in parts.items())
-    given = " _" * (5 if goal == "certified_tracking" else 4)
+    given = " _" * {"certified_tracking": 5, "M_above": 1}.get(goal, 4)
     return f"match goal with |- {goal} ?A{given} => eapply {theorem} with {chosen}; computed end."
 
 
@@ -178,16 +214,16 @@ def _squares(loop: ClosedLoop) -> Fraction:
     return sum(((1 if j == k else 2) * size**2 for (_, j, k), size in sizes.items()), Fraction(0))
 
 
-def _lowest(loop: ClosedLoop) -> Fraction:
-    """About nine tenths of the least eigenvalue of M(q) on a grid; only a proposal."""
-    n, steps = loop.n, 25
+def _lowest(mass: Mass, angles: Sequence[int]) -> float:
+    """The least eigenvalue of M(q) on a grid; only a proposal."""
+    n, steps = len(mass), 25
     result = math.inf
-    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(loop.angles)):
+    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(angles)):
         q = np.zeros(n)
-        q[list(loop.angles)] = place
-        rows = [[_value(loop.arm.mass[i][j], q) for j in range(n)] for i in range(n)]
+        q[list(angles)] = place
+        rows = [[_value(entry, q) for entry in row] for row in mass]
         result = min(result, float(np.linalg.eigvalsh(np.array(rows))[0]))
-    return Fraction(0.9 * result).limit_denominator(10**6)
+    return result
 
 
 def _value(entry: Sequence[tuple[tuple[int, ...], Fraction]], q: Array) -> float:

@@ -11,6 +11,7 @@ from functools import singledispatch
 from typing import Any
 
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
+from lyapcheck.check.kinds.agrees import Agrees, Corners, OutsideRounding, at_printed, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
@@ -18,25 +19,31 @@ from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness, closed_loop_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.inertia import OfArm
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.property import EQUILIBRIUM, POSITIVE, UNBOUNDED, Property
+from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
-from lyapcheck.kernel.arms import arm_script, by_norms
-from lyapcheck.kernel.signs import implication
+from lyapcheck.kernel.arms import arm_script, by_norms, property_script
+from lyapcheck.kernel.signs import for_small, implication
+from lyapcheck.kernel.statements import proposition
 from lyapcheck.kernel.systems import on_one_arm
-from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, identifier, rational
+from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, expression, identifier, rational
 from lyapcheck.kernel.words import every_n_script
 
 THEOREMS = {
-    EQUILIBRIUM: "origin_is_only_equilibrium",
-    POSITIVE: "V_is_positive_definite",
-    UNBOUNDED: "V_is_radially_unbounded",
+    "only_equilibrium": "origin_is_only_equilibrium",
+    "equilibrium_of_tracking": "origin_is_equilibrium_of_tracking",
+    "V_positive_definite": "V_is_positive_definite",
+    "V_bounded_below": "V_is_bounded_below",
+    "V_bounded_above": "V_is_bounded_above",
+    "V_radially_unbounded": "V_is_radially_unbounded",
 }
 X: Tree = ("var", "x")
 
@@ -57,6 +64,8 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
         return script(statement.parts[proof.part][1], proof.proof, verdict)
     if isinstance(statement, Constant):
         return f"{facts(statement)}intros H. fails H."
+    if isinstance(statement, Agrees) and isinstance(proof, OutsideRounding):
+        return _disagrees(statement, proof)
     if isinstance(proof, Witness):
         return facts(statement) + _refuted(statement, dict(proof.point))
     raise NotPrinted(f"a refutation by {type(proof).__name__}")
@@ -155,6 +164,31 @@ def _(statement: Implies, proof: Proof) -> str:
 
 
 @proved.register
+def _(statement: ForSmall, proof: Proof) -> str:
+    if not isinstance(proof, LeadingTerm):
+        raise NotPrinted(f"a threshold by {proof.rule}")
+    return for_small(statement, proof)
+
+
+@proved.register
+def _(statement: Agrees, proof: Proof) -> str:
+    if isinstance(proof, Corners):
+        raise NotPrinted("an agreement that needs the roundings of the inputs")
+    inputs = "".join(f"exists {rational(Fraction(text))}. " for _, text in statement.inputs)
+    return f"{inputs}repeat split; numbers."
+
+
+def _disagrees(statement: Agrees, proof: OutsideRounding) -> str:
+    """Over all roundings of the inputs the formula is on one side of what is printed."""
+    ends, formula = printed_range(statement.printed), expression(statement.formula)
+    below = at_printed(statement, proof.bits).upper < ends.lower
+    side = f"{formula} < {rational(ends.lower)}" if below else f"{rational(ends.upper)} < {formula}"
+    names = [identifier(name) for name, _ in statement.inputs]
+    pattern = " & ".join([*names, *(f"K{k}" for k, _ in enumerate(names)), "K"])
+    return f"intros ({pattern}). assert ({side}) by numbers. lra."
+
+
+@proved.register
 def _(statement: EveryN, proof: Proof) -> str:
     return every_n_script(statement, proof)
 
@@ -166,7 +200,8 @@ def _(statement: BoundEveryN, proof: Proof) -> str:
 
 @proved.register
 def _(statement: Property, proof: Proof) -> str:
-    return f"apply {THEOREMS[statement.name]}; lia."
+    name, _, _ = proposition(statement).partition(" ")
+    return f"apply {THEOREMS[name]}; lia."
 
 
 @proved.register
@@ -178,6 +213,11 @@ def _(statement: Stable, proof: Proof) -> str:
 @proved.register
 def _(statement: StableArm, proof: Proof) -> str:
     return by_norms(closed_loop_of(on_one_arm(statement)), statement.argument.system.desired)
+
+
+@proved.register
+def _(statement: OfArm, proof: Proof) -> str:
+    return property_script(statement, proof)
 
 
 @proved.register

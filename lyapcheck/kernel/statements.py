@@ -9,17 +9,28 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import singledispatch
 
+from lyapcheck.check.kinds.agrees import Agrees, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
+from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.property import EQUILIBRIUM, POSITIVE, UNBOUNDED, Property
+from lyapcheck.check.kinds.property import (
+    AN_EQUILIBRIUM,
+    DECRESCENT,
+    EQUILIBRIUM,
+    POSITIVE,
+    UNBOUNDED,
+    Property,
+)
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Statement
@@ -27,6 +38,7 @@ from lyapcheck.kernel.letters import every_n
 from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
+    any_arm,
     arm,
     bound,
     exact,
@@ -36,14 +48,20 @@ from lyapcheck.kernel.terms import (
     quantified,
     rational,
     relation,
+    small_hypotheses,
 )
 
 PROPERTIES = {
-    EQUILIBRIUM: "only_equilibrium",
-    POSITIVE: "V_positive_definite",
-    UNBOUNDED: "V_radially_unbounded",
+    (EQUILIBRIUM, False): "only_equilibrium",
+    (AN_EQUILIBRIUM, False): "only_equilibrium",
+    (AN_EQUILIBRIUM, True): "equilibrium_of_tracking",
+    (POSITIVE, False): "V_positive_definite",
+    (POSITIVE, True): "V_bounded_below",
+    (UNBOUNDED, False): "V_radially_unbounded",
+    (DECRESCENT, False): "V_bounded_above",
+    (DECRESCENT, True): "V_bounded_above",
 }
-"""The properties of the loop and of V that the page of definitions has."""
+"""The properties of the loop and of V that the page of definitions has, and whether the goal moves."""
 
 
 def shown(statement: Statement, proof: Proof, verdict: str) -> str:
@@ -108,6 +126,29 @@ def _(statement: Implies) -> str:
 
 
 @proposition.register
+def _(statement: ForSmall) -> str:
+    """Hypotheses without the small variable come before the threshold, which may depend on them."""
+    small, unit = identifier(statement.small), [identifier(name) for name in statement.bounded]
+    before, later = small_hypotheses(statement)
+    given = [line for variable in statement.variables for line in bound(variable)]
+    given += map(relation, before)
+    over = "".join(f"forall {t} : R, 0 < {t} <= 1 -> " for t in unit)
+    conclusion = quantified([], map(relation, later), relation(statement.conclusion))
+    threshold = f"exists small : R, 0 < small /\\ forall {small} : R, 0 < {small} < small -> {over}{conclusion}"
+    return quantified([v.name for v in statement.variables], given, threshold)
+
+
+@proposition.register
+def _(statement: Agrees) -> str:
+    """That some inputs within half a unit give a result within half a unit."""
+    rows = [(identifier(name), printed_range(text)) for name, text in statement.inputs]
+    rows.append((expression(statement.formula), printed_range(statement.printed)))
+    within = (f"{rational(ends.lower)} <= {value} <= {rational(ends.upper)}" for value, ends in rows)
+    some = "".join(f"exists {identifier(name)} : R, " for name, _ in statement.inputs)
+    return some + " /\\ ".join(within)
+
+
+@proposition.register
 def _(statement: EveryN) -> str:
     """Also for n = 0, which says more."""
     return every_n(statement)
@@ -130,10 +171,10 @@ def _(statement: NormBound) -> str:
 @proposition.register
 def _(statement: Property) -> str:
     """Of the loop (11) or V of (13), for every ε₀ > 0; the bounds that it follows from are not part of it."""
-    name = PROPERTIES.get(statement.name)
+    name = PROPERTIES.get((statement.name, statement.argument.system.desired))
     if name is None:
         raise NotPrinted(f"the property “{statement.name}”")
-    of = member_of if statement.name == EQUILIBRIUM else member_of_energy
+    of = member_of if statement.name in (EQUILIBRIUM, AN_EQUILIBRIUM) else member_of_energy
     return f"{name} {of(statement.argument)}"
 
 
@@ -161,6 +202,54 @@ def _(statement: Decreasing) -> str:
 def _(statement: DampingBelow) -> str:
     gains = statement.with_damping(Fraction(1), Fraction(1))
     return f"damping_below {_loop(gains)} {exact(max(statement.kv))} ({expression(statement.bound)})"
+
+
+@proposition.register
+def _(statement: MassAbove) -> str:
+    return f"M_above {_numbers(statement)} {exact(statement.low)}"
+
+
+@proposition.register
+def _(statement: MassBelow) -> str:
+    return f"M_below {_numbers(statement)} {exact(statement.high)}"
+
+
+@proposition.register
+def _(statement: CoriolisBelow) -> str:
+    return f"C_below {_numbers(statement)} {exact(statement.high)}"
+
+
+@proposition.register
+def _(statement: MassSymmetric) -> str:
+    return f"M_symmetric {any_arm(statement.mass, statement.parameters)}"
+
+
+@proposition.register
+def _(statement: CoriolisAtRest) -> str:
+    return f"C_at_rest {_by_symbols(statement)}"
+
+
+@proposition.register
+def _(statement: RateOfMass) -> str:
+    return f"M_rate_by_C {_by_symbols(statement)}"
+
+
+@proposition.register
+def _(statement: RateLessTwiceCoriolis) -> str:
+    return f"M_rate_less_2C {_by_symbols(statement)}"
+
+
+def _numbers(statement: MassAbove | MassBelow | CoriolisBelow) -> str:
+    """The arm of a statement, whose entries have numbers alone."""
+    if statement.parameters:
+        raise NotPrinted("a bound for an arm with uncertain numbers")
+    return arm(statement.mass, ())
+
+
+def _by_symbols(statement: CoriolisAtRest | RateOfMass | RateLessTwiceCoriolis) -> str:
+    if statement.printed:
+        raise NotPrinted("a printed Coriolis matrix")
+    return any_arm(statement.mass, statement.parameters)
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:

@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.statement import Monomials, Relation, Variable
+from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.statement import Ends, Monomials, Relation, Variable
 
 
 class NotPrinted(Exception):
@@ -146,6 +147,14 @@ def quantified(names: Iterable[str], given: Iterable[str], conclusion: str) -> s
     return f"forall {variables} : R, {body}" if variables else body
 
 
+def small_hypotheses(statement: ForSmall) -> tuple[list[Relation], list[Relation]]:
+    """Those that are given before the threshold, and those with the small or a bounded variable in them."""
+    free = {statement.small, *statement.bounded}
+    within = [bool(variables(one.gap) & free) for one in statement.hypotheses]
+    pairs = list(zip(statement.hypotheses, within, strict=True))
+    return [one for one, inside in pairs if not inside], [one for one, inside in pairs if inside]
+
+
 def exact(value: Fraction) -> str:
     """A number of type Q."""
     numerator = f"({value.numerator})" if value < 0 else str(value.numerator)
@@ -168,6 +177,13 @@ def arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str
         raise NotPrinted("an arm with uncertain parameters")
     rows = [f"[{'; '.join(_entry(entry) for entry in row)}]" for row in mass]
     return f"(Arm {n} [{'; '.join(rows)}] {exact_list(viscous)})"
+
+
+def any_arm(mass: Sequence[Sequence[Monomials]], parameters: Iterable[Ends]) -> str:
+    """An arm of which M(q) alone is said something, and the ranges of its parameters."""
+    rows = [f"[{'; '.join(_entry(entry) for entry in row)}]" for row in mass]
+    ranges = (f"({exact(low)}, {exact(high)})" for low, high in parameters)
+    return f"(Arm {len(mass)} [{'; '.join(rows)}] []%Q) [{'; '.join(ranges)}]"
 
 
 def _entry(terms: Monomials) -> str:
