@@ -175,7 +175,9 @@ def _lower(angles: Sequence[int], alpha: Fraction) -> dict[str, str]:
 def _robot(loop: ClosedLoop) -> dict[str, str]:
     """What shows that the arm is a robot and the gains are positive: for every theorem about one arm."""
     viscous, n = loop.arm.viscous, loop.n
-    return _lower(loop.angles, Fraction(0.9 * _lowest(loop.arm.mass, loop.angles)).limit_denominator(10**6)) | {
+    return _lower(
+        loop.angles, Fraction(0.9 * _lowest(loop.arm.mass, loop.angles)).limit_denominator(10**6)
+    ) | {
         "beta": exact(max(sum((_size(loop, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
         "kc": exact(root_above(_squares(loop))),
         "lo": exact(min(viscous)),

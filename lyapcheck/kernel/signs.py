@@ -110,9 +110,7 @@ class _Identity:
         for k in sorted({multiple.hypothesis for multiple in proof.multiples}):
             top, strict = self.signs.hypotheses[k]
             gap, bottom = self.gap(self.hypotheses[k])
-            sign, rule = (
-                ("<", "Rmult_lt_0_compat; [lra|") if strict else ("<=", "Rmult_le_pos; [lra|left; ")
-            )
+            sign, rule = ("<", "Rmult_lt_0_compat; [lra|") if strict else ("<=", "Rmult_le_pos; [lra|left; ")
             shown = _text(top, self.shifted)
             lines.append(
                 f"assert (G{k} : 0 {sign} {shown}). {{ replace ({shown}) with ({gap} * ({bottom})) "

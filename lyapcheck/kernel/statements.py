@@ -134,7 +134,9 @@ def _(statement: ForSmall) -> str:
     given += map(relation, before)
     over = "".join(f"forall {t} : R, 0 < {t} <= 1 -> " for t in unit)
     conclusion = quantified([], map(relation, later), relation(statement.conclusion))
-    threshold = f"exists small : R, 0 < small /\\ forall {small} : R, 0 < {small} < small -> {over}{conclusion}"
+    threshold = (
+        f"exists small : R, 0 < small /\\ forall {small} : R, 0 < {small} < small -> {over}{conclusion}"
+    )
     return quantified([v.name for v in statement.variables], given, threshold)
 
 
