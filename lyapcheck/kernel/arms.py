@@ -104,7 +104,7 @@ def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
 
 
 def by_norms(loop: ClosedLoop, moving: bool = False) -> str:
-    """The tactics for ``certified`` where ε₀ is so small that norms alone show it; or for a goal that moves."""
+    """The tactics for ``certified``, or for a goal that moves, where norms alone show it."""
     return _script(loop, None, "certified_tracking" if moving else "certified")
 
 

@@ -62,13 +62,7 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
         return facts(statement) + proved(statement, proof)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
         return script(statement.parts[proof.part][1], proof.proof, verdict)
-    if isinstance(statement, Constant):
-        return f"{facts(statement)}intros H. fails H."
-    if isinstance(statement, Agrees) and isinstance(proof, OutsideRounding):
-        return _disagrees(statement, proof)
-    if isinstance(proof, Witness):
-        return facts(statement) + _refuted(statement, dict(proof.point))
-    raise NotPrinted(f"a refutation by {type(proof).__name__}")
+    return facts(statement) + _refuted(statement, proof)
 
 
 def _above(statement: DampingBelow, proof: DampingAbove) -> str:
@@ -282,7 +276,18 @@ def secant(m: int, c: Fraction) -> str:
     return f"{middle}; [lra|lra|prove_h_at_most|lra|prove_near_zero|prove_between]"
 
 
-def _refuted(statement: Statement, point: dict[str, Fraction]) -> str:
+def _refuted(statement: Statement, proof: Proof) -> str:
+    """That a statement does not hold."""
+    if isinstance(statement, Constant):
+        return "intros H. fails H."
+    if isinstance(statement, Agrees) and isinstance(proof, OutsideRounding):
+        return _disagrees(statement, proof)
+    if not isinstance(proof, Witness):
+        raise NotPrinted(f"a refutation by {type(proof).__name__}")
+    return _fails_at(statement, dict(proof.point))
+
+
+def _fails_at(statement: Statement, point: dict[str, Fraction]) -> str:
     """The statement at the point of a witness."""
     if isinstance(statement, NormBound):
         values = exact_list(point[f"x{i + 1}"] for i in range(statement.n))

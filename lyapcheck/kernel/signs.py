@@ -20,7 +20,8 @@ from lyapcheck.check.kinds.signs import SignIdentity, Signs
 from lyapcheck.check.kinds.signs import _below as below
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Relation, Variable
-from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational, small_hypotheses
+from lyapcheck.kernel.statements import small_hypotheses
+from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
 
 
 def implication(statement: Implies, proof: SignIdentity) -> str:
@@ -85,7 +86,8 @@ def for_small(statement: ForSmall, proof: LeadingTerm) -> str:
         f"intros {' '.join([*names, *filter(None, given)])}. {by.known}{by.gaps(proof.identity)}"
         f"assert (Lead : 0 < {least}). {{ {by.shown(lead, proof.identity, strict=True)} }} "
         f"destruct (small_enough ({least}) ({most}) Lead ltac:(nonneg)) as (small & P & S). exists small. "
-        f"split; [exact P|]. intros {small} [E0 E1]{units_in} {later}. destruct (S {small} (conj E0 E1)) as [E2 E3]. "
+        f"split; [exact P|]. intros {small} [E0 E1]{units_in} {later}. "
+        f"destruct (S {small} (conj E0 E1)) as [E2 E3]. "
         f"{''.join(dict.fromkeys(ones))}enough (0 < {gap}) by lra. "
         f"apply (gap_positive _ ({bottom}) ({total}) 1 ({total})); "
         f"[quotients {by.root}|positive|lra|apply Rmult_1_l|apply Rmult_lt_0_compat; positive]."

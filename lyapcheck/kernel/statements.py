@@ -9,6 +9,7 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import singledispatch
 
+from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.agrees import Agrees, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -33,7 +34,7 @@ from lyapcheck.check.kinds.property import (
 )
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.kernel.letters import every_n
 from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
@@ -48,7 +49,6 @@ from lyapcheck.kernel.terms import (
     quantified,
     rational,
     relation,
-    small_hypotheses,
 )
 
 PROPERTIES = {
@@ -190,8 +190,10 @@ def _(statement: Stable) -> str:
 @proposition.register
 def _(statement: StableArm) -> str:
     if statement.argument.system.desired:
-        fastest = dict(statement.numbers).get("vd", Fraction(0))
-        return f"{_of_arm('certified_tracking', on_one_arm(statement))} {exact(fastest)}"
+        numbers = dict(statement.numbers)
+        if "vd" not in numbers:
+            raise NotPrinted("a goal of any velocity")
+        return f"{_of_arm('certified_tracking', on_one_arm(statement))} {exact(numbers['vd'])}"
     return _of_arm("certified", on_one_arm(statement))
 
 
@@ -268,3 +270,11 @@ def _loop(statement: Decreasing) -> str:
         raise NotPrinted("an arm with uncertain numbers")
     data = arm(statement.mass, [low for low, _ in statement.viscous])
     return f"{data} {statement.m} {exact_list(statement.kp)} {exact_list(statement.kv)}"
+
+
+def small_hypotheses(statement: ForSmall) -> tuple[list[Relation], list[Relation]]:
+    """Those that are given before the threshold, and those with the small or a bounded variable in them."""
+    free = {statement.small, *statement.bounded}
+    within = [bool(variables(one.gap) & free) for one in statement.hypotheses]
+    pairs = list(zip(statement.hypotheses, within, strict=True))
+    return [one for one, inside in pairs if not inside], [one for one, inside in pairs if inside]

@@ -20,7 +20,7 @@ X: Tree = ("var", "x")
 EPS0: Tree = ("var", "eps0")
 TEST: Tree = ("vec", "x")
 GLOBAL = {False: ("strict", "LaSalle"), True: ("uniform",)}
-"""Theorems that conclude what Coq is asked: global asymptotic stability of a goal, uniform for one that moves."""
+"""Theorems that conclude global asymptotic stability: of a goal at rest, and uniform of one that moves."""
 
 
 def member_of(argument: Argument) -> int:
@@ -85,7 +85,7 @@ def _torque(system: System) -> Tree:
     """(6): K_p h − K_v k + g(q); (21): with M q̈_d + C(q, q̇) q̇_d + B q̇_d besides."""
     kp, kv = (("diag", name) for name in system.gains)
     h, k = (("vec", f.name) for f in system.functions)
-    more = (GD, DG)
+    more: tuple[Tree, ...] = (GD, DG)
     if system.desired:
         more = (("apply", M, DDQD), ("apply", ("sum", C, D), DQD), ("apply", B, DQD), G)
     return ("sum", ("apply", kp, h), minus(("apply", kv, k)), *more)

@@ -10,8 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.expressions.expression import Tree, variables
-from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.statement import Ends, Monomials, Relation, Variable
 
 
@@ -87,45 +86,35 @@ def vector(tree: Tree) -> str:
     """A term of type vec: a letter, or the function of its entries."""
     if tree[0] == "vec":
         return identifier(tree[1])
-    value = entry(tree)
+    value = entry(tree, "i")
     return value.removesuffix(" i") if value.startswith("(apply_ ") else f"(fun i => {value})"
-
-
-def entry(tree: Tree) -> str:
-    """The entry i of a vector; the product of a diagonal matrix and a vector is that of their entries."""
-    kind, *parts = tree
-    if kind == "vec":
-        return f"{identifier(parts[0])} i"
-    if kind == "sum":
-        return f"({' + '.join(map(entry, parts))})" if parts else "0"
-    if kind == "scale":
-        return f"({expression(parts[0])} * {entry(parts[1])})"
-    if parts[0][0] == "diag":
-        return f"({identifier(parts[0][1])} i * {entry(parts[1])})"
-    return f"(apply_ n {matrix(parts[0])} {vector(parts[1])}) i"
 
 
 def matrix(tree: Tree) -> str:
     """A term of type mat: a letter, or the function of its entries."""
-    return identifier(tree[1]) if tree[0] == "mat" else f"(fun i j => {cell(tree, 'i j')})"
+    return identifier(tree[1]) if tree[0] == "mat" else f"(fun i j => {entry(tree, 'i j')})"
 
 
-def cell(tree: Tree, place: str) -> str:
-    """The entry of a matrix at a place.
+def entry(tree: Tree, place: str) -> str:
+    """The entry of a vector or matrix at a place; that of a diagonal matrix times a vector is a product.
 
     Raises:
         NotPrinted: a diagonal matrix is not applied to a vector.
     """
     kind, *parts = tree
-    if kind == "mat":
+    if kind in ("vec", "mat"):
         return f"{identifier(parts[0])} {place}"
     if kind == "sum":
-        return f"({' + '.join(cell(part, place) for part in parts)})" if parts else "0"
+        return f"({' + '.join(entry(part, place) for part in parts)})" if parts else "0"
     if kind == "scale":
-        return f"({expression(parts[0])} * {cell(parts[1], place)})"
+        return f"({expression(parts[0])} * {entry(parts[1], place)})"
     if kind == "transpose":
-        return cell(parts[0], " ".join(reversed(place.split())))
-    raise NotPrinted(f"the matrix {kind} that is not applied")
+        return entry(parts[0], " ".join(reversed(place.split())))
+    if kind != "apply":
+        raise NotPrinted(f"the matrix {kind} that is not applied")
+    if parts[0][0] == "diag":
+        return f"({identifier(parts[0][1])} {place} * {entry(parts[1], place)})"
+    return f"(apply_ n {matrix(parts[0])} {vector(parts[1])}) {place}"
 
 
 def relation(one: Relation) -> str:
@@ -145,14 +134,6 @@ def quantified(names: Iterable[str], given: Iterable[str], conclusion: str) -> s
     variables = " ".join(map(identifier, names))
     body = " -> ".join([*(f"({one})" for one in given), f"({conclusion})"])
     return f"forall {variables} : R, {body}" if variables else body
-
-
-def small_hypotheses(statement: ForSmall) -> tuple[list[Relation], list[Relation]]:
-    """Those that are given before the threshold, and those with the small or a bounded variable in them."""
-    free = {statement.small, *statement.bounded}
-    within = [bool(variables(one.gap) & free) for one in statement.hypotheses]
-    pairs = list(zip(statement.hypotheses, within, strict=True))
-    return [one for one, inside in pairs if not inside], [one for one, inside in pairs if inside]
 
 
 def exact(value: Fraction) -> str:
