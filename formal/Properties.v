@@ -26,7 +26,7 @@ Proof.
 Qed.
 
 (** *** With parameters *)
-Section Parameters.
+Section Mixed.
 Variable A : arm.
 Notation n := (joints A).
 Variable p : vec.
@@ -77,7 +77,7 @@ Proof.
   { intros a b l Ha Hb. apply Derive_ext. intros x. now apply with_symmetric. }
   rewrite (Sy j i k), (Sy j k i), (Sy i k j) by auto. field.
 Qed.
-End Parameters.
+End Mixed.
 
 Theorem M_symmetric_by_entries A ranges : alike A = true -> M_symmetric A ranges.
 Proof. intros H p q _ i j Hi Hj. now apply with_symmetric. Qed.
