@@ -17,11 +17,15 @@ from lyapcheck.answers.kernel import _copied
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.kinds.agrees import Agrees
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.inertia import MassBelow
+from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
@@ -100,16 +104,17 @@ def asked(folder: Path, *places: str) -> dict[str, Kernel]:
 @pytest.mark.slow
 def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder: Path) -> None:
     result = asked(
-        folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.2.2.json"
+        folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.2.8.json"
     )
     assert {file: one.axioms for file, one in result.items()} == {
         "pub.7g.m1.json": "float",
         "ext.V-is-positive-definite.json": "real",
         "pub.17a.json": "float",
-        "pub.2.2.json": "",
+        "pub.2.8.json": "",
     }
     assert (
-        result["pub.2.2.json"].reason == "there is no theorem of Coq's for statements of the kind MassBelow"
+        result["pub.2.8.json"].reason
+        == "there is no theorem of Coq's for statements of the kind TrigonometricBound"
     )
 
 
@@ -234,7 +239,9 @@ def test_statements_for_every_n_and_implications_are_theorems_of_coqs_and_false_
 
 
 DEFINED = """h dh U gamma rho L vec norm Arm certified every_robot_is_stable
-V_positive_definite V_radially_unbounded only_equilibrium"""
+V_positive_definite V_radially_unbounded only_equilibrium
+every_robot_tracks certified_tracking V_bounded_below V_bounded_above equilibrium_of_tracking
+M_above M_below C_below M_symmetric C_at_rest M_rate_by_C M_rate_less_2C"""
 REALS = {
     "Rabs": "Rbasic_fun.Rabs",
     "sqrt": "R_sqrt.sqrt",
@@ -265,10 +272,52 @@ def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_re
 
 @needs_coq
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["buap3.m1.stable", "arms.all.m1", "7a.m2", "h.odd.m2", "19n.m2"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "buap3.m1.stable",
+        "arms.all.m1",
+        "7a.m2",
+        "h.odd.m2",
+        "19n.m2",
+        "21.m1",
+        "21.loop.m1",
+        "arm.21.m1",
+        "2.1",
+    ],
+)
 def test_claims_of_the_table_are_theorems_of_coqs(folder: Path, name: str) -> None:
     one = certificate_of((OWN / f"{name}.json").read_bytes())[0]
     Coq(folder, 600).accept("one_of_the_table", theorem_file(one))
+
+
+def false_ones() -> dict[str, Certificate]:
+    """Statements with one number changed, so that they are false."""
+    arm = certificate_of((OWN / "arm.21.m1.json").read_bytes())[0]
+    heavy, small, printed = (
+        certificate_of((GOOD / f"{name}.json").read_bytes())[0]
+        for name in ("pub.2.2", "ext.small-shared", "pub.T2.pdkv.base")
+    )
+    assert isinstance(arm.statement, StableArm)
+    assert isinstance(heavy.statement, MassBelow)
+    assert isinstance(small.statement, ForSmall)
+    assert isinstance(printed.statement, Agrees)
+    faster = tuple((name, 200 if name == "vd" else value) for name, value in arm.statement.numbers)
+    conclusion = replace(small.statement.conclusion, right=("mul", ("num", "-2"), ("var", "t")))
+    return {
+        "a goal too fast for this ε₀": replace(arm, statement=replace(arm.statement, numbers=faster)),
+        "a bound below the norm of M": replace(heavy, statement=replace(heavy.statement, high=Fraction(3))),
+        "a leading term below 0": replace(small, statement=replace(small.statement, conclusion=conclusion)),
+        "a printed number of its own": replace(printed, statement=replace(printed.statement, printed="0.5")),
+    }
+
+
+@needs_coq
+@pytest.mark.slow
+@pytest.mark.parametrize("name", false_ones())
+def test_false_statements_of_the_table_are_no_theorems_of_coqs(folder: Path, name: str) -> None:
+    with pytest.raises(CoqRefused):
+        Coq(folder, 600).accept("false_of_the_table", theorem_file(false_ones()[name]))
 
 
 @needs_coq

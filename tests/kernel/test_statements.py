@@ -11,9 +11,11 @@ import pytest
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Relation
 from lyapcheck.kernel.judge import theorem_file
-from lyapcheck.kernel.statements import shown
+from lyapcheck.kernel.statements import proposition, shown
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
 from tests.helpers.shares import one_in
 
@@ -75,6 +77,32 @@ def test_another_number_is_another_theorem(place: str) -> None:
     name = "conclusion" if hasattr(one.statement, "conclusion") else "relation"
     other = replace(one.statement, **{name: numbers_changed(getattr(one.statement, name))})
     assert shown(other, one.proof, one.verdict) != shown(one.statement, one.proof, one.verdict)
+
+
+def test_the_tracking_scheme_is_printed_of_its_own_torque_alone() -> None:
+    one = dict(certificates())["21.m1.json"].statement
+    assert isinstance(one, Stable)
+    system = one.argument.system
+    assert proposition(one) == "forall n : nat, every_robot_tracks n 1"
+    *rest, last = system.torque
+    assert last == ("apply", ("diag", "B"), ("vec", "dqd"))
+    less = replace(one, argument=replace(one.argument, system=replace(system, torque=tuple(rest))))
+    with pytest.raises(NotPrinted, match="neither"):
+        proposition(less)
+
+
+def test_an_arm_that_tracks_is_printed_with_the_velocity_of_its_goal() -> None:
+    one = dict(certificates())["arm.21.m1.json"].statement
+    assert isinstance(one, StableArm)
+    assert proposition(one).endswith(" (117843957 # 3355443200)%Q (2 # 1)%Q")
+    without = tuple(pair for pair in one.numbers if pair[0] != "vd")
+    with pytest.raises(NotPrinted, match="any velocity"):
+        proposition(replace(one, numbers=without))
+
+
+def test_a_coriolis_matrix_that_is_printed_is_not_taken_for_that_of_christoffel() -> None:
+    with pytest.raises(NotPrinted, match="a printed Coriolis matrix"):
+        proposition(dict(certificates())["ext.RateOfMass.printed.json"].statement)
 
 
 def test_a_letter_of_a_certificate_is_not_taken_for_the_vector_of_a_norm() -> None:
