@@ -65,7 +65,7 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
         rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
         raise NotPrinted(f"a proof by {rule}")
-    return _script(loop, proof.rate.tree)
+    return _by_boxes(loop, proof.rate.tree)
 
 
 def _finer(loop: ClosedLoop, tree: str) -> str:
@@ -105,17 +105,20 @@ def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
 
 def by_norms(loop: ClosedLoop, moving: bool = False) -> str:
     """The tactics for ``certified``, or for a goal that moves, where norms alone show it."""
-    return _script(loop, None, "certified_tracking" if moving else "certified")
+    return _applied("certified_tracking_by_norms" if moving else "certified_by_norms", _parts(loop))
 
 
-def _script(loop: ClosedLoop, tree: str | None, goal: str = "certified") -> str:
-    parts = _robot(loop) | {
+def _parts(loop: ClosedLoop) -> dict[str, str]:
+    """What every theorem about dV/dt < 0 takes."""
+    return _robot(loop) | {
         "f": f"member_{loop.m}",
         "c1": exact(min(loop.kp) * LITTLE),
         "c2": exact(min(loop.arm.viscous) * LITTLE),
     }
-    if tree is None:
-        return _applied(f"{goal}_by_norms", parts)
+
+
+def _by_boxes(loop: ClosedLoop, tree: str) -> str:
+    parts = _parts(loop)
     count, n = len(loop.angles), loop.n
     errors = loop.start[count : count + n]
     signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
