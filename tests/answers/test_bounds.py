@@ -15,6 +15,7 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.task import Task
 
 F = Fraction
@@ -106,3 +107,25 @@ def test_a_record_is_a_gain_set(compared: Comparisons) -> None:
     assert sound["settling"]["time"] >= float(compared.results[0].settling.time or 0)
     assert flat["settling"]["time"] is None
     assert "-0.0" not in compared.written("csv")
+
+
+@pytest.mark.slow
+def test_ranges_are_told_beside_what_holds_at_nominal_numbers() -> None:
+    """Friction up to 30 % lower: proved of every arm between, and what that costs."""
+    arm, ranges = "reyes-kelly2", (Vary.parsed("viscous=-30%..+0%"),)
+    asked = (load(arm), TASK, math.radians(10), (), (0.0, 0.0))
+    result = compare(FILE.gains[0], *asked, max_boxes=2_000, varied=(load(arm, vary=ranges), ranges))
+    assert result.certified
+    assert result.settling.shown is not None
+    assert all(low < high for low, high in result.settling.shown.statement.viscous)
+    assert result.varies == ("viscous=-30%..0%",)
+    assert result.unvaried is not None
+    assert result.unvaried.settling.time is not None
+    assert (result.settling.time or 0) > result.unvaried.settling.time
+    text = " ".join(str(Comparisons((result,))).split())
+    for part in ("with viscous=-30%..0%", "cost of the ranges", "at nominal numbers", "constant in time"):
+        assert part in text
+    assert (
+        result.settling.shown.statement.text()
+        == Comparisons((result,)).data()["results"][0]["settling"]["statement"]
+    )
