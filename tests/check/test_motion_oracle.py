@@ -48,26 +48,34 @@ def numbers(statement, name):
     return np.array([float(Fraction(x)) for x in statement[name]])
 
 
+def one_within(ranges, random):
+    """A number of each range, mostly an end of it."""
+    shares = random.choice([0.0, 1.0, 0.0, 1.0, 0.5], len(ranges))
+    ends = np.array([[float(Fraction(x)) for x in pair] for pair in ranges]).reshape(-1, 2)
+    return ends[:, 0] + (ends[:, 1] - ends[:, 0]) * shares
+
+
 def motions(statement):
     """Times, errors and levels of V of some motions that the statement speaks of."""
     as_rate = {"kind": "Decreasing", "coupling": [], "parameters": [], "viscous": []}
     loop, random = Loop({"eps0": "0", **statement, **as_rate}), np.random.default_rng(7)
-    n, viscous = loop.n, numbers(statement, "viscous")
+    n = loop.n
     starts = [numbers(statement, f"{name}_at_start") for name in ("errors", "rates")]
     times = [float(Fraction(t)) for t, _ in statement.get("envelope", statement.get("within"))]
     grid = np.unique(np.concatenate([times, np.linspace(0, times[-1] + LONG, 400)]))
 
-    def slope(t, y):
+    def slope(t, y, viscous, parameters):
         q, e, w = np.split(y, 3)
-        return np.concatenate([w, -w, loop.acceleration(q, e, w, viscous, np.zeros(n))])
+        return np.concatenate([w, -w, loop.acceleration(q, e, w, viscous, np.zeros(n), parameters)])
 
     for run in range(RUNS):
         shares = [random.choice([-1.0, 1.0], n) if run % 2 else random.uniform(-1, 1, n) for _ in range(2)]
         e, w = (size * share for size, share in zip(starts, shares, strict=True))
+        arm = [one_within(statement[name], random) for name in ("viscous", "parameters")]
         begin = np.concatenate([random.uniform(-np.pi, np.pi, n), e, w])
-        path = solve_ivp(slope, (0, grid[-1]), begin, "LSODA", grid, rtol=1e-9, atol=1e-12).y
+        path = solve_ivp(slope, (0, grid[-1]), begin, "LSODA", grid, args=arm, rtol=1e-9, atol=1e-12).y
         q, e, w = path[:n].T, path[n : 2 * n].T, path[2 * n :].T
-        yield grid, e, loop.level(q, e, w)
+        yield grid, e, loop.level(q, e, w, arm[1])
 
 
 def broken(statement):

@@ -78,16 +78,16 @@ class Loop:
         rate -= np.sum(self.kp * h * w, axis=1)
         return rate / (eps[:, 0] * np.sum(h * h, axis=1) + np.sum(w * w, axis=1) + 1e-300)
 
-    def acceleration(self, q, e, w, viscous, torque):
-        """ẇ of one state, with a torque beside those of the controller."""
-        M, slopes = (part[0] for part in self._mass(q[None], np.empty((1, 0))))
+    def acceleration(self, q, e, w, viscous, torque, parameters=()):
+        """ẇ of one state of one arm, with a torque beside those of the controller."""
+        M, slopes = (part[0] for part in self._mass(q[None], np.array([parameters], dtype=float)))
         force = self.kp * self._h(e) - self.kv * self._h(w) - viscous * w + torque
         force += 0.5 * np.einsum("i,kij,j->k", w, slopes, w) - np.einsum("k,kij,j->i", w, slopes, w)
         return np.linalg.solve(M, force)
 
-    def level(self, q, e, w):
-        """V at states, for h whose potential is log(1 + sinh^2m)/2m."""
-        M = self._mass(q, np.empty((len(q), 0)))[0]
+    def level(self, q, e, w, parameters=()):
+        """V at states of one arm, for h whose potential is log(1 + sinh^2m)/2m."""
+        M = self._mass(q, np.tile(np.array(parameters, dtype=float), (len(q), 1)))[0]
         m = self.statement["m"] or 1
         y = w - self.eps0 / (1 + np.linalg.norm(e, axis=1, keepdims=True)) * self._h(e)
         potential = np.log1p(np.sinh(e) ** (2 * m)) / (2 * m)
