@@ -54,7 +54,7 @@ SAID = {
     "report.document": (2, HEADING),
     "report.drawings": (1, HEADING),
     "report.figures.constants": (1, HEADING),
-    "report.jobs": (1, HEADING),
+    "report.jobs": (2, HEADING),
     "report.kept": (2, "what a fresh process of the checker must say"),
     "report.model": (2, SORTING),
     "report.page.claims": (2, SORTING),
