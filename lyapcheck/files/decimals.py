@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
@@ -99,6 +100,12 @@ def round_down(value: Fraction, places: int) -> Fraction:
     """The largest decimal with so many places that is not above ``value``."""
     scale = 10**places
     return Fraction((value.numerator * scale) // value.denominator, scale)
+
+
+def significant_down(value: Fraction, digits: int) -> Fraction:
+    """The largest decimal of so many significant digits that is not above a positive number."""
+    scale = Fraction(10) ** (digits - 1 - math.floor(math.log10(value)))
+    return Fraction(math.floor(value * scale)) / scale
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:

@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
@@ -42,6 +41,8 @@ def bench(
         goal: (n,) the step of each joint, rad.
         cells: of the map; empty where there is none.
     """
+    import numpy as np
+
     from lyapcheck.control.arm_limits import model_limits
     from lyapcheck.family import hyperbolic
     from lyapcheck.robots.numeric import NumericModel
@@ -147,9 +148,7 @@ def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence
 
 def map_eps0(value: Fraction) -> str:
     """The largest decimal of three digits that is not above it."""
-    from lyapcheck.answers.epsilon.compute import round_down
-
-    return f"{float(round_down(value, DIGITS)):.{DIGITS}g}"
+    return f"{float(significant_down(value, DIGITS)):.{DIGITS}g}"
 
 
 def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[Cell]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
@@ -39,6 +37,8 @@ def draw_sides(small: Mapping[str, SmallWitness]) -> Files:
 
 def draw_set(data: GainData) -> Files:
     """Errors, torques, V and dV/dt of the simulated run of a gain set."""
+    import numpy as np
+
     from lyapcheck.report.figures.lyapunov import draw_lyapunov
     from lyapcheck.report.figures.motion import draw_errors, draw_torques
     from lyapcheck.report.figures.plot import Plot

@@ -9,13 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.epsilon.compute import epsilon, round_down
+from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
@@ -171,8 +172,8 @@ def test_gains_that_break_19_have_an_empty_18() -> None:
 
 
 @pytest.mark.parametrize(("value", "digits", "expected"), [("0.12345679", 3, "0.123"), ("0.5", 9, "0.5")])
-def test_round_down(value: str, digits: int, expected: str) -> None:
-    assert round_down(F(value), digits) == F(expected)
+def test_significant_down(value: str, digits: int, expected: str) -> None:
+    assert significant_down(F(value), digits) == F(expected)
 
 
 def run(*arguments: str) -> tuple[int, str]:

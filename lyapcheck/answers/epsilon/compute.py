@@ -10,7 +10,6 @@ References: ``reyes2019family`` (12), (16), (18).
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -24,6 +23,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
 from lyapcheck.control.gains import one_gain_set
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.certified import MAX_BOXES, MOST_JOINTS, Certified, certified_epsilon
@@ -315,10 +315,4 @@ def _published(
     limit = published_limit(gain_set, constants, bounds)
     if limit is None:
         return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
-    return round_down(limit.lower, _DIGITS), ""
-
-
-def round_down(value: Fraction, digits: int) -> Fraction:
-    """The largest decimal of so many significant digits that is not above a positive number."""
-    scale = Fraction(10) ** (digits - 1 - math.floor(math.log10(value)))
-    return Fraction(math.floor(value * scale)) / scale
+    return significant_down(limit.lower, _DIGITS), ""

@@ -7,12 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from lyapcheck.answers.gate.bench import rest_errors
 from lyapcheck.output.document import Block, Paragraph, Section, Table
-from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.run import SimulationFailed
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -49,6 +44,13 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
 
     Soundness: floating point; one motion says nothing of others.
     """
+    # what runs is loaded only by those who have no runs yet
+    import numpy as np
+
+    from lyapcheck.answers.gate.bench import rest_errors
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.run import SimulationFailed
+
     result = []
     for gains in sets:
         try:
