@@ -1,25 +1,18 @@
 """Every committed bound of M, C or g against an optimiser and bodies that share no code with lyapcheck."""
 
 import json
-from pathlib import Path
 
 import pytest
 
 from tests.helpers.bounds_oracle import KINDS, Bound
-
-ROOT = Path(__file__).parents[2]
-FOLDERS = "reports/certificates", "tests/arena/good", "tests/kernel/certificates"
+from tests.helpers.committed import certificates
 
 
 def committed(verdict):
     """The statements about the constants of an arm, each once, by file."""
     found = {}
-    for path in sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.json")):
-        content = path.read_text(encoding="utf-8")
-        if any(f'"{kind}"' in content for kind in KINDS):
-            data = json.loads(content)
-            if data["statement"]["kind"] in KINDS and data["verdict"] == verdict:
-                found.setdefault(json.dumps(data["statement"]), path.relative_to(ROOT).as_posix())
+    for name, data in certificates(KINDS, verdict).items():
+        found.setdefault(json.dumps(data["statement"]), name)
     return {name: json.loads(statement) for statement, name in found.items()}
 
 

@@ -1,28 +1,17 @@
 """Every committed certificate of ε₀ against an optimiser and dynamics that share no code with lyapcheck."""
 
-import json
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
+from tests.helpers.committed import certificates
 from tests.helpers.state_oracle import Loop, confirmed
-
-ROOT = Path(__file__).parents[2]
-FOLDERS = "reports/certificates", "tests/arena/good", "tests/kernel/certificates"
 
 
 def committed(verdict):
     """The certificates that dV/dt < 0 everywhere, or that a state refutes it, by file."""
-    found = {}
-    for path in sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.json")):
-        content = path.read_text(encoding="utf-8")
-        if '"Decreasing"' in content:
-            data = json.loads(content)
-            kind, rule = data["statement"]["kind"], data["proof"]["rule"]
-            if kind == "Decreasing" and data["verdict"] == verdict and rule != "posture":
-                found[path.relative_to(ROOT).as_posix()] = data
-    return found
+    found = certificates(["Decreasing"], verdict).items()
+    return {name: data for name, data in found if data["proof"]["rule"] != "posture"}
 
 
 PROVED, REFUTED = committed("proved"), committed("refuted")
