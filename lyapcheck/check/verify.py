@@ -46,7 +46,8 @@ def rule(kind: type[S], by: type[P]) -> Callable[[Callable[[S, P], Accepted]], C
 
 def rule_for(kind: type[Statement], by: type[Proof]) -> Rule | None:
     """The rule by which proofs of one class decide a kind, or what it derives from."""
-    return next((RULES[base, by] for base in kind.__mro__ if (base, by) in RULES), None)
+    known = RULES.get((kind, by))
+    return known or next((RULES[base, by] for base in kind.__mro__ if (base, by) in RULES), None)
 
 
 @contextmanager

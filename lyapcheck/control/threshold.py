@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from lyapcheck.check.kinds.for_all import ForAll
     from lyapcheck.check.statement import Proof
 
-BITS = 128
+FIRST = SeparateBalls(128)
+"""What decides nearly always."""
 FIRST_BITS = 160
 ONE: Tree = ("num", "1")
 LARGEST_DIVISOR = 2000
@@ -190,7 +191,7 @@ def _quotient(budget: Tree, factors: tuple[Tree, ...]) -> Tree:
 
 def _proofs(places: int) -> Iterator[Proof]:
     """Balls, exact numbers, which decide where both sides are equal, then ever smaller balls."""
-    yield SeparateBalls(BITS)
+    yield FIRST
     yield ExactNumbers()
     bits = FIRST_BITS + 4 * places
     while bits < MAX_BITS:

@@ -1,47 +1,31 @@
 """Where each key of a TOML text stands: ``tomllib`` gives values, not places.
 
 The text is one that ``tomllib`` has already accepted, so this reader need not find mistakes; it only walks
-over tokens and keeps count of lines and columns.
+over tokens and keeps their offsets.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator
-from dataclasses import dataclass
 
-from lyapcheck.files.place import KeyPath, Place
+from lyapcheck.files.place import KeyPath
 
 _TOKEN = re.compile(
-    r"""(?P<skip>[ \t\r]+|\#[^\n]*)
-      | (?P<text>\"{3}(?:\\.|[^\\])*?\"{3,5}|'{3}.*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*')
-      | (?P<mark>[\[\]{}=,\n])
-      | (?P<bare>[^\s\[\]{}=,\#"']+)""",
+    r"""(?:[ \t\r]+|\#[^\n]*)*
+      (?:([\[\]{}=,\n])
+      |([^\s\[\]{}=,\#"']+)
+      |(\"{3}(?:\\.|[^\\])*?\"{3,5}|'{3}.*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*')
+      |\Z)""",
     re.DOTALL | re.VERBOSE,
 )
+"""A mark, a bare word or a quoted text, after blanks and comments; nothing at the end."""
+BARE, QUOTED = 2, 3
 
 
-@dataclass(frozen=True)
-class _Token:
-    kind: str
-    text: str
-    place: Place
-
-
-def places(text: str) -> dict[KeyPath, Place]:
-    """The place of every key, table and array element of a valid TOML text."""
-    return _Walk(list(_tokens(text))).run()
-
-
-def _tokens(text: str) -> Iterator[_Token]:
-    line, start = 1, 0
-    for match in _TOKEN.finditer(text):
-        if match.lastgroup != "skip":
-            yield _Token(match.lastgroup or "", match[0], Place(line, match.start() - start + 1))
-        breaks = match[0].count("\n")
-        if breaks:
-            line, start = line + breaks, match.start() + match[0].rindex("\n") + 1
+def places(text: str) -> dict[KeyPath, int]:
+    """The offset of every key, table and array element in a valid TOML text."""
+    return _Walk(text).run()
 
 
 def _unquoted(key: str) -> str:
@@ -52,30 +36,29 @@ def _unquoted(key: str) -> str:
 class _Walk:
     """One pass over the tokens of a document."""
 
-    def __init__(self, tokens: list[_Token]) -> None:
-        self.tokens, self.at = tokens, 0
-        self.found: dict[KeyPath, Place] = {}
+    def __init__(self, text: str) -> None:
+        matches = [match for match in _TOKEN.finditer(text) if match.lastindex]
+        self.kinds = [match.lastindex for match in matches]
+        self.tokens = [match[match.lastindex or 0] for match in matches]
+        self.offsets = [match.start(match.lastindex or 0) for match in matches]
+        self.tokens.append("")  # so that one may look ahead at the end
+        self.at = 0
+        self.found: dict[KeyPath, int] = {}
         self.entries: dict[KeyPath, int] = {}
 
-    def run(self) -> dict[KeyPath, Place]:
+    def run(self) -> dict[KeyPath, int]:
         table: KeyPath = ()
-        while self.at < len(self.tokens):
-            if self._is("\n"):
+        while token := self.tokens[self.at]:
+            if token == "\n":
                 self.at += 1
-            elif self._is("["):
+            elif token == "[":
                 table = self._header()
             else:
                 self._pair(table)
         return self.found
 
-    def _is(self, mark: str, ahead: int = 0) -> bool:
-        index = self.at + ahead
-        return (
-            index < len(self.tokens) and self.tokens[index].kind == "mark" and self.tokens[index].text == mark
-        )
-
     def _header(self) -> KeyPath:
-        place, array = self.tokens[self.at].place, self._is("[", 1)
+        offset, array = self.offsets[self.at], self.tokens[self.at + 1] == "["
         self.at += 2 if array else 1
         keys = self._keys("]")
         self.at += 2 if array else 1
@@ -84,60 +67,57 @@ class _Walk:
             path = (*path, key)
             if array and depth == len(keys):
                 self.entries[path] = self.entries.get(path, -1) + 1
-                self.found.setdefault(path, place)
+                self.found.setdefault(path, offset)
             if path in self.entries:
                 path = (*path, self.entries[path])
-        self.found.setdefault(path, place)
+        self.found.setdefault(path, offset)
         return path
 
     def _keys(self, end: str) -> list[str]:
         """The parts of a dotted key up to a mark."""
         keys: list[str] = []
-        while not self._is(end):
-            token = self.tokens[self.at]
-            keys += (
-                [_unquoted(token.text)]
-                if token.kind == "text"
-                else [part for part in token.text.split(".") if part]
-            )
+        while (token := self.tokens[self.at]) != end:
+            quoted = self.kinds[self.at] == QUOTED
+            keys += [_unquoted(token)] if quoted else [part for part in token.split(".") if part]
             self.at += 1
         return keys
 
     def _pair(self, table: KeyPath) -> None:
-        place = self.tokens[self.at].place
+        offset = self.offsets[self.at]
         path: KeyPath = table
         for key in self._keys("="):
             path = (*path, key)
-            self.found.setdefault(path, place)
+            self.found.setdefault(path, offset)
         self.at += 1
         self._value(path)
 
     def _value(self, path: KeyPath) -> None:
-        if self._is("["):
+        first = self.tokens[self.at]
+        if first == "[":
             self._list(path)
-        elif self._is("{"):
+        elif first == "{":
             self._inline(path)
         else:
             self.at += 1
-            while self.at < len(self.tokens) and self.tokens[self.at].kind == "bare":
+            while self.tokens[self.at] and self.kinds[self.at] == BARE:
                 self.at += 1  # a date and its time are two bare words
 
     def _list(self, path: KeyPath) -> None:
         self.at += 1
         index = 0
-        while not self._is("]"):
-            if self._is("\n") or self._is(","):
+        while (token := self.tokens[self.at]) != "]":
+            if token in ("\n", ","):
                 self.at += 1
                 continue
-            self.found[(*path, index)] = self.tokens[self.at].place
+            self.found[(*path, index)] = self.offsets[self.at]
             self._value((*path, index))
             index += 1
         self.at += 1
 
     def _inline(self, path: KeyPath) -> None:
         self.at += 1
-        while not self._is("}"):
-            if self._is(",") or self._is("\n"):
+        while (token := self.tokens[self.at]) != "}":
+            if token in (",", "\n"):
                 self.at += 1
             else:
                 self._pair(path)

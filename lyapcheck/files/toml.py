@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -28,17 +29,26 @@ class Document:
     data: dict[str, Any]
 
     @cached_property
-    def _places(self) -> dict[KeyPath, Place]:
+    def _offsets(self) -> dict[KeyPath, int]:
         try:
             return places(self.text)
         except RecursionError:  # nested almost as deeply as is allowed: messages go without lines
             return {}
 
+    @cached_property
+    def _lines(self) -> list[int]:
+        """The offset of each line."""
+        return [0, *(match.end() for match in re.finditer("\n", self.text))]
+
     def place(self, path: KeyPath) -> Place | None:
         """Where a key stands, or the nearest table or list around it that stands in the file."""
-        while path and path not in self._places:
+        while path and path not in self._offsets:
             path = path[:-1]
-        return self._places.get(path)
+        if path not in self._offsets:
+            return None
+        offset = self._offsets[path]
+        line = bisect_right(self._lines, offset)
+        return Place(line, offset - self._lines[line - 1] + 1)
 
     def line(self, path: KeyPath) -> int | None:
         """The line of a key, counted from 1."""

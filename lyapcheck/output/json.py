@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from importlib.metadata import version
 from json import JSONEncoder
 from typing import Any
@@ -13,6 +12,8 @@ BEHIND = ("lyapcheck", "python-flint")
 """The packages whose versions stand in every answer."""
 LONGEST = 400
 """Characters of a value that stands on one line."""
+NESTING = (dict, list, tuple)
+"""What has parts."""
 _encode = JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 
@@ -23,26 +24,36 @@ def render(answer: Answer) -> str:
     return f"{laid_out(head | answer.data())}\n"
 
 
-def laid_out(value: Any, indent: str = "") -> str:
+def laid_out(value: Any) -> str:
     """A value as JSON, a line a record: what holds no more than flat parts on a line of its own."""
-    parts = _parts(value)
-    if not any(_parts(inner) for part in parts for inner in _parts(part)):
-        line = _encode(value)
-        if len(line) <= LONGEST or not parts:
-            return line
-    inner = f"{indent}  "
-    if isinstance(value, dict):
-        lines = [f"{_encode(key)}: {laid_out(part, inner)}" for key, part in value.items()]
-        first, last = "{", "}"
-    else:
-        lines = [laid_out(part, inner) for part in value]
-        first, last = "[", "]"
-    body = f",\n{inner}".join(lines)
-    return f"{first}\n{inner}{body}\n{indent}{last}"
+    text: list[str] = []
+    _lay_out(value, "\n", text)
+    return "".join(text)
 
 
-def _parts(value: Any) -> Collection[Any]:
-    """What a value is made of; nothing for what is no dict and no list."""
-    if isinstance(value, dict):
-        return value.values()
-    return value if isinstance(value, (list, tuple)) else ()
+def _lay_out(value: Any, line: str, text: list[str]) -> None:
+    """Add a value to a text; ``line`` is a line end with the indent of what holds the value."""
+    if not isinstance(value, NESTING):
+        text.append(_encode(value))
+        return
+    parts = value.values() if isinstance(value, dict) else value
+    nested = [part for part in parts if isinstance(part, NESTING)]
+    if not any(_holds_parts(part) for part in nested):
+        whole = _encode(value)
+        if len(whole) <= LONGEST or not parts:
+            text.append(whole)
+            return
+    inner = f"{line}  "
+    heads = [f"{_encode(key)}: " for key in value] if isinstance(value, dict) else [""] * len(value)
+    first, last = "{}" if isinstance(value, dict) else "[]"
+    between = f"{first}{inner}"
+    for head, part in zip(heads, parts, strict=True):
+        text.append(between + head)
+        _lay_out(part, inner, text)
+        between = f",{inner}"
+    text.append(line + last)
+
+
+def _holds_parts(part: Any) -> bool:
+    """Whether a part has parts that are not empty and no plain values."""
+    return any(isinstance(x, NESTING) and x for x in (part.values() if isinstance(part, dict) else part))

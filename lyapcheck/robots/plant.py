@@ -135,8 +135,14 @@ class Plant:
                 raise argument_error(
                     "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
                 )
-        if not self.parameters:
-            return self
+        return self._at(parameters) if parameters else self._nominal
+
+    @cached_property
+    def _nominal(self: P) -> P:
+        """Each question about the arm asks for it."""
+        return self._at({}) if self.parameters else self
+
+    def _at(self: P, parameters: Mapping[str, Fraction | int]) -> P:
         values = {
             name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
         }

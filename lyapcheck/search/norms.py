@@ -34,13 +34,14 @@ def norm_epsilon(
     loop = controlled.loop(Fraction(1))
     if viscous is not None:
         loop = replace(loop, viscous=viscous)
-    return norm_proof(loop, controlled.inertia_proof)
+    proof, reason = norm_proof(loop, controlled.inertia_proof)
+    return (None, REFUSED) if proof is not None and not proof.accepted() else (proof, reason)
 
 
 def norm_proof(
     loop: ClosedLoop, inertia: Bisection | Links | LinksAtCorners, *, conic: bool = True
 ) -> tuple[Proof | None, str]:
-    """The same for a closed loop whose ε₀ is to be found.
+    """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 
     Args:
         loop: the loop.
@@ -50,5 +51,4 @@ def norm_proof(
     result = scalar_epsilon(loop.tail, conic=conic)
     if result.eps0 is None:
         return None, result.reason
-    proof = Proof(replace(loop, eps0=result.eps0), BoxTree("."), inertia)
-    return (proof, "") if proof.accepted() else (None, REFUSED)
+    return Proof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from flint import fmpq
+
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
 
 DIGITS = 9
@@ -65,11 +67,15 @@ def _conic(form: ScalarForm) -> Fraction | None:
 
 def _bisection(form: ScalarForm) -> Fraction:
     """The root of the margin from below, by exact signs."""
-    low, high = Fraction(0), form.friction / form.drift if form.drift else Fraction(10**9)
+    k, beta, c, d = (
+        fmpq(x.numerator, x.denominator) for x in (form.stiffness, form.friction, form.drift, form.cross)
+    )
+    low, high = fmpq(0), beta / c if c else fmpq(10**9)
     for _ in range(64):
         middle = (low + high) / 2
-        low, high = (middle, high) if certifies(form, middle) else (low, middle)
-    return low
+        positive = k * (beta - middle * c) > middle * (d + middle * c) ** 2 / 4
+        low, high = (middle, high) if positive else (low, middle)
+    return Fraction(int(low.p), int(low.q))
 
 
 def _rounded_down(value: Fraction) -> Fraction | None:

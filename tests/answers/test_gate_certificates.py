@@ -23,6 +23,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.judgement import Judgement
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
@@ -243,7 +244,8 @@ def test_stability_is_proved_where_19_alone_fails() -> None:
 
 def test_stability_is_not_said_where_it_was_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the checker's word for either proof nothing is said of stability."""
-    monkeypatch.setattr(Proof, "accepted", lambda *_: False)
+    undecided = "lyapcheck.answers.gate.otherwise.judged"
+    monkeypatch.setattr(undecided, lambda statement, proofs: Judgement(statement, None, "undecided"))
     monkeypatch.setattr("lyapcheck.answers.gate.otherwise.lasalle", lambda fixed: UNPROVED)
     result = judged(paper_gain_file())["tau_m2"]
     assert (result.verdict, result.standing) == ("rejected", "rejected")

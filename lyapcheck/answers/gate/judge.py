@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
@@ -64,7 +65,7 @@ class GateResult:
         """The member of the hyperbolic family."""
         return self.gains.m
 
-    @property
+    @cached_property
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
         return self.verdict_of(self.deciding)
@@ -77,7 +78,7 @@ class GateResult:
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
-    @property
+    @cached_property
     def stable(self) -> Check | None:
         """The proof of stability with the larger ε₀, whatever (19) says; ``None`` without one.
 

@@ -56,10 +56,14 @@ def _digits(limit: Enclosure, digits: int) -> str:
     return limit.correct_digits(digits)
 
 
-@lru_cache(maxsize=256)
 def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
     """The limit between two decimals."""
-    return limit.decimals(digits)
+    return _decimals(limit.lower.as_integer_ratio(), limit.upper.as_integer_ratio(), digits)
+
+
+@lru_cache(maxsize=256)  # of integers, since hashing fractions takes longer
+def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tuple[str, str]:
+    return Enclosure(Fraction(*lower), Fraction(*upper)).decimals(digits)
 
 
 def largest_text(check: Check) -> str:

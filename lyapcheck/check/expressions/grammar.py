@@ -92,19 +92,18 @@ def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> N
     Raises:
         Refused: at the first node that is wrong.
     """
-    require(
-        isinstance(tree, tuple) and len(tree) > 0, "expression", tree, "is not an operation with its parts"
-    )
+    if not isinstance(tree, tuple) or not tree:
+        raise Refused("expression", tree, "is not an operation with its parts")
     seen = {} if seen is None else seen
     if seen.get(id(tree), 0) >= depth > 0:
         return
     seen[id(tree)] = depth
     operation, *parts = tree
-    require(depth > 0, "expression", operation, f"is nested deeper than {MAX_DEPTH} levels")
+    if depth <= 0:
+        raise Refused("expression", operation, f"is nested deeper than {MAX_DEPTH} levels")
     shape = SHAPES.get(operation) if isinstance(operation, str) else None
-    require(
-        shape is not None and shape(parts), "expression", tree, "is not an operation that the checker knows"
-    )
+    if shape is None or shape(parts) is not True:
+        raise Refused("expression", tree, "is not an operation that the checker knows")
     for part in parts:
         if isinstance(part, tuple):
             require_tree(part, depth - 1, seen)
