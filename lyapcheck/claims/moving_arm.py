@@ -18,7 +18,7 @@ from lyapcheck.claims.arms import gravity_vector
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.case import lacking
 from lyapcheck.claims.statements import bounded
-from lyapcheck.robots.dynamics import FEW, TooLong
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooLong
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
@@ -94,4 +94,4 @@ def _of_links(robot: RobotModel, identity: str) -> ChainIdentity | None:
 
 def _chain(robot: RobotModel) -> Chain | None:
     """The links of an arm of many joints, whose polynomials are long."""
-    return robot.chain if robot.n > FEW else None
+    return robot.chain if robot.n > FEW_JOINTS else None

@@ -20,7 +20,8 @@ from lyapcheck.constants.constant import Constant, Task
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
-from lyapcheck.constants.outside import FEW, from_distances
+from lyapcheck.constants.outside import from_distances
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.plant import Plant
 
 GAP = 1e-3
@@ -60,9 +61,9 @@ def arm_constants(
         and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
     """
     fixed, makers = model.fixed(), _makers(model.n)
-    along = model.n > FEW and fixed.chain is not None
+    along = model.n > FEW_JOINTS and fixed.chain is not None
     arm = None if along else ArmHarmonics(fixed)
-    enough = (GAP if model.n <= FEW else GAP_OF_MANY) if gap is None else gap
+    enough = (GAP if model.n <= FEW_JOINTS else GAP_OF_MANY) if gap is None else gap
     wanted = [name for name in makers if names is None or name in names]
     result = []
     for step, name in enumerate(wanted):

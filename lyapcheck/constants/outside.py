@@ -8,9 +8,6 @@ from math import inf, nextafter, sqrt
 
 from lyapcheck.robots.plant import Plant
 
-FEW = 3
-"""Up to so many joints boxes alone are close and fast."""
-
 
 def ceiling(bound: Fraction | None, sign: int) -> float:
     """A double that is not below sign·bound; infinite where there is no bound."""

@@ -27,8 +27,11 @@ Lift = Callable[[Fraction], T]
 Values = Mapping[str, Any]
 Rows = list[list[Any]]
 
-FEW = 3
-"""Up to so many joints a chain is evaluated by its polynomials."""
+FEW_JOINTS = 3
+"""Up to so many joints all angles are gone through: M(q) by its polynomials, bounds and proofs by boxes.
+
+With more, what is known of the links takes their place.
+"""
 MOST_TERMS = 2_500
 """Terms of one polynomial beyond which M(q) is not written out; a Panda has 805, a skew chain 5ⁿ⁻¹."""
 
@@ -245,7 +248,7 @@ class Chain(Dynamics):
 
     def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> Place:
         """The polynomials of few joints, else the chain."""
-        if self.n <= FEW:
+        if self.n <= FEW_JOINTS:
             return self.polynomials.at(sin, cos, values, lift)
         return self._posture(sin, cos, values, Algebra(lift))
 

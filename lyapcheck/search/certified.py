@@ -10,6 +10,7 @@ from time import monotonic
 
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.centred import MOST_CENTRED
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -28,8 +29,6 @@ _CHECKING = 0.8
 """The share of the work done when the checker begins."""
 DIGITS = 7
 MAX_BOXES = 400_000
-MOST_JOINTS = 3
-"""Boxes of (q, e) have 2n − 1 sides: with more joints q is left to bounds along the links."""
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
 
 
@@ -75,7 +74,7 @@ def certified_epsilon(
     if not controlled.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
     progress = on_progress or (lambda fraction, note: None)
-    if controlled.n > MOST_JOINTS:
+    if controlled.n > FEW_JOINTS:
         deadline = monotonic() + (math.inf if seconds is None else seconds)
         return Certified(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
     search = _Search(controlled, ceiling, progress)

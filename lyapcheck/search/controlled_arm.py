@@ -19,7 +19,7 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
-from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
@@ -28,9 +28,6 @@ from lyapcheck.search.proof import Proof, RateData
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-
-FEW_ANGLES = 3
-"""Joints up to which boxes of angles show M ≻ 0 over ranges."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +134,7 @@ class ControlledArm:
         """What shows M ≻ 0."""
         if self.ranges:
             # boxes of many angles are too many
-            known = self.n > FEW_ANGLES and self.chains
+            known = self.n > FEW_JOINTS and self.chains
             return LinksAtCorners(tuple(chain.links for chain in self.chains)) if known else Bisection()
         remember(self.fixed)
         return mass_proof(mass_of(self.fixed))

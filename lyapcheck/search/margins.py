@@ -16,8 +16,8 @@ from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.radial import holds_radially, radial_data
 from lyapcheck.search.schur import Problem
@@ -59,7 +59,7 @@ def candidates(
     if inertia is None:
         return []
     slack = SLACK if disturbed else Fraction(0)
-    allows = _by_samples(controlled) if controlled.n <= MOST_JOINTS else _by_bounds(inertia)
+    allows = _by_samples(controlled) if controlled.n <= FEW_JOINTS else _by_bounds(inertia)
     result = []
     for friction in shares:
 
@@ -101,7 +101,7 @@ def _data(
         return None
     found: list[BoxTree | RadialBounds] = []
     for corner in at_corners(loop):
-        if controlled.n > MOST_JOINTS:
+        if controlled.n > FEW_JOINTS:
             found.append(reduced_radial(margin))
             continue
         outcome = certify(Problem(corner), max_boxes)

@@ -27,8 +27,8 @@ from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.certified import MOST_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_above, short_below
 from lyapcheck.search.decay_input import Start
@@ -77,7 +77,7 @@ class Phases:
 
     def found(self, on_progress: Progress) -> Shown | None:
         """A statement by when every |e_i| ≤ goal and its untrusted proof; none where there is none."""
-        if self.base is None or self.controlled.n > MOST_JOINTS:
+        if self.base is None or self.controlled.n > FEW_JOINTS:
             return None
         first, last = self.energy, short_below(level_within(self.base, self.goal))
         if not 0 < last < first:
@@ -215,7 +215,7 @@ def floor_below(controlled: ControlledArm, speed: float) -> Fraction:
 
 def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
     """For each joint a ν_i with M ⪰ ν_i at place (i, i), near the largest one, or 0 where none is shown."""
-    if controlled.n > MOST_JOINTS:
+    if controlled.n > FEW_JOINTS:
         return (Fraction(0),) * controlled.n
     loop = controlled.loop(Fraction(1))
     mass, parameters = loop.arm.mass, loop.parameters

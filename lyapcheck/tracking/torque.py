@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.loop.states import State, value
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.constants import robot_constants
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.simulate.entries import coriolis_squares, gravity_sizes, mass_sizes
 from lyapcheck.tracking.reference.base import BITS, above
 
@@ -25,9 +26,6 @@ if TYPE_CHECKING:
     from lyapcheck.tracking.reference import Suprema
 
 Row = tuple[Fraction, ...]
-
-QUICK = 3
-"""Joints up to which the sizes of all Christoffel symbols are found in no time."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +88,7 @@ def torque_bounds(
 
 def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
     """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
-    if controlled.n > QUICK:
+    if controlled.n > FEW_JOINTS:
         return (k_c,) * controlled.n
     with precision(BITS):
         return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(controlled.fixed))

@@ -25,8 +25,9 @@ from lyapcheck.constants import robot_bounds
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.registry import arm_of
-from lyapcheck.search.certified import MAX_BOXES, MOST_JOINTS, Certified, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import STARTS, Witness, falsify
@@ -212,7 +213,7 @@ class _Search:
         refute hardly less, and are left alone.
         """
         before, first = None, Certified(None, 0, "")
-        if self.max_boxes and not self.controlled.ranges and self.controlled.n <= MOST_JOINTS:
+        if self.max_boxes and not self.controlled.ranges and self.controlled.n <= FEW_JOINTS:
             before = falsify(
                 self.controlled, self.starts, seed=self.seed, on_progress=self._part(0.0, 0.1), quick=True
             )

@@ -22,6 +22,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.names import file_stem
 from lyapcheck.robots import load
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 PROOF = "gate"
 HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
 REST = "how far from the goal dry friction may leave the joints"
-FEW = 3
-"""Joints up to which boxes may show a bound of gravity."""
 
 
 @dataclass
@@ -126,7 +125,7 @@ def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | No
     result: list[Certificate | None] = []
     for i, (torque, bound) in enumerate(zip(model.gravity, bounds, strict=True)):
         statement = GravityBelow(model.n, (tuple(to_terms(torque)),), ranges, bound)
-        proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW else []))
+        proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else []))
         its = judged(statement, proofs)
         if its.proof is None or its.shown != "proved":
             result.append(None)

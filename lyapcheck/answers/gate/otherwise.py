@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.control.judgement import judged
 from lyapcheck.errors import InputError
+from lyapcheck.robots.dynamics import FEW_JOINTS
 
 if TYPE_CHECKING:
     from lyapcheck.check.statement import Ends
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 SCALAR, LASALLE = "scalar", "lasalle"
-MOST_RANGED = 3
-"""Joints of an arm for which M(q) ≻ 0 is proved over ranges."""
 MOST_TERMS = 2000
 """Terms of M(q): the proof for an arm with more takes seconds, and is left to those who ask for it."""
 
@@ -44,7 +43,7 @@ def proved_otherwise(
 
     Soundness: that of ``lyapcheck.check.verify``; that M(q) ≻ 0 is enough is LaSalle's theorem, cited.
     """
-    if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > MOST_RANGED):
+    if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > FEW_JOINTS):
         return None
     arm = model if ranges else model.fixed()
     result = _scalar(gains, arm, friction_of(model, viscous_min), ranges)

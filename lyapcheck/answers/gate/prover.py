@@ -13,11 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from lyapcheck.answers.gate.otherwise import LASALLE, MOST_RANGED, friction_of, lasalle, unknown_function
+from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged
 from lyapcheck.robots import Number, RobotModel
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.norms import REFUSED, norm_epsilon
@@ -32,7 +33,7 @@ CEILINGS = (64, 16, 8, 4, 2)
 
 _NOMINAL = "certificates are about the arm at its nominal numbers"
 _RANGED = "certificates are about the arm for all values of its ranges"
-_TOO_MANY = f"over ranges an arm of more than {MOST_RANGED} joints has no certificate of this kind"
+_TOO_MANY = f"over ranges an arm of more than {FEW_JOINTS} joints has no certificate of this kind"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
@@ -61,7 +62,7 @@ class Prover:
         if self.model is None:
             return Check(name, None, None, None, None, None, _NO_ARM)
         controlled = ControlledArm(gains, self.model, self.ranges)
-        if self.ranges and self.model.n > MOST_RANGED and (name == LASALLE or not controlled.chains):
+        if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
             return Check(name, None, None, None, None, None, _TOO_MANY)
         reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None

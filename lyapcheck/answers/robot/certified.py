@@ -34,12 +34,10 @@ from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import TooLong
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooLong
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade
 
-FEW = 3
-"""Up to so many joints boxes are asked."""
 BOXES = 2000
 """How many boxes the search may take for one bound."""
 DIGITS = 6
@@ -174,7 +172,7 @@ def _question(
 def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | None:
     """The best bound for all angles that is shown, and by what."""
     coarse = None if bound.sizes is None else _rounded(bound.sizes, sign)
-    for margin in bound.margins if n <= FEW else ():
+    for margin in bound.margins if n <= FEW_JOINTS else ():
         value = _rounded(bound.start * (1 + sign * margin), sign)
         if coarse is not None and coarse <= value:
             break
@@ -226,7 +224,7 @@ def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) ->
     return _Bound(
         lambda value: CoriolisBelow(mass, (), value),
         lambda value: inertia.coriolis_below(value, BOXES),
-        _unfolded(arm.robot) if arm.robot.n <= FEW else Fraction(0),
+        _unfolded(arm.robot) if arm.robot.n <= FEW_JOINTS else Fraction(0),
         arm.kc,
         PostureWitness(q, (), x, x),
         Fraction(float(np.linalg.norm(turned)) / size),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
 from lyapcheck.claims.moving_arm import ranges_of
 from lyapcheck.output.document import Bullets, Section
-from lyapcheck.robots.dynamics import FEW
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def inertia_sections(model: RobotModel) -> list[Section]:
     """M(q) with its ranges and at the nominal numbers, where its statements do not have the entries."""
     result: dict[str, Section] = {}
     for robot in (model, model.fixed()):
-        if robot.chain is not None and robot.n > FEW:
+        if robot.chain is not None and robot.n > FEW_JOINTS:
             continue
         mass, ranges = mass_of(robot), ranges_of(robot)
         entries, title = mass_entries(mass, ranges), mass_text(mass, ranges).removeprefix("the ")

@@ -22,6 +22,7 @@ from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
 from lyapcheck.family import named
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate.monitor import gravity_bounds
 
@@ -81,7 +82,7 @@ class Search:
     def run(self, on_try: Callable[[float], None] = lambda share: None) -> Found:
         """The best set that was tried."""
         best, score = self._first()
-        tries, level, most = 1, 0, MOST_TRIES if self.limits.n <= 3 else FEWER_TRIES
+        tries, level, most = 1, 0, MOST_TRIES if self.limits.n <= FEW_JOINTS else FEWER_TRIES
         while tries < most and level < len(FACTORS):
             improved = False
             for moved in self._moves(best, FACTORS[level]):

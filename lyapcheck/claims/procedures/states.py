@@ -30,7 +30,7 @@ from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.robots import Number, trig
-from lyapcheck.robots.dynamics import Polynomials
+from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.inertia import mass_proof
 from lyapcheck.verdicts import Verdict
@@ -43,8 +43,6 @@ if TYPE_CHECKING:
 METHOD = "every state"
 STARTS = 6
 MAX_BOXES = 60_000
-MOST_JOINTS = 3
-"""Boxes of (q, e) have 2n − 1 sides; with more joints only norms and states are tried."""
 HALVINGS = 40
 FACTORS = tuple(Fraction(k) for k in (1, 2, 10, 100))
 ONE_BOX = BoxTree(".")
@@ -149,8 +147,8 @@ def _by_boxes(statement: Decreasing) -> SearchResult:
     from lyapcheck.search.schur import Problem
 
     n = len(statement.kp)
-    if n > MOST_JOINTS:
-        return still_open(f"norms do not suffice, and boxes are tried up to {MOST_JOINTS} joints", METHOD)
+    if n > FEW_JOINTS:
+        return still_open(f"norms do not suffice, and boxes are tried up to {FEW_JOINTS} joints", METHOD)
     loop = closed_loop_of(statement)
     outcome = certify(Problem(loop), MAX_BOXES)
     if not outcome.proved:

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
 
 ONE = (Fraction(1),)
-FEW = 3
 COMPARED = range(2, 7)
 """So many members are compared by runs of each."""
 WAYS = ("19", "proof")
@@ -156,9 +155,10 @@ def run(
 def _many(robot: str) -> bool:
     """Whether an arm has so many joints that one member takes as long as three of a small one."""
     from lyapcheck.robots import load
+    from lyapcheck.robots.dynamics import FEW_JOINTS
 
     try:
-        return load(robot).n > FEW
+        return load(robot).n > FEW_JOINTS
     except InputError:
         return False  # which is told with all else that is wrong
 
