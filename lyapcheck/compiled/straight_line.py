@@ -57,6 +57,9 @@ class Term:
     def __neg__(self) -> Term:
         return self.code.term(-self.value) if self.value is not None else self.code.record(f"-{self.text}")
 
+    def __abs__(self) -> Term:
+        return self.code.call("fabs", self)
+
     def __lt__(self, other: Term | Scalar) -> str:
         return f"{self.text} < {self.code.term(other).text}"
 

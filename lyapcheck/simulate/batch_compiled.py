@@ -7,8 +7,6 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-import numpy as np
-
 from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
@@ -17,7 +15,7 @@ from lyapcheck.compiled.threads import over_shares
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from lyapcheck.simulate import dop853
-from lyapcheck.simulate.batch_paths import Paths
+from lyapcheck.simulate.batch_paths import Paths, empty_paths
 from lyapcheck.simulate.batch_rates import Loop, parameter_count
 from lyapcheck.simulate.dop853 import Weights
 
@@ -34,16 +32,24 @@ class CompiledRuns:
         self._call = call
 
     def __call__(
-        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+        self,
+        y0: Array,
+        parameters: Array,
+        bands: Array,
+        T: float,
+        points: int,
+        tolerance: float,
+        max_steps: int,
     ) -> Paths:
         """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
-        runs, size = y0.shape
-        paths = Paths(np.empty((runs, points, size)), np.empty(runs, np.int32), np.empty(runs, np.int32))
+        runs = len(y0)
+        paths = empty_paths(y0, points)
 
         def share(start: int, stop: int) -> int:
-            given = (x[start:stop].ctypes.data for x in (y0, parameters))
+            given = (x[start:stop].ctypes.data for x in (y0, parameters, bands))
             numbers = (T, tolerance, tolerance / 100, max_steps)
-            filled = (x[start:stop].ctypes.data for x in (paths.y, paths.status, paths.steps))
+            arrays = (paths.y, paths.seen, paths.status, paths.steps)
+            filled = (x[start:stop].ctypes.data for x in arrays)
             self._call(stop - start, points, *given, *numbers, *filled)
             return 0
 
@@ -65,22 +71,27 @@ def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
     whole, number, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
     call = result.integrate_runs
     call.restype = None
-    call.argtypes = [whole, whole, place, place, number, number, number, whole, place, place, place]
+    call.argtypes = [whole, whole, *3 * [place], *3 * [number], whole, *4 * [place]]
     return CompiledRuns(call)
 
 
 def _source(model: RobotModel, family: Family) -> str:
-    code, size, count = Code(), 2 * model.n + 2, parameter_count(model)
-    loop = Loop(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
-    rates = loop.rate([code.name(f"y[{i}][l]") for i in range(size)])
-    body = code.store([f"f[{i}][l]" for i in range(size)], rates)
-    sizes = {"N": model.n, "D": size, "P": count, "LANES": LANES}
+    n, size, count = model.n, 2 * model.n + 2, parameter_count(model)
+    functions = []
+    for head, formula in ((_RATE, Loop.rate), (_WATCH, Loop.watched)):
+        code = Code()
+        loop = Loop(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
+        values = formula(loop, [code.name(f"y[{i}][l]") for i in range(size)])
+        body = code.store([f"out[{i}][l]" for i in range(len(values))], values)
+        functions.append(head + _LOOP.replace("BODY", body))
+    sizes = {"N": n, "D": size, "P": count, "LANES": LANES}
     defines = [f"#define {name} {value}" for name, value in (sizes | _table()).items()]
-    return "\n".join([*defines, _RATE.replace("BODY", body), _resource()])
+    return "\n".join([*defines, *functions, *map(_resource, ("dop853.c", "extremes.c", "batch.c"))])
 
 
-_RATE = """
-static void rate(const double y[D][LANES], const double p[P][LANES], double f[D][LANES])
+_RATE = "static void rate(const double y[D][LANES], const double p[P][LANES], double out[D][LANES])"
+_WATCH = "static void watch(const double y[D][LANES], const double p[P][LANES], double out[N + 1][LANES])"
+_LOOP = """
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
@@ -90,8 +101,8 @@ BODY
 """
 
 
-def _resource() -> str:
-    return files("lyapcheck.simulate").joinpath("batch.c").read_text(encoding="utf-8")
+def _resource(name: str) -> str:
+    return files("lyapcheck.simulate").joinpath(name).read_text(encoding="utf-8")
 
 
 def _table() -> dict[str, str]:

@@ -13,7 +13,14 @@ from lyapcheck.family import Family
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
 from lyapcheck.simulate import dop853
-from lyapcheck.simulate.batch_paths import OUT_OF_RANGE, STEP_TOO_SMALL, TOO_MANY_STEPS, Paths
+from lyapcheck.simulate.batch_extremes import Seen, StepPart
+from lyapcheck.simulate.batch_paths import (
+    OUT_OF_RANGE,
+    STEP_TOO_SMALL,
+    TOO_MANY_STEPS,
+    Paths,
+    empty_paths,
+)
 from lyapcheck.simulate.batch_rates import Loop
 from lyapcheck.simulate.dop853 import Weights
 
@@ -36,29 +43,44 @@ class NumpyRuns:
         self._model, self._forms = model, array_forms(family)
 
     def __call__(
-        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+        self,
+        y0: Array,
+        parameters: Array,
+        bands: Array,
+        T: float,
+        points: int,
+        tolerance: float,
+        max_steps: int,
     ) -> Paths:
         """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
-        runs, size = y0.shape
-        y = np.full((runs, points, size), np.nan)
-        y[:, 0] = y0
-        paths = Paths(y, np.zeros(runs, np.int32), np.zeros(runs, np.int32))
+        paths = empty_paths(y0, points)
+        paths.y.fill(np.nan)
+        paths.y[:, 0] = y0
+        paths.steps.fill(0)
         with np.errstate(all="ignore"):
-            march = _March(self, parameters, paths, T, tolerance)
+            march = _March(self, parameters, bands, paths, T, tolerance)
             while march.who.size:
                 march.step(max_steps)
         return paths
 
     def rate(self, y: Array, parameters: Array) -> Array:
         """ẏ of columns y (d, R) with parameters (p, R)."""
-        return np.stack(Loop(self._model, self._forms, list(parameters)).rate(list(y)))
+        return np.stack(self._loop(parameters).rate(list(y)))
+
+    def watched(self, y: Array, parameters: Array) -> Array:
+        """(n + 1, R) |τ_i| and V."""
+        values = self._loop(parameters).watched(list(y))
+        return np.stack([np.broadcast_to(x, y.shape[1:]) for x in values])
+
+    def _loop(self, parameters: Array) -> Loop:
+        return Loop(self._model, self._forms, list(parameters))
 
 
 class _March:
     """The runs that are still under way, as columns."""
 
     def __init__(
-        self, engine: NumpyRuns, parameters: Array, paths: Paths, T: float, tolerance: float
+        self, engine: NumpyRuns, parameters: Array, bands: Array, paths: Paths, T: float, tolerance: float
     ) -> None:
         self.engine, self.paths, self.T, self.tolerance = engine, paths, T, tolerance
         runs, points, _ = paths.y.shape
@@ -68,13 +90,17 @@ class _March:
         self.rate = engine.rate(self.y, self.p)
         self.t, self.sample, self.rejected = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
         self.h = self._first_step()
+        self.seen = Seen(engine.watched, self.y, self.p, bands.T)
 
     def step(self, max_steps: int) -> None:
         """One step of every run, with the size each of them wants."""
         k, new = self._stages()
         error = self._error(k, new)
         good = error < 1.0
-        self._write(k, new, good)
+        if good.any():
+            part = StepPart(self.t, self.h, self.y, new, self._between(k, new), self.p).of(good)
+            self._write(part, good)
+            self.seen.look(part, good)
         self.t = np.where(good, self.t + self.h, self.t)
         self.y, self.rate = np.where(good, new, self.y), np.where(good, k[12], self.rate)
         most = np.where(good & ~self.rejected, 10.0, 1.0)
@@ -105,18 +131,14 @@ class _March:
         both = np.sqrt((fifth + 0.01 * third) * len(new))
         return np.asarray(np.where(both == 0.0, 0.0, self.h * fifth / both))
 
-    def _write(self, k: list[Array], new: Array, good: NDArray[np.bool_]) -> None:
+    def _write(self, part: StepPart, good: NDArray[np.bool_]) -> None:
         """The samples within the step, for the runs whose step is good."""
-        end = self.t + self.h + 1e-14 * self.T
-        due = good & self._before(end)
-        if not due.any():
-            return
-        dense = self._between(k, new)
-        while due.any():
-            x = (self.times[self.sample[due]] - self.t[due]) / self.h[due]
-            self.paths.y[self.who[due], self.sample[due]] = (self.y[:, due] + _value(dense[:, :, due], x)).T
-            self.sample[due] += 1
-            due = good & self._before(end)
+        chosen, end = np.flatnonzero(good), self.t + self.h + 1e-14 * self.T
+        while (due := self._before(end)[chosen]).any():
+            runs, at = chosen[due], np.flatnonzero(due)
+            x = (self.times[self.sample[runs]] - self.t[runs]) / self.h[runs]
+            self.paths.y[self.who[runs], self.sample[runs]] = part.at(x, at).T
+            self.sample[runs] += 1
 
     def _before(self, end: Array) -> NDArray[np.bool_]:
         last = self.times.size - 1
@@ -139,7 +161,9 @@ class _March:
         )
         done = self.sample == self.times.size
         self.paths.status[self.who] = np.where(done & ~bad, 0, status)
+        self.paths.seen[self.who] = np.where(done & ~bad, self.seen.columns(), np.nan).T
         on = ~done & (status == 0)
+        self.seen.keep(on)
         for name in ("who", "t", "h", "sample", "rejected"):
             setattr(self, name, getattr(self, name)[on])
         for name in ("p", "y", "rate"):
@@ -159,11 +183,3 @@ def _sum(weights: Weights, k: list[Array]) -> Array:
     for j, weight in rest:
         total += weight * k[j]
     return total
-
-
-def _value(dense: Array, x: Array) -> Array:
-    """The polynomial of a step at the fraction x of it, without the value at its start."""
-    total = x * dense[6]
-    for i in reversed(range(6)):
-        total = (total + dense[i]) * (x if i % 2 == 0 else 1.0 - x)
-    return np.asarray(total)

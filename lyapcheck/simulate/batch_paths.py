@@ -28,10 +28,29 @@ class Paths:
     """The samples of many runs: ``y`` (R, points, 2n + 2), NaN from where a run failed."""
 
     y: Array
+    seen: Array
+    """(R, 3n + 4) what was seen between samples too, NaN where a run failed.
+
+    The largest |τ_i|, N·m; the largest −sign(e_i(0)) e_i, rad; when each |e_i| came into its band for good,
+    s, NaN where it did not; in J the largest rise of V above what it had been, of |V + D − V(0)|, of |V| and
+    of the dissipated energy D.
+    """
     status: Counts
     """(R,) an index of `FAILURES`."""
     steps: Counts
     """(R,) steps tried."""
+
+
+def empty_paths(y0: Array, points: int) -> Paths:
+    """Room for the paths from ``y0`` (R, 2n + 2)."""
+    runs, size = y0.shape
+    n = size // 2 - 1
+    return Paths(
+        np.empty((runs, points, size)),
+        np.empty((runs, 3 * n + 4)),
+        np.empty(runs, np.int32),
+        np.empty(runs, np.int32),
+    )
 
 
 class Integrator(Protocol):
@@ -41,13 +60,21 @@ class Integrator(Protocol):
     """``compiled`` or ``numpy``."""
 
     def __call__(
-        self, y0: Array, parameters: Array, T: float, points: int, tolerance: float, max_steps: int
+        self,
+        y0: Array,
+        parameters: Array,
+        bands: Array,
+        T: float,
+        points: int,
+        tolerance: float,
+        max_steps: int,
     ) -> Paths:
         """The samples at ``points`` even times from 0 to T.
 
         Args:
             y0: (R, 2n + 2) q, w, dissipated energy, ∫‖e‖²; without gaps.
             parameters: (R, p) in the order of `Loop`; without gaps.
+            bands: (R, n) rad, of the settling times; without gaps.
             T: s.
             points: at least 2.
             tolerance: relative error allowed per step; the absolute one is a hundredth of it.

@@ -57,6 +57,13 @@ class Loop:
         rows = zip(self._part(1), e, self._part(2), w, gravity, strict=True)
         return [kp * of.h(x) - kv * of.h(v) + g for kp, x, kv, v, g in rows]
 
+    def watched(self, y: Vector) -> list[Any]:
+        """|τ_i| and V of a state y as in `rate`."""
+        n = self.n
+        q, w = y[:n], y[n : 2 * n]
+        e = [d - x for d, x in zip(self._part(0), q, strict=True)]
+        return [*(abs(tau) for tau in self.torque(q, e, w)), self.value(q, e, w)]
+
     def value(self, q: Vector, e: Vector, w: Vector) -> Any:
         """V of (12) for the ε₀ among the parameters."""
         of = self.forms

@@ -28,7 +28,7 @@ def l2_index(t: Array, e: Array) -> float:
     return math.degrees(math.sqrt(float(np.trapezoid(squares, t)) / float(t[-1] - t[0])))
 
 
-def settling_times(t: Array, e: Array, band: float = SETTLING_BAND) -> Array:
+def settling_times(t: Array, e: Array, band: float | Array = SETTLING_BAND) -> Array:
     """Per joint the time after which |e_i| stays within ``band`` times its step; NaN if that is not reached.
 
     The step is |e_i(0)|; a joint that starts at its goal is measured by the largest step of the others. The
@@ -36,26 +36,27 @@ def settling_times(t: Array, e: Array, band: float = SETTLING_BAND) -> Array:
 
     Args:
         t: (N,) times in s.
-        e: (N, n) position errors in rad.
-        band: the half-width of the band as a fraction of the step.
+        e: (…, N, n) position errors in rad.
+        band: the half-width of the band as a fraction of the step; one, or (…, 1) of them.
 
     Returns:
-        (n,) times in s.
+        (…, n) times in s.
     """
-    start = np.abs(e[0])
-    width = band * np.where(start > LEAST_STEP, start, start.max())
-    return np.array([_settled(t, np.abs(e[:, i]), float(width[i])) for i in range(e.shape[1])])
+    size, width = np.abs(e), bands(e[..., 0, :], band)
+    outside = size > width[..., None, :]
+    last = t.size - 1 - np.argmax(outside[..., ::-1, :], axis=-2)
+    before = np.minimum(last, t.size - 2)
+    a, b = (np.take_along_axis(size, (before + k)[..., None, :], axis=-2)[..., 0, :] for k in (0, 1))
+    fall = np.where(a > b, a - b, 1.0)
+    crossing = t[before] + (a - width) / fall * (t[before + 1] - t[before])
+    settled = np.where(outside.any(axis=-2), np.where(last == t.size - 1, np.nan, crossing), t[0])
+    return np.asarray(np.where(np.isnan(e[..., -1, :]), np.nan, settled))
 
 
-def _settled(t: Array, size: Array, width: float) -> float:
-    outside = np.flatnonzero(size > width)
-    if outside.size == 0:
-        return float(t[0])
-    last = int(outside[-1])
-    if last == size.size - 1:
-        return math.nan
-    share = (size[last] - width) / (size[last] - size[last + 1])
-    return float(t[last] + share * (t[last + 1] - t[last]))
+def bands(step: Array, band: float | Array = SETTLING_BAND) -> Array:
+    """The half-width of the band of each joint, rad, from the steps (…, n) in rad; see `settling_times`."""
+    size = np.abs(step)
+    return np.asarray(band * np.where(size > LEAST_STEP, size, np.max(size, axis=-1, keepdims=True)))
 
 
 def overshoots(e: Array) -> Array:

@@ -208,7 +208,7 @@ def test_a_run_of_a_batch_is_the_run_by_itself():
     found = sweep(gain_set, model, PAPER_TASK, Starts(3, 0.5, 1))
     alone = simulate(gain_set, model, PAPER_TASK.q_d, found.q0[2], points=501)
     assert found.runs.L2[2] == pytest.approx(alone.L2, rel=1e-8)
-    assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-4)
+    assert found.runs.peak_torque[2] == pytest.approx(alone.peak_torque, rel=1e-8)
     assert np.all(found.runs.peak_torque[2] >= np.max(np.abs(alone.tau), axis=0) * (1 - 1e-8))
     assert np.all(np.abs(found.q0) <= 0.5)
 
@@ -218,8 +218,7 @@ def test_peaks_of_long_runs_are_those_of_short_ones():
     short, long = (
         sweep(gain_set, model, replace(PAPER_TASK, T=T), Starts(2, 0.5, 1)).runs for T in (4.0, 30.0)
     )
-    assert long.t[1] <= 0.01 + 1e-12
-    assert long.peak_torque == pytest.approx(short.peak_torque, rel=1e-4)
+    assert long.peak_torque == pytest.approx(short.peak_torque, rel=1e-8)
 
 
 @pytest.mark.slow

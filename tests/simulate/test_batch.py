@@ -16,11 +16,13 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.elimination import solve_definite
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate import batch as batch_module
+from lyapcheck.simulate import indices
 from lyapcheck.simulate.batch import simulate_many
 from lyapcheck.simulate.batch_compiled import compiled_runs
-from lyapcheck.simulate.batch_runs import Runs, tops
-from lyapcheck.simulate.batch_signals import compiled_signals
+from lyapcheck.simulate.batch_runs import Runs
+from lyapcheck.simulate.batch_values import compiled_value
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.task import PAPER_TASK
@@ -46,10 +48,16 @@ def starts(n: int, count: int, size: float = 2.0) -> np.ndarray:
 def no_compiler(monkeypatch) -> Iterator[None]:
     monkeypatch.setenv(OFF, "1")
     compiled_runs.cache_clear()
-    compiled_signals.cache_clear()
+    compiled_value.cache_clear()
     yield
     compiled_runs.cache_clear()
-    compiled_signals.cache_clear()
+    compiled_value.cache_clear()
+
+
+def torques(gain_set: GainSet, model, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """τ of (6) at states (N, n)."""
+    made = gains_for(gain_set, model.n)
+    return made.family.h(e) * made.kp - made.family.h(w) * made.kv + NumericModel(model).gravity(q)
 
 
 def assert_same(one: Runs, other: Runs) -> None:
@@ -70,9 +78,9 @@ def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
     for name in ("q", "w", "V"):
         np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=0, atol=1e-8)
     np.testing.assert_allclose(many.L2[0], single.L2, rtol=1e-7)
-    for name in ("settling", "overshoot", "peak_torque"):  # by parabolas here, of the dense output there
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-4, atol=1e-6)
-    np.testing.assert_allclose(many.peak_torque[0], single.peak_torque, rtol=1e-5)
+    for name in ("overshoot", "peak_torque"):
+        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-8)
+    np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-4)  # straight between points there
     np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
     assert many.energy_balance[0] < 1e-9
     assert many.complete.all()
@@ -109,13 +117,21 @@ def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
     np.testing.assert_allclose(runs.q[:, :, 0], 1.0 - (1.0 - first) * shape, rtol=0, atol=1e-8)
 
 
-def test_peaks_between_samples_are_seen():
-    """A parabola's vertex is exact, a sine's nearly; rising ends and flat tops stay as they are."""
-    t = np.linspace(0.0, 1.0, 11)
-    values = np.stack([2 - (t - 0.437) ** 2, np.sin(3 * t), t, np.ones(11)], axis=-1)[None]
-    assert tops(values)[0] == pytest.approx([2.0, 1.0, 1.0, 1.0], abs=2e-4)
-    assert np.all(tops(values)[0] >= values[0].max(axis=0))
-    assert tops(values)[0, 0] == pytest.approx(2.0, abs=1e-12)
+def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
+    """With two samples a run: peaks, overshoots and settling times of 20,001 samples, 0.1 ms apart."""
+    model, gain_set, q_d = robots.load("reyes-kelly2"), gains(2, 1, kp=40, kv=4), np.array([0.5, -1.0])
+    first = starts(2, 3)
+    many = simulate_many(gain_set, model, q_d, first, 2.0, points=2)
+    fine = simulate_many(gain_set, model, q_d, first[:1], 2.0, points=20_001, motions=True)
+    e = q_d - fine.q[0]
+    tau = torques(gain_set, model, fine.q[0], e, fine.w[0])
+    np.testing.assert_allclose(many.peak_torque[0], np.max(np.abs(tau), axis=0), rtol=1e-6)
+    np.testing.assert_allclose(many.overshoot[0], indices.overshoots(e), rtol=1e-5, atol=1e-9)
+    np.testing.assert_allclose(many.settling[0], indices.settling_times(fine.t, e), rtol=1e-6)
+    assert np.any(many.overshoot > 0)
+    single = simulate(gain_set, model, q_d, first[2], T=2.0, points=2, stop=False)
+    np.testing.assert_allclose(many.peak_torque[2], single.peak_torque, rtol=1e-8)
+    np.testing.assert_allclose(many.overshoot[2], single.overshoot, rtol=1e-8, atol=1e-9)
 
 
 @pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
