@@ -125,12 +125,12 @@ class ArmBounds:
     @cached_property
     def beta(self) -> Fraction:
         """β_M, kg·m²."""
-        return above(self.inertia.largest_row())
+        return above(self.inertia.largest_row)
 
     @cached_property
     def kc(self) -> Fraction:
         """k_c, kg·m²."""
-        return above(sqrt(self.inertia.squares_of_symbols()))
+        return above(sqrt(self.inertia.squares_of_symbols))
 
     def guessed_floor(self) -> Fraction:
         """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""

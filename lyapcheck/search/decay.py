@@ -18,7 +18,6 @@ from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_arm import not_positive
 from lyapcheck.search.decay_digits import as_written, short_above, short_below
@@ -26,7 +25,7 @@ from lyapcheck.search.decay_input import Start, start_of, torques_of
 from lyapcheck.search.decay_levels import Descent, descent
 from lyapcheck.search.decay_rest import resting
 from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Shown, accepted
-from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
+from lyapcheck.search.margins import MAX_BOXES, Attempt, as_stated, attempts, candidates
 from lyapcheck.search.phases import Phases
 
 COARSE = 0.6
@@ -73,8 +72,9 @@ def settling_bound(
     """
     start = start_of(controlled, e0, w0, delta)
     wanted = _Wanted(controlled, Disturbance.none(controlled.n), start, short_below(as_written(delta)))
-    shown, reason = None, not_positive(controlled)
     progress = on_progress or _silent
+    progress(0.0, "bounds of the inertia")
+    shown, reason = None, not_positive(controlled)
     if not reason and in_phases:
         claim = Phases(controlled, start, wanted.goal or Fraction(0), max_boxes).found(progress)
         shown = claim if claim is not None and accepted(claim.statement, claim.proof, jobs) else None
@@ -166,7 +166,7 @@ class _Wanted:
         result = self._descent(margin, FINE)
         if result is None:
             return None
-        estimate, loop, inertia = Estimate(margin, self.acting), margin.loop, margin.inertia
+        estimate, loop = Estimate(margin, self.acting), margin.loop
         largest, last = (_short(estimate.reach(level)) for level in (result.envelope[0][1], result.level))
         statement = Settling(
             mass=loop.arm.mass,
@@ -190,7 +190,7 @@ class _Wanted:
             margin.stiffness,
             margin.split,
             margin.slack,
-            RadialBounds(inertia.weights, inertia.inertia, inertia.lowest, inertia.angles, inertia.tree, ()),
+            as_stated(margin.inertia),
             PositiveAndDecreasing(self.controlled.inertia_proof, attempt.by),
             result.slopes,
         )

@@ -6,19 +6,24 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache, partial
 
 import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.at_corners import RateAtCorners
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.kinds.link_bounds import InertiaAlongLinks, LinkBounds
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
 from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay_digits import short_above
+from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.link_bounds import link_bounds
 from lyapcheck.search.radial import holds_radially, radial_data
 from lyapcheck.search.schur import Problem
 
@@ -34,7 +39,11 @@ SHARES = tuple(Fraction(k, 100) for k in (85, 75, 60, 40, 20))
 SAMPLES = 1_500
 NEAR = 3
 """Of so many samples one is taken where errors are bounded: there is less to miss."""
+FEW = 8
+"""Likewise where errors are all there is to sample."""
 MAX_BOXES = 60_000
+_KEPT = 16
+"""Arms and margins of which results are kept: several bounds ask for the same."""
 
 
 @dataclass(frozen=True)
@@ -42,38 +51,64 @@ class Attempt:
     """A margin, and untrusted data for dV/dt < 0 of its reduced closure."""
 
     margin: Margin
-    by: BoxTree | RadialBounds | RateAtCorners
+    by: BoxTree | RadialBounds | RateAtCorners | LinkBounds
 
 
 def candidates(
     controlled: ControlledArm, disturbed: bool, shares: Sequence[Fraction] = FRICTION
 ) -> list[Margin]:
-    """One margin for each η, with the largest ε₀ that samples, or the bounds in ‖e‖, allow.
+    """One margin for each η, with the largest ε₀ that samples, or bounds of the parts of dV/dt, allow.
 
     Args:
         controlled: gains and arm, with a bounded h.
         disturbed: whether damping has to be left for disturbances.
         shares: the η.
     """
-    inertia = radial_data(controlled)
+    inertia = inertia_bound(controlled)
     if inertia is None:
         return []
     slack = SLACK if disturbed else Fraction(0)
-    allows = _by_samples(controlled) if controlled.n <= FEW_JOINTS else _by_bounds(inertia)
-    result = []
-    for friction in shares:
+    rows = zip(shares, _largest_allowed(controlled, tuple(shares)), strict=True)
+    return [margin_at(controlled, eps0, friction, slack, inertia) for friction, eps0 in rows if eps0 > 0]
 
-        def holds(eps0: Fraction, eta: Fraction = friction) -> bool:
-            return allows(margin_at(controlled, eps0, eta, slack, inertia).reduced)
 
-        eps0 = _largest(holds)
-        if eps0 > 0:
-            result.append(margin_at(controlled, eps0, friction, slack, inertia))
-    return result
+@lru_cache(maxsize=_KEPT)
+def _largest_allowed(controlled: ControlledArm, shares: tuple[Fraction, ...]) -> list[Fraction]:
+    """The largest ε₀ for each η; what is left for disturbances has no part in it."""
+    inertia = inertia_bound(controlled)
+    assert inertia is not None
+    if isinstance(inertia, InertiaAlongLinks):
+        allows = _by_errors(controlled)
+    elif isinstance(inertia, RadialBounds) and controlled.n > FEW_JOINTS:
+        allows = _by_bounds(inertia)
+    else:
+        allows = _by_samples(controlled)
+
+    def holds(eps0: Fraction, eta: Fraction) -> bool:
+        return allows(margin_at(controlled, eps0, eta, Fraction(0), inertia).reduced)
+
+    return [_largest(partial(holds, eta=friction)) for friction in shares]
+
+
+@lru_cache(maxsize=_KEPT)
+def inertia_bound(controlled: ControlledArm) -> InertiaBound | None:
+    """μ with M ≼ μ B: along the links of arms of many joints where they are known, else by boxes of q."""
+    bounds = link_bounds(controlled) if controlled.n > FEW_JOINTS else None
+    if bounds is None:
+        return radial_data(controlled)
+    friction = [low for low, _ in controlled.loop(Fraction(1)).friction]
+    weights = tuple(map(_root_below, friction))
+    mu = max(x / (d * d) for x, d in zip(bounds.inertia.prices, weights, strict=True))
+    return InertiaAlongLinks(weights, short_above(mu), bounds.arms, bounds.inertia)
+
+
+def as_stated(inertia: InertiaBound) -> InertiaBound:
+    """What of it a certificate has to hold: cuts of r are for dV/dt alone."""
+    return replace(inertia, cuts=()) if isinstance(inertia, RadialBounds) else inertia
 
 
 def margin_at(
-    controlled: ControlledArm, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: RadialBounds
+    controlled: ControlledArm, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: InertiaBound
 ) -> Margin:
     """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
     loop = controlled.loop(eps0)
@@ -87,18 +122,29 @@ def attempts(controlled: ControlledArm, margin: Margin, max_boxes: int = MAX_BOX
     for share in SHARES:
         eps0 = _short(margin.loop.eps0 * share)
         tried = margin_at(controlled, eps0, margin.friction, margin.slack, margin.inertia)
-        by = _data(controlled, tried, max_boxes)
+        by = _data(controlled, eps0, margin.friction, max_boxes)
         if by is not None:
             yield Attempt(tried, by)
 
 
+@lru_cache(maxsize=_KEPT)
 def _data(
-    controlled: ControlledArm, margin: Margin, max_boxes: int
-) -> BoxTree | RadialBounds | RateAtCorners | None:
-    """Untrusted data for the reduced closure, at each corner where parameters range."""
+    controlled: ControlledArm, eps0: Fraction, friction: Fraction, max_boxes: int
+) -> BoxTree | RadialBounds | RateAtCorners | LinkBounds | None:
+    """Untrusted data for the reduced closure; where parameters range at each corner, or for all at once."""
+    inertia = inertia_bound(controlled)
+    if inertia is None:
+        return None
+    margin = margin_at(controlled, eps0, friction, Fraction(0), inertia)
     loop = margin.reduced
     if not loop.admissible:
         return None
+    if isinstance(margin.inertia, InertiaAlongLinks):
+        bounds = link_bounds(controlled)
+        covered = None if bounds is None else ErrorBoxes(loop, bounds).covered(max_boxes)
+        if bounds is None or covered is None or not covered.proved:
+            return None
+        return replace(bounds, tree=covered.tree, scales=covered.scales)
     found: list[BoxTree | RadialBounds] = []
     for corner in at_corners(loop):
         if controlled.n > FEW_JOINTS:
@@ -113,6 +159,7 @@ def _data(
 
 def reduced_radial(margin: Margin) -> RadialBounds:
     """The data in r for (1 − η)B."""
+    assert isinstance(margin.inertia, RadialBounds)
     return _shrunk(margin.inertia, _root_below(1 - margin.friction))
 
 
@@ -144,6 +191,22 @@ def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
 
     def allows(loop: ClosedLoop) -> bool:
         return loop.admissible and all(map(holds, at_corners(loop)))
+
+    return allows
+
+
+def _by_errors(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
+    """Whether the form of bounds along the links is positive definite at random e of all sizes."""
+    bounds = link_bounds(controlled)
+    random = np.random.default_rng(SEED)
+    e = np.abs(random.normal(size=(SAMPLES // FEW, controlled.n)))
+    e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES // FEW, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    points = np.stack((e, e), axis=1)
+
+    def allows(loop: ClosedLoop) -> bool:
+        if bounds is None or not loop.admissible:
+            return False
+        return bool(ErrorBoxes(loop, bounds).judged(points, False)[0].all())
 
     return allows
 

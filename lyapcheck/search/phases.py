@@ -34,8 +34,7 @@ from lyapcheck.search.decay_digits import short_above, short_below
 from lyapcheck.search.decay_input import Start
 from lyapcheck.search.decay_levels import Descent, level_within, lowered
 from lyapcheck.search.decay_results import Shown
-from lyapcheck.search.margins import Attempt, attempts, candidates, margin_at
-from lyapcheck.search.radial import radial_data
+from lyapcheck.search.margins import Attempt, as_stated, attempts, candidates, inertia_bound, margin_at
 
 FRICTION = tuple(Fraction(k, 100) for k in (20, 40, 60))
 """The η that are weighed against each other."""
@@ -91,7 +90,7 @@ class Phases:
 
     def _base(self) -> Estimate | None:
         """For what does not depend on ε₀, on speeds and errors."""
-        inertia = radial_data(self.controlled)
+        inertia = inertia_bound(self.controlled)
         if inertia is None:
             return None
         return self._estimate(margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), inertia))
@@ -152,7 +151,7 @@ class Phases:
                 margin.friction,
                 margin.stiffness,
                 margin.split,
-                replace(inertia, cuts=()),
+                as_stated(inertia),
                 attempt.by,
                 found.envelope,
                 found.slopes,

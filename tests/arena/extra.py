@@ -58,6 +58,7 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
+from lyapcheck.check.kinds.link_bounds import InertiaAlongLinks, LinkBounds
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
@@ -67,6 +68,8 @@ from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
@@ -74,6 +77,7 @@ from lyapcheck.claims.procedures import propose
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.decay_digits import short_above
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
 from lyapcheck.search.schur import Problem
@@ -290,16 +294,50 @@ LINKED = Decreasing(
 )
 
 
-def linked() -> Proof:
-    """Two links with ranges for mass and friction, by bounds along the links."""
+def along_links() -> LinkBounds:
+    """Bounds of two links with ranges for mass and friction."""
     chains = tuple(Chain(links, vector(1, 0, 0)) for links in (LINKS, HEAVIER))
-    loop = closed_loop_of(LINKED)
     bounds = bounds_along(chains, tuple(low for low, _ in LINKED.viscous))
     assert bounds is not None
+    return bounds
+
+
+def linked(loop: ClosedLoop) -> PositiveAndDecreasing:
+    """By boxes beside these bounds."""
+    bounds = along_links()
     boxes = ErrorBoxes(loop, bounds).covered(5_000)
     assert boxes.proved
     rate = replace(bounds, tree=boxes.tree, scales=boxes.scales)
     return PositiveAndDecreasing(LinksAtCorners((LINKS, HEAVIER)), rate)
+
+
+def settling_linked() -> tuple[Settling, FallingLevels]:
+    """One band of V of the same arm at a smaller ε₀."""
+    eps0 = F(1, 10)
+    loop = replace(closed_loop_of(LINKED), eps0=eps0)
+    bounds, weights = along_links(), (F(2), F(17, 10))
+    mu = max(x / (d * d) for x, d in zip(bounds.inertia.prices, weights, strict=True))
+    inertia = InertiaAlongLinks(weights, short_above(mu), bounds.arms, bounds.inertia)
+    margin = Margin(loop, F(1, 4), F(1, 2), F(1, 4), F(0), inertia)
+    statement = Settling(
+        mass=LOADED,
+        viscous=LINKED.viscous,
+        parameters=PAYLOAD,
+        family="tanh",
+        m=None,
+        kp=LINKED.kp,
+        kv=LINKED.kv,
+        eps0=eps0,
+        torque=(F(0), F(0)),
+        dry=(F(0), F(0)),
+        errors_at_start=(F(1, 4), F(1, 4)),
+        rates_at_start=(F(0), F(0)),
+        envelope=((F(0), F(8)), (F(2000), F(4))),
+        largest_errors=(F(2), F(2)),
+        errors=(F(3, 2), F(3, 2)),
+    )
+    shares = margin.friction, margin.stiffness, margin.split, margin.slack
+    return statement, FallingLevels(*shares, inertia, linked(margin.reduced), (F(1, 10),))
 
 
 NO_ARM = (F(0),), (), (F(1),)
@@ -324,7 +362,7 @@ def of_the_loop() -> Iterator[Row]:
     damped = PositiveAndDecreasing(Bisection(), BoxTree("."))
     yield "larger-kv", replace(decreasing(UNIT, F(1, 10)), kv=(F(1, 2),)), LargerKv((F(1),), damped)
     yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
-    yield "linked", LINKED, linked()
+    yield "linked", LINKED, linked(closed_loop_of(LINKED))
     yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness(*NO_ARM)
     at = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
     yield "eps0-too-large", decreasing(UNIT, F(10)), at
@@ -336,6 +374,7 @@ def of_the_loop() -> Iterator[Row]:
     slower = ((F(0), F(1, 4)), (F(400), F(1, 8)), (F(800), F(1, 16)))
     pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)
     yield "pushed", pushed, replace(LEVELS, slack=F(1, 5))
+    yield "settling-linked", *settling_linked()
     yield "phases", STAYS_WITHIN, PHASES
     yield "settling-ranged", replace(SETTLING, **RANGING), RANGED_LEVELS
     yield "phases-ranged", replace(STAYS_WITHIN, **RANGING), RANGED_PHASES

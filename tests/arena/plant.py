@@ -41,8 +41,8 @@ MAX_BYTES = 12_000
 MAX_PREMISE = 30_000
 OF_EACH = 4
 BAD_OF_EACH = 2
-KEPT = ("ext.linked",)
-"""The only good one with bounds along the links, which is not among the smallest of its kind."""
+KEPT = ("ext.linked", "ext.settling-linked")
+"""The only good ones with bounds along the links, which are not among the smallest of their kinds."""
 REFUSED, NOT_ACCEPTED = ["refused"], ["refused", "undecided"]
 NO_VALUE = ["div", ["num", "1"], ["num", "0"]]
 NO_BOUND: dict[str, tuple[str, Any]] = {

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import LinksAtCorners
-from lyapcheck.check.kinds.link_bounds import BITS, LinkBounds
+from lyapcheck.check.kinds.link_bounds import BITS, InertiaAlongLinks, LinkBounds
 from lyapcheck.check.loop.boxes import BrokenTree
+from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.error_form import BoxForm
 from lyapcheck.check.loop.schur import inverse_one_plus_root
 from lyapcheck.check.loop.states import State, rate
@@ -28,6 +29,7 @@ from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import link_bounds
+from lyapcheck.search.margins import inertia_bound
 from lyapcheck.search.proof import Proof
 from tests.helpers.shares import one_in
 
@@ -215,3 +217,32 @@ def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -
     wider = replace(found.loop, parameters=((low, high + 1),))
     with pytest.raises(Refused):
         judged(statement_of(wider), found, data)
+
+
+@pytest.mark.slow
+def test_the_inertia_beside_the_friction_is_shown_by_the_links_of_each_corner() -> None:
+    controlled = example("px100", 1)
+    arms, heavier = at_corners(controlled.loop(F(1))), [Vary.parsed("mass=+0%..+30%")]
+    bound = inertia_bound(controlled)
+    assert isinstance(bound, InertiaAlongLinks)
+    assert bound.shows_inertia(arms)
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2_000, 4))
+    d = np.array([float(x) for x in bound.weights])
+    largest = np.linalg.eigvalsh(controlled.numeric.mass(q) / np.outer(d, d)).max()
+    assert largest < bound.inertia < F("1.1") * F(largest)
+    model = varied(controlled.model, heavier)  # type: ignore[arg-type]
+    ranged = at_corners(ControlledArm(controlled.gains, model, True).loop(F(1)))
+    assert len(ranged) == 16
+    prices = tuple(x * F(9, 10) for x in bound.bound.prices)
+    faults = {
+        "μ too small": replace(bound, inertia=bound.inertia * F(9, 10)),
+        "weights too small": replace(bound, weights=tuple(x / 2 for x in bound.weights)),
+        "one weight": replace(bound, weights=bound.weights[:1]),
+        "U too small": replace(bound, bound=replace(bound.bound, prices=prices)),
+        "no arm": replace(bound, arms=()),
+        "a joint left out": replace(bound, arms=(bound.arms[0][:3],)),
+        "no form": replace(bound, bound=replace(bound.bound, forms=())),
+    }
+    assert [name for name, fault in faults.items() if fault.shows_inertia(arms)] == []
+    assert not bound.shows_inertia(ranged)
+    assert not bound.shows_inertia(ranged[-1:])

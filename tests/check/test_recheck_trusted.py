@@ -51,6 +51,15 @@ HEADLINES = {
         "falling levels in phases",
         "bisection",
         "tree of boxes",
+        "bounds in ‖e‖",
+    ),
+    "how near an arm of many joints comes, and when": (
+        "Settling",
+        "falling levels",
+        "M positive and V decreasing",
+        "links",
+        "bounds along the links",
+        "inertia along the links",
     ),
     "a property of the closed loop": ("Property", "obligations", *OF_OBLIGATIONS),
     "a theorem about a closed loop": ("Stable", "obligations", *OF_OBLIGATIONS, "leading term"),
@@ -126,7 +135,7 @@ PURPOSES = {
     "`kinds/`, every n": "every_n bound_every_n",
     "`kinds/`, one arm": "inertia coriolis gravity compared chain chain_identity",
     "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting "
-    "ranges at_corners",
+    "ranges at_corners radial_bounds",
     "`kinds/`, theorems": "stability stable_arm property",
 }
 

@@ -209,7 +209,7 @@ def _of_mass(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bo
         lambda value: MassBelow(mass, (), value),
         lambda value: inertia.below(value, BOXES),
         constant.enclosure.upper,
-        inertia.largest_row(),
+        inertia.largest_row,
         witness,
         Fraction(seen),
     )

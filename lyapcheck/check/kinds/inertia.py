@@ -283,7 +283,7 @@ class MassBelow(OfArm, BoundedAbove):
 
     def square_by_sizes(self) -> Fraction:
         """A symmetric matrix is nowhere larger than its largest row sum of absolute values."""
-        return self.symmetric.largest_row() ** 2
+        return self.symmetric.largest_row**2
 
     def excess(self, at: PostureWitness) -> arb:
         """‖Mx‖² − high² ‖x‖²; no norm is negative."""
@@ -310,7 +310,7 @@ class CoriolisBelow(OfArm, BoundedAbove):
 
     def square_by_sizes(self) -> Fraction:
         """See :meth:`Inertia.squares_of_symbols`."""
-        return self.symmetric.squares_of_symbols()
+        return self.symmetric.squares_of_symbols
 
     def excess(self, at: PostureWitness) -> arb:
         """‖C(q, x)y‖² − high² ‖x‖² ‖y‖²; no norm is negative."""

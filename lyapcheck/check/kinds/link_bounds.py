@@ -1,4 +1,4 @@
-"""A proof of dV/dt < 0 by bounds of M(q) and its rates along the links, and boxes of e.
+"""Bounds of M(q) and its rates along the links, and with boxes of e a proof of dV/dt < 0.
 
 References: ``reyes2019family`` (11), (12), (15).
 """
@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound, RateProof
 from lyapcheck.check.loop.error_form import SCALE, BoxForm, Row
-from lyapcheck.check.loop.links import makes_at_corners
+from lyapcheck.check.loop.links import makes, makes_at_corners
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import require
 
@@ -37,6 +37,32 @@ class Shown:
             and storage.shows(stages, [storage.invariant_form(row, vectors) for row in forms], self.prices)
             for stages, forms in zip(chains, self.forms, strict=True)
         )
+
+
+@dataclass(frozen=True)
+class InertiaAlongLinks(InertiaBound):
+    """M ≼ U, kg·m², with a diagonal U_i ≤ μ d_i², by the links at each corner of the ranges of parameters.
+
+    Args:
+        weights: d_i.
+        inertia: μ.
+        arms: the links, in the order of ``corners_of``.
+        bound: U.
+    """
+
+    rule = "inertia along the links"
+    arms: tuple[tuple[RigidLink, ...], ...]
+    bound: Shown
+
+    def shows_inertia(self, arms: Sequence[ClosedLoop]) -> bool:
+        """The links are those of each arm in turn, and their energy is nowhere above that of U."""
+        prices, limits = self.bound.prices, [self.inertia * d * d for d in self.weights]
+        below = len(prices) == len(limits) and all(x <= most for x, most in zip(prices, limits, strict=True))
+        made = len(self.arms) == len(arms) and all(
+            len(links) == arm.n and all(link.fits for link in links) and makes(links, arm.arm.mass)
+            for links, arm in zip(self.arms, arms, strict=True)
+        )
+        return below and made and self.bound.holds([storage.energy(links, 1) for links in self.arms], 2)
 
 
 @dataclass(frozen=True)

@@ -17,12 +17,11 @@ from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text
 from lyapcheck.check.kinds.ranges import of_arm, require_arm
 from lyapcheck.check.kinds.resting import LARGEST
 from lyapcheck.check.kinds.settling import Envelope, require_falling
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound, RateProof
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded, secant_above, slowed
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
@@ -138,8 +137,8 @@ class Phase:
     """Levels of V with ε = ε₀, while h(w_i)/w_i are at least ``floors`` and |e_i| at most ``within``, rad.
 
     ``friction`` η, ``stiffness`` κ and ``split`` t are those of ``lyapcheck.check.loop.decay``, for the loop
-    of ``decay.speeds`` with these ``floors``; ``inertia`` has the weights d_i, μ and the boxes behind it (its
-    cuts are not used); ``rate`` shows dV/dt < 0 at (1 − η)B and (1 − κ)K_p of that loop.
+    of ``decay.speeds`` with these ``floors``; ``inertia`` has the weights d_i, μ and what shows it (cuts
+    are not used); ``rate`` shows dV/dt < 0 at (1 − η)B and (1 − κ)K_p of that loop.
     """
 
     eps0: Fraction
@@ -148,7 +147,7 @@ class Phase:
     friction: Fraction
     stiffness: Fraction
     split: Fraction
-    inertia: RadialBounds
+    inertia: InertiaBound
     rate: Proof
     envelope: Envelope
     slopes: tuple[Fraction, ...]
@@ -241,7 +240,7 @@ def _estimate(statement: StaysWithin, phase: Phase) -> Estimate:
     signs = "have a sign or size that does not fit: gains, B, K̃, ε₀ and shares must be positive"
     require(margin.admissible and margin.reduced.admissible, "gains, friction, shares or weights", "", signs)
     mu = float(phase.inertia.inertia)
-    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹) by its boxes")
+    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹)")
     if not isinstance(phase.rate, RateProof):
         raise Refused("rate", phase.rate.rule, "is not a way to show dV/dt < 0")
     phase.rate.require_shown(margin.reduced)

@@ -17,10 +17,9 @@ from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, friction_tex
 from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text
 from lyapcheck.check.kinds.ranges import of_arm, require_arm
 from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Proof, Total
@@ -121,8 +120,8 @@ class FallingLevels(Proof):
     """What dV/dt is below 0 by, and how steep V is taken to be in each band between two levels.
 
     ``friction`` is η, ``stiffness`` κ, ``split`` t, ``slack`` s and ``slopes`` the λ of
-    ``lyapcheck.check.loop.decay``; ``inertia`` has the weights d_i, μ and the boxes behind it (its cuts are
-    not used); ``decreasing`` shows M ≻ 0, and dV/dt < 0 at (1 − η)B and (1 − κ)K_p.
+    ``lyapcheck.check.loop.decay``; ``inertia`` has the weights d_i, μ and what shows it (cuts are not
+    used); ``decreasing`` shows M ≻ 0, and dV/dt < 0 at (1 − η)B and (1 − κ)K_p.
     """
 
     rule = "falling levels"
@@ -130,7 +129,7 @@ class FallingLevels(Proof):
     stiffness: Fraction
     split: Fraction
     slack: Fraction
-    inertia: RadialBounds
+    inertia: InertiaBound
     decreasing: PositiveAndDecreasing
     slopes: tuple[Fraction, ...]
 
@@ -210,7 +209,7 @@ def require_margin(margin: Margin, decreasing: PositiveAndDecreasing) -> str:
         statement_of(margin.reduced), decreasing, "M ≻ 0 and dV/dt < 0 of the reduced loop"
     )
     mu = float(margin.inertia.inertia)
-    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹) by its boxes")
+    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹)")
     return grade
 
 

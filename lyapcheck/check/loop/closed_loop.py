@@ -147,7 +147,7 @@ class ClosedLoop:
         return ScalarForm(
             stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
             friction=min(low for low, _ in self.friction),
-            drift=inertia.largest_row() * (rho + G) + norm_h * root_above(inertia.squares_of_symbols()),
+            drift=inertia.largest_row * (rho + G) + norm_h * root_above(inertia.squares_of_symbols),
             cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
         )
 
@@ -214,6 +214,23 @@ def root_above(value: Fraction) -> Fraction:
 
 def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
     return tuple((x + y) % 2 for x, y in zip(a, b, strict=True))
+
+
+@dataclass(frozen=True)
+class InertiaBound(Proof, ABC):
+    """Weights and a number with M(q) ≼ μ diag(d)² for every q and every arm in the ranges, untrusted.
+
+    Args:
+        weights: d_i > 0, (N·m·s/rad)^½.
+        inertia: μ, dimensionless beside the friction: rad/s.
+    """
+
+    weights: tuple[Fraction, ...]
+    inertia: Fraction
+
+    @abstractmethod
+    def shows_inertia(self, arms: Sequence[ClosedLoop]) -> bool:
+        """Whether that is shown of a loop, at each corner of its parameters in turn."""
 
 
 class RateProof(Proof, ABC):

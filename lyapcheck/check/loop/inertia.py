@@ -88,10 +88,12 @@ class Inertia:
             result[i] += value * (x[k] * y[j] if j == k else x[k] * y[j] + x[j] * y[k])
         return result
 
+    @cached_property
     def largest_row(self) -> Fraction:
         """A bound of ‖M(q)‖: the largest sum of a row of sizes of entries."""
         return max(sum((size_of(x, self.parameters) for x in row), Fraction(0)) for row in self.mass)
 
+    @cached_property
     def squares_of_symbols(self) -> Fraction:
         """A bound of Σ c_ijk², which ‖C(q, x)y‖² ≤ Σ c_ijk² ‖x‖²‖y‖² asks for, by Cauchy–Schwarz twice."""
         return sum(

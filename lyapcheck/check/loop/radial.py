@@ -30,7 +30,7 @@ from flint import arb, fmpq, fmpq_mat
 
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.boxes import Box, leaves
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, root_above
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound, RateProof, root_above
 from lyapcheck.check.loop.field import PI_ABOVE, Field
 from lyapcheck.check.loop.inertia import exceeds, rows_of
 from lyapcheck.check.loop.rank_one import rank_one_bound
@@ -45,12 +45,12 @@ Table = list[list[Harmonics]]
 
 
 @dataclass(frozen=True)
-class RadialBounds(RateProof):
+class RadialBounds(InertiaBound, RateProof):
     """Bounds of the parts of dV/dt in r = ‖e‖ alone, untrusted.
 
     Args:
-        weights: d_i > 0 with d_i² ≤ b_i, (N·m·s/rad)^½.
-        inertia: μ, dimensionless beside the friction: rad/s.
+        weights: d_i, with d_i² ≤ b_i.
+        inertia: μ.
         lowest: ν with −ν ≤ M̃, from 0 to μ, rad/s; M is positive, but the tree need not show all of that.
         angles: the joints over whose angles the tree shows −ν ≤ M̃ ≤ μ; the other angles are bounded by the
             sizes of their harmonics.
@@ -59,8 +59,6 @@ class RadialBounds(RateProof):
     """
 
     rule = "bounds in ‖e‖"
-    weights: tuple[Fraction, ...]
-    inertia: Fraction
     lowest: Fraction
     angles: tuple[int, ...]
     tree: str
@@ -70,6 +68,15 @@ class RadialBounds(RateProof):
         """By :func:`proves_radially`."""
         shown = proves_radially(loop, self)
         require(shown, "bounds", "", "do not show dV/dt < 0 at every ‖e‖")
+
+    def shows_inertia(self, arms: Sequence[ClosedLoop]) -> bool:
+        """By the tree, without cuts."""
+        with precision(BITS):
+            return all(self.joints_fit(arm) and Parts(arm, self).inertia_shown() for arm in arms)
+
+    def joints_fit(self, loop: ClosedLoop) -> bool:
+        """Whether the chosen angles are of joints, none twice."""
+        return len(set(self.angles)) == len(self.angles) and set(self.angles) <= set(range(loop.n))
 
 
 def proves_radially(loop: ClosedLoop, radial: RadialBounds) -> bool:
@@ -98,9 +105,14 @@ def fits(loop: ClosedLoop, radial: RadialBounds) -> bool:
     weights = len(radial.weights) == loop.n and all(
         d > 0 and d * d <= low for d, (low, _) in zip(radial.weights, loop.friction, strict=True)
     )
-    joints = len(set(radial.angles)) == len(radial.angles) and set(radial.angles) <= set(range(loop.n))
     rising = len(radial.cuts) > 0 and radial.cuts[0] == 0 and all(a < b for a, b in pairwise(radial.cuts))
-    return weights and joints and rising and 0 <= radial.lowest <= radial.inertia and radial.inertia > 0
+    return (
+        weights
+        and radial.joints_fit(loop)
+        and rising
+        and 0 <= radial.lowest <= radial.inertia
+        and radial.inertia > 0
+    )
 
 
 class Parts:

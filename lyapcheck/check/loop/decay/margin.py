@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
 from lyapcheck.check.loop.corners import at_corners
-from lyapcheck.check.loop.radial import BITS, Parts, RadialBounds
 from lyapcheck.check.loop.states import Arm
-from lyapcheck.check.numbers.balls import precision
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +20,7 @@ class Margin:
         stiffness: κ, the share of K_p, in (0, 1).
         split: t, the share of ηB that pays for the mixed terms ε h_i y_i.
         slack: s ≥ 0, the share of ηB that pays for disturbances; 0 where there are none.
-        inertia: weights d_i with d_i² ≤ b_i, and the tree of λmax(D⁻¹MD⁻¹) ≤ μ at each corner of the
-            ranges of parameters; no cuts are needed.
+        inertia: weights d_i with d_i² ≤ b_i, and μ with λmax(D⁻¹MD⁻¹) ≤ μ.
     """
 
     loop: ClosedLoop
@@ -31,7 +28,7 @@ class Margin:
     stiffness: Fraction
     split: Fraction
     slack: Fraction
-    inertia: RadialBounds
+    inertia: InertiaBound
 
     @property
     def viscous(self) -> tuple[Fraction, ...]:
@@ -69,13 +66,11 @@ class Margin:
         Raises:
             Refused: M is not affine in its parameters.
         """
-        with precision(BITS):
-            return all(Parts(corner, self.inertia).inertia_shown() for corner in at_corners(self.loop))
+        return self.inertia.shows_inertia(at_corners(self.loop))
 
     def _weights_fit(self) -> bool:
-        weights, angles = self.inertia.weights, self.inertia.angles
-        joints = len(set(angles)) == len(angles) and set(angles) <= set(range(self.loop.n))
+        weights = self.inertia.weights
         below = len(weights) == self.loop.n and all(
             d > 0 and d * d <= b for d, b in zip(weights, self.viscous, strict=True)
         )
-        return below and joints and self.inertia.inertia > 0
+        return below and self.inertia.inertia > 0

@@ -24,8 +24,7 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -73,7 +72,7 @@ def slowed(loop: ClosedLoop, floors: Sequence[Fraction]) -> ClosedLoop:
     return replace(loop, arm=Arm(loop.arm.mass, more), viscous=ranges if loop.viscous else (), kv=less)
 
 
-def regraded(level: Fraction, change: Fraction, loop: ClosedLoop, inertia: RadialBounds) -> Fraction:
+def regraded(level: Fraction, change: Fraction, loop: ClosedLoop, inertia: InertiaBound) -> Fraction:
     """A bound of V at one ε₀, J, from V ≤ level at another one, ``change`` away."""
     share = max(d * d / k for d, k in zip(inertia.weights, loop.kp, strict=True))
     c = inertia.inertia * loop.member.rho * share
