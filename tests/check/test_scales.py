@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from lyapcheck.check.expressions.asymptotic import Asymptotic, X, exactly
 from lyapcheck.check.expressions.expression import Tree, ball, evaluate
-from lyapcheck.check.expressions.inequality import positive_near_zero
 from lyapcheck.check.expressions.scales import ScaleAlgebra, sign_beside, sign_from
 from lyapcheck.claims import (
     Expr,
@@ -71,9 +70,7 @@ GROWING = {
 
 
 def as_scale(tree: Tree, start: Fraction = START) -> Asymptotic:
-    value: Asymptotic = evaluate(
-        tree, {"x": Asymptotic(((X, exactly({0: Fraction(1)})),), start)}, ScaleAlgebra(start)
-    )
+    value: Asymptotic = evaluate(tree, {"x": Asymptotic(((X, exactly(1)),), start)}, ScaleAlgebra(start))
     return value
 
 
@@ -171,10 +168,13 @@ def test_signs_beside_a_point(name: str) -> None:
 
 
 def test_what_is_undefined_at_0_is_not_positive_there() -> None:
-    tree, high = (sinh(x) / x).tree, Fraction(1, 4)
-    assert positive_near_zero(tree, "x", high)
-    assert not positive_near_zero(tree, "x", high, zero_included=True)
-    assert positive_near_zero((1 + sqrt(x)).tree, "x", high, zero_included=True)
+    """Its sign right of 0 is known, and no proof for a domain with 0 in it."""
+    assert sign_beside((sinh(x) / x).tree, "x", Fraction(0), Fraction(1, 4)) > 0
+    verdicts = [
+        propose(for_all(f > 0, 0, 1, open_low=open_low)).verdict.value
+        for f, open_low in ((sinh(x) / x, False), (sinh(x) / x, True), (1 + sqrt(x), False))
+    ]
+    assert verdicts == ["undecided", "proved", "proved"]
 
 
 def test_a_divisor_that_vanishes_is_not_cancelled() -> None:

@@ -1,9 +1,9 @@
 """Functions next to infinity as sums in the scale  e^{ax} x^b (ln x)^j,  enclosed on a half-line [X, ∞).
 
 An :class:`Asymptotic` is a finite sum  Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k}  in which each c_k is either
-an exact number (a Laurent polynomial in π) or lies in a ball for every x >= X. Sums and products keep that
-form. Exact coefficients cancel exactly, so that functions which agree to some order at infinity can be told
-apart by the next one.
+an exact number (a polynomial in π, γ_m, √c and their inverses) or lies in a ball for every x >= X. Sums and
+products keep that form. Exact coefficients cancel exactly, so that functions which agree to some order at
+infinity can be told apart by the next one.
 
 References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter 3.
 """
@@ -13,11 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isqrt
+from itertools import product
+from math import isqrt, prod
 
 from flint import arb
 
-from lyapcheck.check.expressions.expression import Unsupported
+from lyapcheck.check.expressions.expression import Unsupported, family_constant
 from lyapcheck.check.numbers.enclosure import ball_of
 
 Key = tuple[Fraction, Fraction, int]
@@ -36,22 +37,28 @@ class Open(Exception):
     """X is too small, or the scale too coarse, to say anything."""
 
 
+Symbol = tuple[str, Fraction]
+"""A number by name: ("sqrt", c) for √c, ("gamma", m) and its like, ("pi", 0)."""
+Monomial = tuple[tuple[Symbol, int], ...]
+"""Powers of symbols."""
+
+
 @dataclass(frozen=True)
 class Coefficient:
-    """A number that lies in a ball; ``exact`` gives its powers of π if it is the same known one for all x."""
+    """A number that lies in a ball; ``exact`` has its monomials if it is the same known one for all x."""
 
     ball: arb
-    exact: tuple[tuple[int, Fraction], ...] | None = None
+    exact: tuple[tuple[Monomial, Fraction], ...] | None = None
 
     def __add__(self, other: Coefficient) -> Coefficient:
         if self.exact is None or other.exact is None:
             return Coefficient(self.ball + other.ball)
-        return exactly(_collected([*self.exact, *other.exact]))
+        return _collected((*self.exact, *other.exact))
 
     def __mul__(self, other: Coefficient) -> Coefficient:
         if self.exact is None or other.exact is None:
             return Coefficient(self.ball * other.ball)
-        return exactly(_collected((p + q, c * d) for p, c in self.exact for q, d in other.exact))
+        return _collected(_monomial((*p, *q), c * d) for (p, c), (q, d) in product(self.exact, other.exact))
 
     @property
     def is_zero(self) -> bool:
@@ -59,19 +66,19 @@ class Coefficient:
         return self.exact == ()
 
     def inverse(self) -> Coefficient:
-        """1/c, exact for one power of π."""
+        """1/c, exact for one monomial."""
         if self.exact is not None and len(self.exact) == 1:
             ((p, c),) = self.exact
-            return exactly({-p: 1 / c})
+            return _collected([_monomial([(symbol, -e) for symbol, e in p], 1 / c)])
         return Coefficient(1 / self.ball)
 
     def root(self) -> Coefficient:
-        """√c, exact for an even power of π with a rational square before it."""
+        """√c, exact for a rational number times even powers."""
         if self.exact is not None and len(self.exact) == 1:
             ((p, c),) = self.exact
-            top, bottom = isqrt(max(c.numerator, 0)), isqrt(c.denominator)
-            if p % 2 == 0 and Fraction(top**2, bottom**2) == c:
-                return exactly({p // 2: Fraction(top, bottom)})
+            if c > 0 and all(e % 2 == 0 for _, e in p):
+                halves = [(symbol, e // 2) for symbol, e in p]
+                return _collected([_monomial([*halves, (("sqrt", c), 1)], Fraction(1))])
         return Coefficient(self.ball.sqrt())
 
     def as_rational(self) -> Fraction | None:
@@ -81,20 +88,48 @@ class Coefficient:
         return sum((c for _, c in self.exact), Fraction(0))
 
 
-def _collected(terms: Iterable[tuple[int, Fraction]]) -> dict[int, Fraction]:
-    result: dict[int, Fraction] = {}
+def _monomial(powers: Iterable[tuple[Symbol, int]], factor: Fraction) -> tuple[Monomial, Fraction]:
+    """A product of powers of symbols, with squares of roots and roots of squares as numbers."""
+    exponents: dict[Symbol, int] = {}
+    for symbol, e in powers:
+        exponents[symbol] = exponents.get(symbol, 0) + e
+    for symbol, e in exponents.items():
+        name, c = symbol
+        if name == "sqrt":
+            factor *= c ** (e // 2)
+            exponents[symbol] = e % 2
+            root = Fraction(isqrt(c.numerator), isqrt(c.denominator))
+            if e % 2 and root**2 == c:
+                factor, exponents[symbol] = factor * root, 0
+    return tuple(sorted((symbol, e) for symbol, e in exponents.items() if e)), factor
+
+
+def _collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Coefficient:
+    """A sum of multiples of monomials."""
+    result: dict[Monomial, Fraction] = {}
     for p, c in terms:
         result[p] = result.get(p, Fraction(0)) + c
-    return result
-
-
-def exactly(powers: dict[int, Fraction]) -> Coefficient:
-    """Σ c π^p."""
-    kept = tuple(sorted((p, c) for p, c in powers.items() if c))
+    kept = tuple(sorted((p, c) for p, c in result.items() if c))
     ball = arb(0)
     for p, c in kept:
-        ball += ball_of(c) * (arb.pi() ** p if p else 1)
+        ball += prod((_value(*symbol) ** e for symbol, e in p), start=ball_of(c))
     return Coefficient(ball, kept)
+
+
+def _value(name: str, c: Fraction) -> arb:
+    if name == "sqrt":
+        return ball_of(c).sqrt()
+    return arb.pi() if name == "pi" else family_constant(name, int(c))
+
+
+def exactly(c: Fraction | int) -> Coefficient:
+    """A rational number."""
+    return _collected([((), Fraction(c))])
+
+
+def named(name: str, c: int = 0) -> Coefficient:
+    """The number of a symbol."""
+    return _collected([((((name, Fraction(c)), 1),), Fraction(1))])
 
 
 @dataclass(frozen=True)
@@ -114,7 +149,7 @@ class Asymptotic:
         )
 
     def __neg__(self) -> Asymptotic:
-        return self.scaled(exactly({0: Fraction(-1)}))
+        return self.scaled(exactly(-1))
 
     def __sub__(self, other: Asymptotic) -> Asymptotic:
         return self + (-other)
@@ -124,7 +159,7 @@ class Asymptotic:
         key, c, small = other.leading()
         result = constant(Coefficient(1 / (1 + small.enclosure())), self.start)
         for _ in range(ORDER):
-            result = constant(exactly({0: Fraction(1)}), self.start) - result * small
+            result = constant(exactly(1), self.start) - result * small
         return self * result.scaled(c.inverse(), power_of(key, Fraction(-1)))
 
     def scaled(self, by: Coefficient, key: Key = ONE) -> Asymptotic:
@@ -132,14 +167,14 @@ class Asymptotic:
         return Asymptotic(tuple((_times(k, key), c * by) for k, c in self.terms), self.start)
 
     def leading(self) -> tuple[Key, Coefficient, Asymptotic]:
-        """c, M and u with  f = c M (1 + u),  |u| < 1, where c is not 0."""
+        """c, M and u with  f = c M (1 + u),  u > −1, where c is not 0."""
         if not self.terms:
             raise Open("a function that is zero")
         (key, c), *rest = self.terms
         if not (c.ball > 0 or c.ball < 0):
             raise Open("the sign of the leading coefficient")
         small = Asymptotic(tuple(rest), self.start).scaled(c.inverse(), power_of(key, Fraction(-1)))
-        if not abs(small.enclosure()) < 1:
+        if not small.enclosure() > -1:
             raise Open("the leading term does not dominate yet")
         return key, c, small
 
@@ -150,7 +185,7 @@ class Asymptotic:
     def parts(self) -> tuple[list[tuple[Key, Coefficient]], Coefficient, Asymptotic]:
         """The terms that are not bounded, the constant one, and what tends to 0."""
         large = [(key, c) for key, c in self.terms if key > ONE]
-        limit = dict(self.terms).get(ONE, exactly({}))
+        limit = dict(self.terms).get(ONE, exactly(0))
         small = tuple((key, c) for key, c in self.terms if key < ONE)
         return large, limit, Asymptotic(small, self.start)
 
@@ -194,10 +229,11 @@ def _bounded(key: Key, start: Fraction) -> arb:
     a, b, j = key
     x = ball_of(start)
     log = x.log()
+    rise = j / log if j > 0 else arb(0)
     if a < 0:
-        slope = ball_of(a) + ball_of(max(b, Fraction(0))) / x + max(j, 0) / (x * log)
+        slope = ball_of(a) + (ball_of(max(b, Fraction(0))) + rise) / x
     else:
-        slope = ball_of(b) + max(j, 0) / log if b < 0 else arb(j)
+        slope = ball_of(b) + rise if b < 0 else arb(j)
     if slope <= 0:
         return arb(0).union((ball_of(a) * x + ball_of(b) * log).exp() * log**j)
     if a < 0:
@@ -213,9 +249,7 @@ def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
     kept = [(key, result[key]) for key in sorted(result, reverse=True) if not result[key].is_zero]
     if len(kept) > TERMS:
         last = kept[TERMS - 1][0]
-        rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(
-            exactly({0: Fraction(1)}), power_of(last, Fraction(-1))
-        )
+        rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(exactly(1), power_of(last, Fraction(-1)))
         kept = [*kept[: TERMS - 1], (last, Coefficient(rest.enclosure()))]
     return Asymptotic(tuple(kept), start)
 

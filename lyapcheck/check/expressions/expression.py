@@ -20,9 +20,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from flint import arb, arb_series, ctx, fmpq, fmpq_series
+from flint import arb, arb_series, ctx, fmpq
 
 from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.critical import power
 
 Tree = tuple[Any, ...]
 
@@ -95,20 +96,6 @@ class ExactAlgebra(Algebra):
         raise Unsupported(f"{name} leaves the rational numbers")
 
 
-class ExactSeriesAlgebra(ExactAlgebra):
-    """Truncated power series over ℚ."""
-
-    def number(self, value: Fraction) -> Any:
-        """The constant series."""
-        return fmpq_series([super().number(value)])
-
-    def function(self, name: str, value: Any) -> Any:
-        """A function whose series at a rational point may be rational."""
-        if name in ("abs", "acos"):
-            raise Unsupported(f"no rational series for {name}")
-        return getattr(value, name)()
-
-
 class SeriesAlgebra(Algebra):
     """Truncated power series with balls as coefficients, to the length that ``ctx.cap`` allows."""
 
@@ -166,7 +153,10 @@ class _Evaluation:
         if kind in FAMILY:
             return self.of(family_formula(kind, *rest))
         if kind == "pow":
-            return power(self.of(rest[0]), rest[1], self.algebra)
+            base, exponent = self.of(rest[0]), rest[1]
+            if not isinstance(exponent, int) or exponent < 0:
+                raise Unsupported(f"exponent {exponent!r} is not a natural number")
+            return power(base, exponent) if exponent else self.algebra.power_zero(base)
         return _combine(kind, [self.of(part) for part in rest], self.algebra)
 
 
@@ -197,19 +187,6 @@ def _combine(kind: str, parts: list[Any], algebra: Algebra) -> Any:
     if kind in FUNCTIONS:
         return algebra.function(kind, parts[0])
     raise Unsupported(f"unknown operation {kind!r}")
-
-
-def power(base: Any, exponent: int, algebra: Algebra) -> Any:
-    """``base ** exponent`` by repeated multiplication (flint's own power of a ball around zero is NaN)."""
-    if not isinstance(exponent, int) or exponent < 0:
-        raise Unsupported(f"exponent {exponent!r} is not a natural number")
-    result = None
-    while exponent:
-        if exponent & 1:
-            result = base if result is None else result * base
-        exponent >>= 1
-        base = base * base if exponent else base
-    return algebra.power_zero(base) if result is None else result
 
 
 def family_formula(kind: str, m: int, argument: Tree) -> Tree:

@@ -30,7 +30,7 @@ from lyapcheck.check.expressions.expression import (
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
-from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational
+from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational, univariate
 
 Signs = frozenset[int]
 ANY: Signs = frozenset((-1, 0, 1))
@@ -216,7 +216,7 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
     short = max(map(max, (*ratio.top.monoms(), *ratio.bottom.monoms())), default=0) <= MAX_EXPONENT
     if len(result) > 1 and short and not algebra.uses and len(algebra.names) == 1:
         interval = domain.get(algebra.names[0], REALS)
-        result &= _by_sturm(_in_one(ratio.top) * _in_one(ratio.bottom), interval)
+        result &= _by_sturm(univariate(ratio.top, 0) * univariate(ratio.bottom, 0), interval)
     return result
 
 
@@ -249,14 +249,6 @@ def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) 
         if all(part <= {0, sign} for part in parts):
             return frozenset([sign]) if any(part == {sign} for part in parts) else frozenset([0, sign])
     return ANY
-
-
-def _in_one(polynomial: fmpq_mpoly) -> fmpq_poly:
-    """A polynomial in the first generator alone."""
-    result = [fmpq(0)] * (1 + max((int(e[0]) for e in polynomial.monoms()), default=0))
-    for exponents, c in polynomial.to_dict().items():
-        result[int(exponents[0])] = c
-    return fmpq_poly(result)
 
 
 def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:

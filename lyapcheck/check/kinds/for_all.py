@@ -14,12 +14,8 @@ from flint import ctx
 
 from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.expressions.inequality import (
-    positive_from,
-    positive_near_zero,
-    positive_on_box,
-    sign_everywhere,
-)
+from lyapcheck.check.expressions.inequality import positive_at, positive_on_box, sign_everywhere
+from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.parts import relation_text, require_relations
@@ -85,8 +81,8 @@ class Sturm(Piece):
 class Boxes(Piece):
     """By Taylor's formula on the boxes between neighbouring ``cuts``.
 
-    With ``from_zero``, the first Taylor coefficient that is not zero gives the sign from 0 to the first cut;
-    with ``to_infinity``, the dominant term gives it beyond the last cut.
+    The dominant term gives the sign from 0 to the first cut, with ``from_zero``, and beyond the last one,
+    with ``to_infinity``.
     """
 
     rule = "Taylor boxes"
@@ -139,14 +135,9 @@ def reflected(tree: Tree, name: str) -> Tree:
     return (tree[0], *(reflected(part, name) if isinstance(part, tuple) else part for part in tree[1:]))
 
 
-def zero_is_left_out(statement: ForAll) -> bool:
-    """Whether 0 is an open end of the domain."""
-    return (statement.low == 0 and statement.open_low) or (statement.high == 0 and statement.open_high)
-
-
 def zero_must_be_positive(statement: ForAll, low: Fraction) -> bool:
     """Whether a piece that begins at ``low`` has to show a strict inequality at 0."""
-    return statement.relation.strict and low == 0 and not zero_is_left_out(statement)
+    return statement.relation.strict and low == 0 and low in statement.interval
 
 
 def _shown(statement: ForAll, domain: Stretch, piece: Piece) -> str:
@@ -166,20 +157,15 @@ def _shown(statement: ForAll, domain: Stretch, piece: Piece) -> str:
 def _require_boxes(statement: ForAll, domain: Stretch, piece: Boxes) -> None:
     (tree, low, high), cuts, name = domain, piece.cuts, statement.variable
     require(1 <= len(cuts) <= MAX_CUTS, "cuts", len(cuts), f"must be from 1 to {MAX_CUTS}")
-    if piece.from_zero:
+    if piece.from_zero:  # where f has a value at 0 too, it is continuous there: f(0) >= 0
         require(low == 0 < cuts[0], "first cut", cuts[0], "must lie above 0, where the piece begins")
-        defined = not zero_is_left_out(statement)
-        near = positive_near_zero(tree, name, cuts[0], zero_included=defined)
-        require(near, "first cut", cuts[0], "is too far from 0")
+        require(sign_beside(tree, name, low, cuts[0]) > 0, "first cut", cuts[0], "is too far from 0")
         if zero_must_be_positive(statement, low):
-            require(
-                positive_on_box(tree, name, low, ZERO_BOX), "value at 0", 0, "is not shown to be positive"
-            )
+            require(positive_at(tree, name, low), "value at 0", 0, "is not shown to be positive")
     else:
         require(cuts[0] <= low, "first cut", cuts[0], f"leaves out {low}")
     if piece.to_infinity:
-        require(cuts[-1] >= 1, "last cut", cuts[-1], "must be at least 1")
-        require(positive_from(tree, name, cuts[-1]), "last cut", cuts[-1], "no term dominates from there on")
+        require(sign_from(tree, name, cuts[-1]) > 0, "last cut", cuts[-1], "no term dominates from there on")
     elif high is None or cuts[-1] < high:
         raise Refused("last cut", cuts[-1], f"leaves out {'infinity' if high is None else high}")
     for left, right in pairwise(cuts):
@@ -192,8 +178,4 @@ def _require_point(tree: Tree, name: str, piece: Boxes) -> None:
     """A single cut is a domain of one point, unless 0 and infinity meet there."""
     if len(piece.cuts) == 1 and not (piece.from_zero or piece.to_infinity):
         x = piece.cuts[0]
-        require(positive_on_box(tree, name, x, x), "point", x, "the sign is open")
-
-
-ZERO_BOX = Fraction(1, 1024)
-"""How far from 0 a value is enclosed to show that it is positive at 0."""
+        require(positive_at(tree, name, x), "point", x, "the sign is open")

@@ -4,9 +4,8 @@ With u = sinh²x and p = u^m everything but L is algebraic:
 
     h² = p² (1 + u) / (u (1 + p)²),     h' = p (2m - 1 + 2m u - p) / (u (1 + p)²).
 
-Each root is approached by Newton's method in balls, where nothing is promised, and then bracketed: a
-continuous function that provably has opposite signs at both ends of an interval has a root inside, and an
-argument by counting says that it is the only one meant.
+Each root lies between two points at which a function provably has opposite signs, and is closed in on by
+bisection; an argument by counting says that it is the only one there.
 
 References: ``reyes2019family`` (6), (7), (8).
 """
@@ -14,12 +13,12 @@ References: ``reyes2019family`` (6), (7), (8).
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import asinh, cosh, log, sinh, sqrt
+from typing import Any
 
 from flint import arb, ctx, fmpz_poly
 
-Equation = Callable[[arb], tuple[arb, arb]]
-"""The value and the derivative of a function at a point."""
+NEAR = arb(2) ** -40
+"""Where a root is known to this share, secants close in on it."""
 
 
 def peak_of_h(m: int) -> arb:
@@ -28,15 +27,7 @@ def peak_of_h(m: int) -> arb:
     h' has the sign of 2m - 1 + 2m u - u^m, whose coefficients change sign once: by Descartes' rule it has
     exactly one positive root, and h rises before it and falls after it.
     """
-    u = 2.0
-    for _ in range(60):
-        u = (2 * m * u + 2 * m - 1) ** (1 / m)
-
-    def rise(v: arb) -> tuple[arb, arb]:
-        p = power(v, m)
-        return 2 * m - 1 + 2 * m * v - p, 2 * m - m * p / v
-
-    return bracketed_root(rise, u, m)
+    return bracketed_root(lambda u: 2 * m - 1 + 2 * m * u - power(u, m), arb(1), arb(4 * m))
 
 
 def peaks_of_dh(m: int) -> tuple[arb, arb]:
@@ -50,26 +41,11 @@ def peaks_of_dh(m: int) -> tuple[arb, arb]:
     from 0 to its maximum, falls through 0 to its minimum, and rises back to 0.
     """
 
-    def curvature(v: arb) -> tuple[arb, arb]:
-        p = power(v, m)
-        a, b = (2 * m - 1) * (m - 1) + 2 * m * m * v, (2 * m - 1) * (m + 2) + 2 * m * m * v
-        return a - b * p + p * p, 2 * m * m * (1 - p) + m * p / v * (2 * p - b)
+    def curvature(u: arb) -> arb:
+        p = power(u, m)
+        return (2 * m - 1) * (m - 1) + 2 * m * m * u * (1 - p) - (2 * m - 1) * (m + 2) * p + p * p
 
-    guesses = (_curvature_guess(m, largest) for largest in (False, True))
-    low, high = (bracketed_root(curvature, guess, m) for guess in guesses)
-    if not low < high:
-        raise ArithmeticError(f"the two roots of P for m = {m} were not told apart")
-    return low, high
-
-
-def _curvature_guess(m: int, largest: bool) -> float:
-    """A double near a root of P: P = 0 is a quadratic in u^m with coefficients that hardly vary with u."""
-    u = 1.0
-    for _ in range(60):
-        a, b = (2 * m - 1) * (m - 1) + 2 * m * m * u, (2 * m - 1) * (m + 2) + 2 * m * m * u
-        p_large = (b + sqrt(b * b - 4 * a)) / 2
-        u = (p_large if largest else a / p_large) ** (1 / m)
-    return u
+    return bracketed_root(curvature, arb(0), arb(1)), bracketed_root(curvature, arb(1), arb(4 * m * m))
 
 
 def peaks_of_d2h(m: int) -> tuple[arb, ...]:
@@ -98,64 +74,54 @@ def peak_of_secant(m: int) -> arb:
     In u, p and s = sinh x, c = cosh x, F has the sign of x (2m - 1 + 2m u - p) - (1 + p) s c.
     """
 
-    def excess(x: arb) -> tuple[arb, arb]:
+    def excess(x: arb) -> arb:
         s, c = x.sinh_cosh()
-        u = s * s
-        p = power(u, m)
-        n = 2 * m - 1 + 2 * m * u - p
-        slope = n + 2 * m * x * (2 * s * c - p * c / s) - 2 * m * p * c * c - (1 + p) * (2 * u + 1)
-        return x * n - (1 + p) * s * c, slope
+        p = power(s, 2 * m)
+        return x * (2 * m - 1 + 2 * m * s * s - p) - (1 + p) * s * c
 
-    return bracketed_root(excess, _secant_guess(m), m)
+    low, high = (u.sqrt().asinh().mid() for u in (peaks_of_dh(m)[0], peak_of_h(m)))
+    return bracketed_root(excess, low, high)
 
 
-def _secant_guess(m: int) -> float:
-    """A double near the peak of h/x, by bisection of F over (x_ρ, x_γ)."""
-    low, high = (asinh(sqrt(float(u.mid()))) for u in (peaks_of_dh(m)[0], peak_of_h(m)))
-    for _ in range(60):
-        x = (low + high) / 2
-        rises = _secant_rises(m, x)
-        low, high = (x, high) if rises else (low, x)
-    return (low + high) / 2
+def bracketed_root(function: Callable[[arb], arb], low: arb, high: arb) -> arb:
+    """An enclosure, tight at the current precision, of a root of a continuous function between two points.
 
+    Raises:
+        ArithmeticError: balls of twice that precision do not show a change of sign.
 
-def _secant_rises(m: int, x: float) -> bool:
-    s, c = sinh(x), cosh(x)
-    p = s ** (2 * m)
-    return x * (2 * m - 1 + 2 * m * s * s - p) > (1 + p) * s * c
-
-
-def bracketed_root(equation: Equation, guess: float, m: int) -> arb:
-    """An enclosure, tight at the current precision, of the simple root of a function near a guess.
-
-    Soundness: the ball holds a root because the function changes sign between two points inside it; that no
-    other root is meant is for the caller to argue.
+    Soundness: the ball lies between the points and holds a root because the function changes sign inside it;
+    that no other root is meant is for the caller to argue.
     """
-    spare = 20 + 4 * int(log(m, 2))
-    wanted = ctx.prec
-    with ctx.workprec(wanted + spare):
-        x = arb(guess)
-        for _ in range(4 + wanted.bit_length()):
-            value, slope = equation(x)
-            x = (x - value / slope).mid()
-        for slack in range(0, spare + wanted - 30, 8):
-            radius = x * arb(2) ** (slack - wanted)
-            left, right = (x - radius).lower(), (x + radius).upper()
-            if _opposite(equation(left)[0], equation(right)[0]):
-                return left.union(right)
-    raise ArithmeticError(f"no change of sign found near {guess} for m = {m}")
+    ends, width = (low, high), arb(2) ** -ctx.prec
+    with ctx.workprec(2 * ctx.prec + 64):
+        while high - low > high * NEAR:
+            middle = ((low + high) / 2).mid()
+            if _opposite(function(low), function(middle)):
+                high = middle
+            else:
+                low = middle
+        last, root = low, high
+        for _ in range(2 * ctx.prec.bit_length()):  # by secants, where nothing is promised
+            slope = (function(root) - function(last)) / (root - last)
+            last, root = root, (root - function(root) / slope).mid()
+            if abs(root - last) < root * width / 4:
+                break
+        left, right = root * (1 - width), root * (1 + width)
+        if ends[0] < left and right < ends[1] and _opposite(function(left), function(right)):
+            return left.union(right)
+    raise ArithmeticError(f"no change of sign was found between {low} and {high}")
 
 
 def _opposite(left: arb, right: arb) -> bool:
     return bool((left < 0 and right > 0) or (left > 0 and right < 0))
 
 
-def power(base: arb, exponent: int) -> arb:
+def power(base: Any, exponent: int) -> Any:
     """``base ** exponent`` by repeated multiplication: finite for balls around zero, as flint's is not."""
-    result = arb(1)
+    result = None
     while exponent:
         if exponent & 1:
-            result = result * base
+            result = base if result is None else result * base
         exponent >>= 1
         base = base * base if exponent else base
-    return result
+    return arb(1) if result is None else result

@@ -10,7 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 End = Fraction | None
 
@@ -18,6 +18,14 @@ End = Fraction | None
 def rational(value: Fraction | int) -> fmpq:
     """The same number for flint."""
     return fmpq(value.numerator, value.denominator)
+
+
+def univariate(polynomial: fmpq_mpoly, index: int) -> fmpq_poly:
+    """A polynomial in which one generator alone occurs."""
+    result = [fmpq(0)] * (1 + polynomial.degrees()[index])
+    for exponents, c in polynomial.to_dict().items():
+        result[int(exponents[index])] = c
+    return fmpq_poly(result)
 
 
 def sign_at(poly: fmpq_poly, point: Fraction) -> int:

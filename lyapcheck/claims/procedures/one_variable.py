@@ -13,21 +13,15 @@ from fractions import Fraction
 from flint import ctx
 
 from lyapcheck.check.expressions.expression import Tree, Unsupported
-from lyapcheck.check.expressions.inequality import (
-    positive_from,
-    positive_near_zero,
-    positive_on_box,
-    sign_everywhere,
-)
+from lyapcheck.check.expressions.inequality import positive_at, positive_on_box, sign_everywhere
+from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.kinds.for_all import (
-    ZERO_BOX,
     Boxes,
     ForAll,
     Pieces,
     Stretch,
     Sturm,
     pieces,
-    zero_is_left_out,
     zero_must_be_positive,
 )
 from lyapcheck.check.statement import Piece
@@ -102,7 +96,7 @@ def _prove(statement: ForAll, domain: Stretch) -> Piece:
         raise _Open(
             "the exact sign test fails, yet no rational point shows it; look for a point by hand near a root"
         )
-    if at_zero and not positive_on_box(tree, statement.variable, low, ZERO_BOX):
+    if at_zero and not positive_at(tree, statement.variable, low):
         raise _Open("equality at 0 is not excluded; say open_low, or use <= instead of <")
     return _boxes(statement, domain)
 
@@ -111,27 +105,24 @@ def _boxes(statement: ForAll, domain: Stretch) -> Boxes:
     tree, low, high = domain
     name, start, end = statement.variable, low, high
     if low == 0:
-        start = _start_of_boxes(tree, name, high, not zero_is_left_out(statement))
+        start = _start_of_boxes(tree, name, high)
     if high is None:
         end = _end_of_boxes(tree, name, start)
     assert end is not None
     return Boxes(tuple(cuts(tree, name, start, end)), low == 0, high is None, BITS)
 
 
-def _start_of_boxes(tree: Tree, name: str, high: Fraction | None, zero_included: bool) -> Fraction:
+def _start_of_boxes(tree: Tree, name: str, high: Fraction | None) -> Fraction:
     for k in range(0, 16, 2):
         start = Fraction(1, 2**k)
-        reachable = high is None or start <= high
-        if reachable and positive_near_zero(tree, name, start, zero_included=zero_included):
+        if (high is None or start <= high) and sign_beside(tree, name, Fraction(0), start) > 0:
             return start
-    if zero_included and positive_near_zero(tree, name, Fraction(1, 2**14)):
-        raise _Open("it holds right of 0 but is not defined at 0; say open_low")
-    raise _Open("the sign next to 0 is open: neither its Taylor series there nor its scale decides it")
+    raise _Open("the sign next to 0 is open: no dominant term decides it")
 
 
 def _end_of_boxes(tree: Tree, name: str, start: Fraction) -> Fraction:
     for x in map(Fraction, TAIL_STARTS):
-        if x > start and positive_from(tree, name, x):
+        if x > start and sign_from(tree, name, x) > 0:
             return x
     raise _Open("the tail is open: no term dominates from there on, or both sides meet at infinity")
 
@@ -162,5 +153,5 @@ def _words(piece: Piece) -> str:
     """The step in words."""
     if not isinstance(piece, Boxes):
         return "Sturm's theorem"
-    used = ["Taylor at 0"] * piece.from_zero + ["dominant term at infinity"] * piece.to_infinity
+    used = ["dominant term at 0"] * piece.from_zero + ["dominant term at infinity"] * piece.to_infinity
     return ", ".join([*used, f"{len(piece.cuts) - 1} Taylor boxes"])
