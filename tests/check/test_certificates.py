@@ -399,7 +399,7 @@ FORGED = {
     "no cut after 0": (TOP, Pieces((boxes(0, 4, tail=True, zero=True),)), "above 0"),
     "a tail from inside": (TOP, Pieces((boxes(0, "5/4", tail=True),)), "no term dominates"),
     "a tail left out": (TOP, Pieces((boxes(0, 4),)), "leaves out infinity"),
-    "a tail left of 1": (TOP, Pieces((boxes(0, "1/2", tail=True),)), "at least 1"),
+    "a tail left of 1": (TOP, Pieces((boxes(0, "1/2", tail=True),)), "no term dominates"),
     "a box too wide": (for_all(h(2, x) <= "1.06", 0, 3), Pieces((boxes(0, 3),)), "sign is open"),
     "equality at a closed 0": (
         for_all(tanh(x) < x, 0, 1),
