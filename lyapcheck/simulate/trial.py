@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +16,8 @@ from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.bench import Bench, dry_friction, enough_substeps, period_map
-from lyapcheck.simulate.indices import l2_index
+from lyapcheck.simulate.extremes import turns
+from lyapcheck.simulate.indices import l2_index, overshoots
 from lyapcheck.simulate.results import Motion, run_of
 from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.setup import Setup, set_up
@@ -68,8 +70,9 @@ def experiment(
         on_progress: told the fraction done.
 
     Returns:
-        One sample a period; ``tau`` is the torque held from then on, ``dV`` what (11) gives at the states
-        passed, and ``accuracy`` the change when the arm is integrated with twice the steps.
+        One sample a period, overshoots of what lies between; ``tau`` is the torque held from then on, ``dV``
+        what (11) gives at the states passed, and ``accuracy`` the change when the arm is integrated with
+        twice the steps.
 
     Raises:
         InputError: a task the arm cannot be given.
@@ -129,6 +132,9 @@ def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:
         saturated=True,
         notes=_notes(setup, bench),
     )
+    if complete:
+        e = np.array(setup.task.q_d) - np.vstack((kept.q[:1], turns(kept.t, kept.q, kept.w)))
+        run = replace(run, indices=replace(run.indices, overshoot=overshoots(e)))
     if not complete:
         raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {kept.t[-1]:.6g} s", run)
     return run

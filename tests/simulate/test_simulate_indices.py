@@ -13,6 +13,7 @@ from lyapcheck import robots
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.extremes import turns
 from lyapcheck.simulate.indices import final_errors, l2_index, overshoots, peak_torques, settling_times
 from lyapcheck.simulate.task import PAPER_TASK
 
@@ -96,3 +97,11 @@ def test_peaks_and_final_errors():
     tau = np.array([[1.0, -5.0], [-3.0, 2.0]])
     assert peak_torques(tau).tolist() == [3.0, 5.0]
     assert final_errors(np.array([[1.0, 1.0], [0.0, math.pi]])).tolist() == [0.0, 180.0]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_angles_turn_between_samples_where_their_cubic_does(sign):
+    """q = s (t³ − t) turns at 1/√3, exactly; where no rate changes its sign, the later sample stands."""
+    t = np.array([0.0, 0.3, 0.9, 1.3])
+    q, w = sign * (t**3 - t)[:, None], sign * (3 * t**2 - 1)[:, None]
+    assert turns(t, q, w)[:, 0] == pytest.approx([q[1, 0], -sign * 2 / math.sqrt(27), q[3, 0]])
