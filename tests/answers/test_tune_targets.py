@@ -13,18 +13,21 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.bench_answer import BenchTuning
-from lyapcheck.answers.tune.bench_tuning import tune_for
+from lyapcheck.answers.tune.bench_tuning import stability, tune_for
 from lyapcheck.answers.tune.one_joint import Joint, proposal
 from lyapcheck.answers.tune.trial import tried
-from lyapcheck.answers.tune.wishes import Bench, Wishes
+from lyapcheck.answers.tune.wishes import BY_PROOF, Bench, Wishes
 from lyapcheck.cli import main as cli
+from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
+from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, task_for
 from lyapcheck.verdicts import Exit
 
 WISHES = Wishes(overshoot=5, settle=1.5, rest_error=20)
@@ -48,6 +51,28 @@ def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     assert tuned.document().title == "✓ buap3: tau_m1_proof meets what was asked"
     assert "(19) keeps k_v of base, shoulder, elbow from being larger" in str(tuned)
     assert "m = 1: (19) costs a factor of" in str(tuned)
+
+
+def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
+    """A joint that settles at 3.2 s, after the 3 s that are watched at least."""
+    arm, gains = robots.load("pendulum1"), GainSet("slow", 1, (Fraction(3),), (Fraction(1, 10),))
+    task = task_for(1, [0.8], None, None, 5.0)
+    trial = tried(gains, [arm], [task], Wishes(overshoot=10, settle=0.1), exact=True)
+    run = simulate(gains, arm, [0.8], T=3 * trial.T, points=101)
+    assert (trial.T, trial.kept) == (6.0, True)
+    assert trial.settled[0] == pytest.approx(run.settling[0], rel=1e-5)
+    assert trial.overshoot[0] == pytest.approx(run.overshoot[0], rel=1e-5)
+    assert not tried(gains, [arm], [task], Wishes(settle=0.1)).kept
+
+
+def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
+    """Friction that may vanish leaves LaSalle's theorem, where the nominal one gives a V that falls."""
+    gains, varies = GainSet("set", 1, (Fraction(5),), (Fraction(1),)), (Vary.parsed("viscous=-100%..+0%"),)
+    over = {"pendulum1": varied_limits("pendulum1", varies)}
+    assert stability(gains, BY_PROOF, arm_limits("pendulum1", 1), "pendulum1", None) == "proof"
+    assert (
+        stability(gains, BY_PROOF, arm_limits("pendulum1", 1, None, varies), "pendulum1", over) == "LaSalle"
+    )
 
 
 @pytest.mark.slow

@@ -31,8 +31,9 @@ HEADS = (
 NONE = "—"
 NOTES = (
     "worst: the largest of what was seen over what was asked; at most 1 where all is met.",
-    "Motions are those of the closed loop (11) in floating point, without dry friction; what dry friction "
-    "leaves is k_p |h(e)| = f. That no gains do better is not proved: a search ended.",
+    "Motions are those of the closed loop (11) in floating point, without dry friction, watched until the "
+    "energy that is left keeps every joint within its band; what dry friction leaves is k_p |h(e)| = f. That "
+    "no gains do better is not proved: a search ended.",
     "(10p) holds for every set that was found: no motor saturates at any state.",
 )
 RULES = ("(10p)", "(19)")
@@ -85,8 +86,8 @@ class BenchTuning(Answer):
         return [one for one in self.sets if one.way]
 
     def met(self, one: Candidate) -> bool:
-        """Whether a set is proved stable and met all that was asked in every motion."""
-        return bool(one.stable) and one.trial.worst(self.bench.wishes) <= 1
+        """Whether a set is proved stable and met all that was asked in every motion, and keeps to it."""
+        return bool(one.stable) and one.trial.kept and one.trial.worst(self.bench.wishes) <= 1
 
     @property
     def exit(self) -> Exit:
@@ -187,6 +188,8 @@ class BenchTuning(Answer):
             if joints:
                 yield f"{NAMES[name]} beyond what was asked, times: {', '.join(joints)}"
         held = {rule: [j for j, h in zip(self.joints, one.held, strict=True) if rule in h] for rule in RULES}
+        if not one.trial.kept:
+            yield f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
         if one.trial.worst(wishes) > 1:
             for rule, joints in held.items():
                 if joints:

@@ -13,6 +13,7 @@ from lyapcheck.answers.tune.bench_search import Search
 from lyapcheck.answers.tune.obstacles import impossible, unknown
 from lyapcheck.answers.tune.trial import tried
 from lyapcheck.answers.tune.wishes import BY_19, BY_PROOF, Bench
+from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.robots import load
@@ -20,6 +21,7 @@ from lyapcheck.robots.vary import corners
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
+    from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
@@ -56,6 +58,7 @@ def tune_for(
     """
     model = load(robot)
     limits = arm_limits(robot, model.n, bounds, varies)
+    ranges = {robot: varied_limits(robot, varies)} if varies else None
     arms = (model, *(arm for _, arm in corners(load(robot, vary=varies), varies))) if varies else (model,)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
@@ -67,10 +70,10 @@ def tune_for(
             reasons.append(_none(m, way))
             continue
         result = search.run(share)
-        stable = _stable(result.gains, way, limits, robot)
+        stable = stability(result.gains, way, limits, robot, ranges)
         sets.append(Candidate(result.gains, result.trial, way, stable, tuple(_held(result.gains, search))))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
-    sets = [*(_other(one, arms, bench, against) for one in beside), *sets]
+    sets = [*(_other(one, arms, bench, against, ranges) for one in beside), *sets]
     return BenchTuning(
         robot, model.joints, bench, tuple(sets), tuple(dict.fromkeys(reasons)), limits.assumptions, len(arms)
     )
@@ -93,13 +96,15 @@ def _none(m: int, way: str) -> str:
     return f"m = {m}: (10p) leaves no room for gains with so few decimal places"
 
 
-def _stable(gains: GainSet, way: str, limits: Limits, robot: str) -> str:
-    """The condition beside (10p) by which the gate accepts a set; empty where it does not."""
+def stability(
+    gains: GainSet, way: str, limits: Limits, robot: str, ranges: dict[str, ArmLimits] | None
+) -> str:
+    """The condition beside (10p) by which the gate accepts a set, over ranges; empty where it does not."""
     torque = tuple(limit for limit in limits.torque if limit is not None)
     other = limits.viscous_min if way == BY_19 or limits.viscous_min != _own_friction(limits) else None
     file = GainFile("tuned gains", robot, (gains,), Bounds(other, torque, limits.gravity))
     for condition in ("19",) if way == BY_19 else (SCALAR, LASALLE):
-        (result,) = gate(file, robot, ("10p", condition))
+        (result,) = gate(file, robot, ("10p", condition), arms=ranges)
         if result.verdict == ACCEPTED:
             return IN_WORDS[way] if condition in ("19", SCALAR) else "LaSalle"
     return ""
@@ -118,14 +123,20 @@ def _held(gains: GainSet, search: Search) -> Iterator[str]:
         yield ", ".join(rules)
 
 
-def _other(gains: GainSet, arms: Sequence[RobotModel], bench: Bench, file: GainFile | None) -> Candidate:
+def _other(
+    gains: GainSet,
+    arms: Sequence[RobotModel],
+    bench: Bench,
+    file: GainFile | None,
+    ranges: dict[str, ArmLimits] | None,
+) -> Candidate:
     """A set from elsewhere, tried as ours are."""
     trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
     assert file is not None
     file_of = GainFile(file.path, file.robot, (gains,), file.bounds)
     stable = ""
     for condition, way in (("19", BY_19), (SCALAR, BY_PROOF)):
-        (result,) = gate(file_of, None, ("10p", condition))
+        (result,) = gate(file_of, None, ("10p", condition), arms=ranges)
         if result.verdict == ACCEPTED:
             stable = IN_WORDS[way]
             break

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,10 +26,12 @@ if TYPE_CHECKING:
 
 TOLERANCE = 1e-7
 POINTS = 401
-LONGER = 4.0
-"""Times the settling time that is asked for: how long a motion is watched."""
-SHORTEST = 3.0
-"""s"""
+LONGER, SHORTEST = 4.0, 3.0
+"""Times the settling time that is asked for, and s: how long a motion is watched at least."""
+FLAT = 8.0
+"""So many times as long where h is flat at the goal: what it brings late would not be seen."""
+DOUBLINGS = 6
+"""Of that time, until the energy that is left keeps every joint within its band for good."""
 NEVER = 1e3
 """The ratio of what no time or gain reaches."""
 
@@ -39,7 +41,8 @@ class Trial:
     """The worst of some motions, (n,) each: per cent, s, share of the motor's limit, degrees.
 
     NaN where there is no such number: ``settled`` of a joint that does not settle in the ``T`` seconds of the
-    motion. ``late`` is the largest error of the last quarter, as a share of the step.
+    motion. ``late`` is the largest error of the last quarter, as a share of the step. ``kept``: the energy
+    that is left after T keeps every joint where it is; else what comes later is not known.
     """
 
     overshoot: Array
@@ -48,6 +51,7 @@ class Trial:
     rest: Array
     late: Array
     T: float
+    kept: bool
 
     def ratios(self, wishes: Wishes) -> dict[str, Array]:
         """What was seen over what was asked, by wish, (n,); 1 where it is just met."""
@@ -79,26 +83,36 @@ def tried(
         models: the arm at one or several values of what is uncertain.
         tasks: motions from rest; each is watched for `LONGER` than the settling time that is asked for.
         wishes: what is asked.
-        exact: look for extremes between the integrator's steps too.
+        exact: look for extremes between the integrator's steps too, and watch on until k_pi U(e_i) of an e_i
+            at the edge of what is asked is above the energy that is left: as E falls, it stays within.
 
     Soundness: floating point; of the motions and arms that are given, and no others.
     """
-    T = max(LONGER * (wishes.settle or 0.0), SHORTEST)
-    runs = [_one(gains, model, task, T, exact) for model in models for task in tasks]
+    T, kept = max(LONGER * (wishes.settle or 0.0), SHORTEST) * (FLAT if (gains.m or 1) > 1 else 1.0), False
+    edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
+    for doubling in range(DOUBLINGS + 1 if exact else 1):
+        runs = [_one(gains, model, task, T * 2**doubling, exact, edge) for model in models for task in tasks]
+        kept = all(run[4] for run in runs)
+        if kept:
+            break
+    T *= 2**doubling
     with np.errstate(invalid="ignore"):
         overshoot, share, late = (np.fmax.reduce([run[k] for run in runs]) for k in (0, 2, 3))
         settled = np.maximum.reduce([run[1] for run in runs])  # NaN where one of them does not settle
     rest = np.max([_rest(gains, model) for model in models], axis=0)
-    return Trial(overshoot, settled, share, rest, late, T)
+    return Trial(overshoot, settled, share, rest, late, T, kept)
 
 
 def _rest(gains: GainSet, model: RobotModel) -> Array:
     return np.array([math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model)])
 
 
-def _one(gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool) -> tuple[Array, ...]:
+def _one(
+    gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool, edge: float
+) -> tuple[Any, ...]:
     n, goal = model.n, np.array(task.q_d)
-    loop = closed_loop(gains_for(gain_set, n), model)
+    gains = gains_for(gain_set, n)
+    loop = closed_loop(gains, model)
     rate, slope = loop.compiled_rate(), loop.compiled_jacobian()
     y0 = np.array([*task.q0, *task.w0, 0.0, 0.0])
     path = integrate(
@@ -119,4 +133,8 @@ def _one(gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool
     settled[still] = 0.0
     late = np.max(np.abs(e[path.t >= 0.75 * path.t[-1]]), axis=0) / np.where(still, 1.0, np.abs(e[0]))
     limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
-    return indices.overshoots(e), settled, np.max(np.abs(torques(path)), axis=0) / limits, late
+    left = float(signals(path.y[-1], goal)[1])
+    kept = path.failure is None and left < np.min(
+        gains.kp * gains.family.potential(indices.bands(e[0], edge))
+    )
+    return indices.overshoots(e), settled, np.max(np.abs(torques(path)), axis=0) / limits, late, kept
