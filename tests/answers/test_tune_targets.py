@@ -15,7 +15,7 @@ from lyapcheck import robots
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.bench_answer import BenchTuning
-from lyapcheck.answers.tune.bench_tuning import stability, tune_for
+from lyapcheck.answers.tune.bench_tuning import stable_by, tune_for
 from lyapcheck.answers.tune.one_joint import Joint, proposal
 from lyapcheck.answers.tune.trial import tried
 from lyapcheck.answers.tune.wishes import BY_PROOF, Bench, Wishes
@@ -67,12 +67,11 @@ def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
 
 def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     """Friction that may vanish leaves LaSalle's theorem, where the nominal one gives a V that falls."""
-    gains, varies = GainSet("set", 1, (Fraction(5),), (Fraction(1),)), (Vary.parsed("viscous=-100%..+0%"),)
-    over = {"pendulum1": varied_limits("pendulum1", varies)}
-    assert stability(gains, BY_PROOF, arm_limits("pendulum1", 1), "pendulum1", None) == "proof"
-    assert (
-        stability(gains, BY_PROOF, arm_limits("pendulum1", 1, None, varies), "pendulum1", over) == "LaSalle"
-    )
+    arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
+    gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
+    ranges = {arm: varied_limits(arm, varies)}
+    assert stable_by(gains, BY_PROOF, arm_limits(arm, 2), arm, None) == "proof"
+    assert stable_by(gains, BY_PROOF, arm_limits(arm, 2, None, varies), arm, ranges) == "LaSalle"
 
 
 @pytest.mark.slow

@@ -70,7 +70,7 @@ def tune_for(
             reasons.append(_none(m, way))
             continue
         result = search.run(share)
-        stable = stability(result.gains, way, limits, robot, ranges)
+        stable = stable_by(result.gains, way, limits, robot, ranges)
         sets.append(Candidate(result.gains, result.trial, way, stable, tuple(_held(result.gains, search))))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
     sets = [*(_other(one, arms, bench, against, ranges) for one in beside), *sets]
@@ -96,7 +96,7 @@ def _none(m: int, way: str) -> str:
     return f"m = {m}: (10p) leaves no room for gains with so few decimal places"
 
 
-def stability(
+def stable_by(
     gains: GainSet, way: str, limits: Limits, robot: str, ranges: dict[str, ArmLimits] | None
 ) -> str:
     """The condition beside (10p) by which the gate accepts a set, over ranges; empty where it does not."""
