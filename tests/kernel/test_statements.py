@@ -50,6 +50,7 @@ def page() -> str:
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 def test_what_coq_is_asked_is_what_is_written_down() -> None:
     assert page() == GOLDEN.read_text(encoding="utf-8")
 

@@ -14,6 +14,7 @@ from lyapcheck.family import hyperbolic
 from lyapcheck.robots import Number, load
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in
+from tests.helpers.small_proofs import small_proof
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -33,7 +34,6 @@ BY_HAND = {
     ("17d", None): "proved",
     ("18", None): "refuted",
     ("19", None): "proved",
-    ("10j", 1): "refuted",  # one gain may use the whole norm of the limits
     ("19n", 1): "refuted",  # any K_v admits an ε₀, by norms alone
     ("19n", 2): "refuted",
     ("21", 2): "proved",
@@ -80,9 +80,12 @@ IDS = {
 """Every claim that the paper makes on the way, in the order of its text, tables and figures."""
 
 
-@pytest.fixture(scope="module", params=[(2,), pytest.param((1, 2, 3), marks=pytest.mark.slow)], ids=str)
-def result(request):
-    return run_proof("published.py", ms=request.param)
+@pytest.fixture(scope="module", params=["small", pytest.param("paper", marks=pytest.mark.slow)])
+def result(request, tmp_path_factory):
+    """For two joints and m = 1, or for the paper's arm and m = 1, 2, 3."""
+    if request.param == "small":
+        return small_proof(tmp_path_factory, "published.py")
+    return run_proof("published.py", ms=(1, 2, 3))
 
 
 def test_verdicts_worked_out_by_hand_are_found(result):
@@ -127,19 +130,20 @@ def test_large_members_of_the_family_are_decided_too():
     assert [row.verdict.value for row in rows] == ["proved"] * 6 + ["refuted"]
 
 
-def test_the_witness_against_10j_is_a_state_with_gains_that_meet_it(result):
+@pytest.mark.parametrize("m", [2, pytest.param(1, marks=pytest.mark.slow)])
+def test_the_witness_against_10j_is_a_state_with_gains_that_meet_it(m):
     """Worked out again in floating point: every pair of gains within the budget, one joint over its limit."""
-    row = next(row for row in result.claims if row.id == "10j" and row.m == result.ms[0])
+    (row,) = run_proof("published.py", ms=(m,), only=("10j",)).claims
     at = {name: float(Fraction(value)) for name, value in row.decision.witness["point"].items()}
     kp, kv = ([at[f"{kind}{i}"] for i in (1, 2, 3)] for kind in ("kp", "kv"))
     limits, gravity = np.array([50, 150, 15]), np.array([0, 40.28, 1.81])
-    most = float(hyperbolic(result.ms[0]).constants().gamma.upper)
+    most = float(hyperbolic(m).constants().gamma.upper)
     budget = (np.linalg.norm(limits) - np.linalg.norm(gravity)) / (np.sqrt(3) * most)
     assert max(kp) + max(kv) <= budget * (1 + 1e-12)
     q2, q3 = at["q2"], at["q3"]
     pull = np.array([0, 38.47 * np.sin(q2) + 1.81 * np.sin(q2 + q3), 1.81 * np.sin(q2 + q3)])
     e, w = (np.array([at[f"{name}{i}"] for i in (1, 2, 3)]) for name in "ew")
-    h = hyperbolic(result.ms[0]).h
+    h = hyperbolic(m).h
     torque = np.array(kp) * h(e) - np.array(kv) * h(w) + pull
     assert np.any(np.abs(torque) > limits)
 

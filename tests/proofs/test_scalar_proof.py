@@ -20,6 +20,7 @@ from lyapcheck.robots import load
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.script_cases import rewriter, verdicts
 from tests.helpers.shares import one_in
+from tests.helpers.small_proofs import small_proof
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -28,9 +29,12 @@ SOURCE = SCRIPT.read_text(encoding="utf-8")
 NAMES = runpy.run_path(str(SCRIPT))
 
 
-@pytest.fixture(scope="module", params=[(2,), pytest.param((1, 2, 3), marks=pytest.mark.slow)], ids=str)
-def result(request):
-    return run_proof("scalar.py", ms=request.param)
+@pytest.fixture(scope="module", params=["small", pytest.param("paper", marks=pytest.mark.slow)])
+def result(request, tmp_path_factory):
+    """For two joints and m = 1, or for the paper's arm and m = 1, 2, 3."""
+    if request.param == "small":
+        return small_proof(tmp_path_factory, "scalar.py")
+    return run_proof("scalar.py", ms=(1, 2, 3))
 
 
 @pytest.fixture

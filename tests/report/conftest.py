@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
@@ -10,14 +10,19 @@ from typing import Any
 
 import pytest
 
+from lyapcheck.answers.check import ProofResult
+from lyapcheck.claims import run
+from lyapcheck.claims.run import run_proof
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import compute
 from lyapcheck.report.build import Subject, build
 from lyapcheck.report.model import Report
 from lyapcheck.report.write import render, write
+from tests.helpers import small_proofs
 from tests.helpers.once import once
 from tests.helpers.one_process import one_process
+from tests.helpers.small_proofs import small_proof
 
 
 class AtOnce(Executor):
@@ -35,17 +40,22 @@ class AtOnce(Executor):
 @pytest.fixture(scope="session")
 def subject() -> Subject:
     """The two-joint arm, m = 1."""
-    file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    return Subject("reyes-kelly2", (1,), (replace(file, gains=file.gains[:1]),))
+    file = read_gain_file(paper_gain_file(small_proofs.GAINS))
+    return Subject(small_proofs.ROBOT, (small_proofs.MEMBER,), (replace(file, gains=file.gains[:1]),))
 
 
 @pytest.fixture(scope="session")
 def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report:
     """What is said about it, with all computations in this process; tests of processes make their own."""
 
+    def kept(proof: str, ms: Any, robot: str, n: None, gains: str, only: Sequence[str]) -> ProofResult:
+        assert (robot, tuple(ms)) == (small_proofs.ROBOT, (small_proofs.MEMBER,))
+        return run_proof(proof, ms, robot, n, gains, only) if only else small_proof(tmp_path_factory, proof)
+
     def made() -> Report:
         with one_process() as patch:
             patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
+            patch.setattr(run, "run_proof", kept)
             return build(subject)
 
     return once(tmp_path_factory, "report", made)

@@ -112,7 +112,7 @@ def test_each_kind_has_objections(kind: str) -> None:
 OF_ARMS = (
     *("MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "MassSymmetric", "CoriolisAtRest"),
     *("RateOfMass", "RateLessTwiceCoriolis", "CoriolisTorque", "GravityOfPotential", "Decreasing"),
-    *("DampingBelow", "Resting", "Property", "Settling", "ComesToRest", "StaysWithin"),
+    *("DampingBelow", "Resting", "Settling", "ComesToRest", "StaysWithin", "Property"),
 )
 BY_POINTS = OF_ARMS[:11]
 
