@@ -24,7 +24,6 @@ class RobotConstants:
     k_c: Enclosure
     lambda_min_at: tuple[float, ...]
     lambda_max_at: tuple[float, ...]
-    k_c_at: tuple[float, ...]
 
 
 def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
@@ -57,5 +56,4 @@ def robot_constants(model: Plant, max_boxes: int | None = None) -> RobotConstant
         k_c=coriolis.enclosure,
         lambda_min_at=smallest.state,
         lambda_max_at=largest.state,
-        k_c_at=coriolis.state[: model.n],
     )

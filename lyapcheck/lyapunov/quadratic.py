@@ -96,11 +96,6 @@ def rate(kp: Vector, X: Matrix, h: Vector, w: Vector, eps: Any) -> Any:
     return -(eps * corner + dot(y, [dot(row, w) for row in X]))
 
 
-def form_value(Q: Matrix, z: Vector) -> Any:
-    """zᵀ Q z."""
-    return dot(z, [dot(row, z) for row in Q])
-
-
 def dot(x: Vector, y: Vector) -> Any:
     """xᵀ y."""
     first, *rest = [a * b for a, b in zip(x, y, strict=True)]

@@ -32,8 +32,6 @@ from lyapcheck.search.worst_states import (
     finite_states,
     level_states,
     slow_states,
-    steepest_states,
-    steepness,
 )
 
 SAMPLES = 20_000
@@ -50,19 +48,6 @@ _SHOWN_BITS = 256
 _SCALES = tuple(sign * 10.0 ** (k / 2) for k in range(-2, 17) for sign in (1, -1))
 """Factors tried on the rates of a candidate: fast states need ‖w‖ large enough for K_v h(w) not to matter."""
 _SLACKS = (Fraction(0), Fraction(1, 10**6), Fraction(1, 10**5), Fraction(1, 10**4), Fraction(1, 10**3))
-
-
-@dataclass(frozen=True)
-class WorstState:
-    """A state with its dV/dt, W, at ``eps0``, and that over ‖z‖²; floating point, for a reader."""
-
-    kind: str
-    eps0: float
-    q: tuple[float, ...]
-    e: tuple[float, ...]
-    w: tuple[float, ...]
-    rate: float
-    relative: float
 
 
 @dataclass(frozen=True)
@@ -130,51 +115,6 @@ def smallest_refuted(
         if witness is not None:
             return witness
     return None
-
-
-def worst_states(
-    controlled: ControlledArm,
-    eps0: float,
-    starts: int = STARTS,
-    samples: int = SAMPLES,
-    seed: int = SEED,
-    keep: int = 3,
-) -> tuple[WorstState, ...]:
-    """The states of largest dV/dt / ‖z‖² at one ε₀: the worst of those sampled, and of those optimised.
-
-    Soundness: none; evidence for a reader.
-    """
-    states = sample(controlled, samples, seed)
-    merit = steepness(controlled, eps0, states)
-    chosen = spread(states, merit, starts)
-    climbed = steepest_states(controlled, eps0, states.take(chosen))
-    return _described(controlled, eps0, "sampled", states, keep) + _described(
-        controlled, eps0, "optimised", climbed, keep
-    )
-
-
-def _described(
-    controlled: ControlledArm, eps0: float, kind: str, states: States, keep: int
-) -> tuple[WorstState, ...]:
-    relative = steepness(controlled, eps0, states)
-    rates = quadratic(controlled, states).at(eps0)
-    order = np.argsort(-relative, kind="stable")[:keep]
-    return tuple(
-        WorstState(
-            kind,
-            eps0,
-            _plain(states.q[i]),
-            _plain(states.e[i]),
-            _plain(states.w[i]),
-            float(rates[i]),
-            float(relative[i]),
-        )
-        for i in order
-    )
-
-
-def _plain(row: Array) -> tuple[float, ...]:
-    return tuple(float(x) for x in row)
 
 
 def _candidates(

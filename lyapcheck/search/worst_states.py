@@ -7,8 +7,6 @@ Four programs, all smooth, all started from the best of many sampled states:
     finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
     slow     the same over (q, e, u) with w = ‖h(e)‖u, which reaches states near the origin and weak gains
 
-and, for a given ε₀, ``steepest``: max of dV/dt / ‖z‖², ‖z‖² = ε‖h(e)‖² + ‖w‖².
-
 Soundness: none; what is found is a candidate for `lyapcheck.check.loop.states`.
 """
 
@@ -24,7 +22,7 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.robots import graph
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.sample import States, fastest_directions, quadratic, size
+from lyapcheck.search.sample import States, fastest_directions, quadratic
 
 _OPTIONS: dict[str, Any] = {
     "print_time": False,
@@ -169,15 +167,6 @@ def _length(rows: Array) -> Array:
     return np.asarray(np.maximum(np.linalg.norm(rows, axis=1), 1e-150))
 
 
-def steepest_states(controlled: ControlledArm, eps0: float, starts: States) -> States:
-    """Where max dV/dt / ‖z‖² ends from each start, for one ε₀."""
-    x = expressions(controlled)
-    rate = -x.a0 + eps0 * (x.a1 + eps0 * x.a2)
-    objective = rate / (eps0 * x.near * ca.dot(x.h, x.h) + ca.dot(x.w, x.w))
-    program = Program(ca.vertcat(x.q, x.e, x.w), objective, _bound(controlled.n, _FASTEST))
-    return States(*_parts(program.climb(_stack(starts)), controlled.n))
-
-
 def _bound(n: int, rate: float) -> Array:
     return np.repeat([2 * np.pi, _LONGEST_ERROR, rate], n)
 
@@ -193,10 +182,3 @@ def _parts(rows: Array, n: int) -> tuple[Array, Array, Array]:
 def _unit(controlled: ControlledArm, states: States) -> States:
     """The same (q, e) with the direction of w that is worst there."""
     return States(states.q, states.e, fastest_directions(controlled, states.q, states.e)[1])
-
-
-def steepness(controlled: ControlledArm, eps0: float, states: States) -> Array:
-    """dV/dt / ‖z‖² at each state; −∞ at the origin, where it has no value."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        result = quadratic(controlled, states).at(eps0) / size(controlled, eps0, states)
-    return np.where(np.isnan(result), -np.inf, result)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from lyapcheck.family.symbolic import hyperbolic_printed, hyperbolic_symbolic, same_function
+from lyapcheck.family.symbolic import hyperbolic_symbolic
+from tests.family.same_function import hyperbolic_printed, same_function
 
 x = sp.Symbol("x", real=True)
 m = sp.Symbol("m", positive=True, integer=True)

@@ -134,4 +134,4 @@ def test_form_and_rate_are_equal_in_exact_arithmetic() -> None:
     X, Y = quadratic.x_matrix(damped, S, eps), quadratic.y_matrix(damped, S, eps, half)
     Q = quadratic.quadratic_form(kp, X, Y, root, half, Fraction(0))
     z = [root * x for x in h] + w
-    assert -quadratic.form_value(Q, z) == quadratic.rate(kp, X, h, w, eps)
+    assert -quadratic.dot(z, [quadratic.dot(row, z) for row in Q]) == quadratic.rate(kp, X, h, w, eps)

@@ -11,10 +11,17 @@ import pytest
 import sympy as sp
 from flint import fmpq_mpoly
 
-from lyapcheck.lyapunov.generators import generators, total
-from lyapcheck.lyapunov.printed import PRINTED_14, PRINTED_15, STEPS, Term, step_holds, sum_of
-from lyapcheck.lyapunov.symbolic import lyapunov_12, lyapunov_13, printed_14, printed_15, rate, sympy_rate
 from tests.helpers.shares import one_in
+from tests.proofs.derivation.generators import generators, total
+from tests.proofs.derivation.printed import PRINTED_14, PRINTED_15, STEPS, Term, step_holds, sum_of
+from tests.proofs.derivation.symbolic import (
+    lyapunov_12,
+    lyapunov_13,
+    printed_14,
+    printed_15,
+    rate,
+    sympy_rate,
+)
 
 JOINTS = [1, 2, 3, 4]
 
@@ -85,12 +92,6 @@ def test_rates_of_what_has_none_are_refused() -> None:
         ring.rate(ring["d1"])
     with pytest.raises(ValueError, match="at least one joint"):
         generators(0)
-
-
-def test_latex_of_a_term_has_its_sign_and_factors() -> None:
-    text = PRINTED_15[4].latex
-    assert text.startswith(r"- \frac{\varepsilon_0}{1 + \|\tilde q\|}")
-    assert text.endswith(r"C(q_d - \tilde q, \dot q)^T \dot q")
 
 
 def _changed(terms: tuple[Term, ...], term: Term, n: int = 2, **change: Any) -> fmpq_mpoly:

@@ -12,10 +12,11 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
-from lyapcheck.robots import graph, symbolic
+from lyapcheck.robots import graph
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import BUILT_IN
+from tests.robots import symbolic
 
 
 @pytest.fixture(params=BUILT_IN)

@@ -13,9 +13,9 @@ import sympy as sp
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
-from lyapcheck.robots import symbolic
 from lyapcheck.robots.physics import impossible_state
 from tests.helpers.robot_cases import BUILT_IN
+from tests.robots import symbolic
 
 F = Fraction
 LINKS = """

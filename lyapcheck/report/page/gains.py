@@ -15,7 +15,6 @@ DRAWN = {
     "step": "Step response of each joint by itself, in shares of the step.",
     "share": "Torque of each joint with its gravity bound, in shares of the motor's limit.",
 }
-SHADES = 5
 
 
 def gains_section(report: Report) -> Markup:

@@ -14,8 +14,8 @@ from typing import Any
 
 from flint import fmpq_mpoly
 
-from lyapcheck.lyapunov.generators import dot, generators, times
-from lyapcheck.lyapunov.printed import printed_14, printed_15
+from tests.proofs.derivation.generators import dot, generators, times
+from tests.proofs.derivation.printed import printed_14, printed_15
 
 __all__ = ["lyapunov_12", "lyapunov_13", "printed_14", "printed_15", "rate", "sympy_lyapunov", "sympy_rate"]
 
@@ -65,7 +65,7 @@ def sympy_lyapunov(n: int) -> Any:
 def sympy_rate(n: int) -> Any:
     """dV/dt in SymPy: V differentiated by t, then ė, ẇ and Ṁ put in; ẇ_i stays as the symbol a_i.
 
-    In the symbols of ``lyapcheck.lyapunov.generators`` (without ri and s): a rational function of r.
+    In the symbols of ``tests.proofs.derivation.generators`` (without ri and s): a rational function of r.
     """
     import sympy as sp
 

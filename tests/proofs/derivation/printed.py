@@ -1,7 +1,7 @@
 """The sums (14) and (15) as printed, term by term, as data: sign, scalar factors, vector, matrix, vector.
 
 Each term reads  sign · factors · leftᵀ matrix right,  and has one value in the ring of
-``lyapcheck.lyapunov.generators`` and one LaTeX text. The numbers are the places in the printed sum, the ones
+``tests.proofs.derivation.generators``. The numbers are the places in the printed sum, the ones
 that the paper's text means by "first", "sixth" and so on.
 
 References: (14), (15) of ``reyes2019family``.
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from flint import fmpq_mpoly
 
-from lyapcheck.lyapunov.generators import Generators, Matrix, Vector, dot, generators, times, total
+from tests.proofs.derivation.generators import Generators, Matrix, Vector, dot, generators, times, total
 
 
 @dataclass(frozen=True)
@@ -23,10 +23,10 @@ class Term:
     Args:
         number: its place in the printed sum, from 1.
         sign: 1 or −1.
-        factors: scalar factors, keys of ``FACTORS``.
-        left: a key of ``VECTORS``.
-        matrix: a key of ``MATRICES``.
-        right: a key of ``VECTORS``.
+        factors: scalar factors, see ``_factor``.
+        left: see ``_vector``.
+        matrix: see ``_matrix``.
+        right: see ``_vector``.
     """
 
     number: int
@@ -43,39 +43,6 @@ class Term:
             product = product * _factor(ring, factor)
         return ring.normal_form(product * self.sign)
 
-    @property
-    def latex(self) -> str:
-        """The term in LaTeX, with its sign."""
-        sign = "-" if self.sign < 0 else "+"
-        scalars = " ".join(FACTORS[factor] for factor in self.factors)
-        text = f"{sign} {scalars} {VECTORS[self.left]}^T {MATRICES[self.matrix]} {VECTORS[self.right]}"
-        return " ".join(text.split())
-
-
-FACTORS = {
-    "half": r"\frac{1}{2}",
-    "eps": r"\frac{\varepsilon_0}{1 + \|\tilde q\|}",
-    "eps^2": r"\frac{\varepsilon_0^2}{[1 + \|\tilde q\|]^2}",
-    "eps0 e.w/(r(1+r)^2)": r"\frac{\varepsilon_0 \tilde q^T \dot q}{\|\tilde q\| [1 + \|\tilde q\|]^2}",
-    "2 e.w/(r(1+r))": r"\frac{2 \tilde q^T \dot q}{\|\tilde q\| [1 + \|\tilde q\|]}",
-    "e.w/(r(1+r))": r"\frac{\tilde q^T \dot q}{\|\tilde q\| [1 + \|\tilde q\|]}",
-}
-VECTORS = {
-    "w": r"\dot q",
-    "h": r"h_m(\tilde q)",
-    "h(w)": r"h_m(\dot q)",
-    "h'w": r"[h_m'(\tilde q) \circ \dot q]",
-}
-MATRICES = {
-    "Kp": "K_p",
-    "Kv": "K_v",
-    "B": "B",
-    "M": r"M(q_d - \tilde q)",
-    "dM": r"\dot M(q_d - \tilde q)",
-    "C": r"C(q_d - \tilde q, \dot q)",
-    "C^T": r"C(q_d - \tilde q, \dot q)^T",
-    "C+C^T": r"[C(q_d - \tilde q, \dot q) + C(q_d - \tilde q, \dot q)^T]",
-}
 
 PRINTED_14 = (
     Term(1, 1, (), "w", "Kp", "h"),
