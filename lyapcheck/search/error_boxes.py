@@ -101,7 +101,7 @@ class ErrorBoxes:
         count, size = len(boxes), 1 + 2 * self.n
         proved = np.zeros(count, dtype=bool)
         signs = np.full((count, size), FIRST + SCALES // 2, dtype=np.intp)
-        at = _At(self, boxes)
+        at = FormAt(self, boxes)
         beyond = np.sum(boxes[:, 0] ** 2, axis=1) >= (1 + 1e-12) * self.loop.radius**2
         proved[beyond] = True
         for power in MULTIPLIERS:
@@ -134,7 +134,7 @@ class ErrorBoxes:
         return np.asarray(np.argmax(score, axis=1))
 
 
-class _At:
+class FormAt:
     """What the form needs on some boxes, w and p in units of b^∓½."""
 
     def __init__(self, of: ErrorBoxes, boxes: Array) -> None:
@@ -152,9 +152,9 @@ class _At:
         upper = -products[0] + dh.hi[:, :, None] * diagonal
         scale = root[:, None] / root
         self.N, self.spread = 0.5 * (lower + upper) * scale, 0.5 * (upper - lower) * scale
-        H = np.maximum(np.abs(h.lo), np.abs(h.hi))
+        self.H = H = np.maximum(np.abs(h.lo), np.abs(h.hi))
         k = np.maximum(of.kp - eps * of.fast, 1e-12)
-        t = np.sqrt((eps * k)[:, :, None] / b)
+        self.t = t = np.sqrt((eps * k)[:, :, None] / b)
         R = of.Q.T * H[:, :, None]
         self.kappa = np.maximum(k - eps / 2 * np.sum(R * t, axis=2), 1e-12)
         lost = eps * (H @ of.Q) + eps**2 / 2 * np.sum(R / t, axis=1) + eps * b**2 / (4 * self.kappa)
@@ -162,17 +162,26 @@ class _At:
         self.compliance = b / self.kappa
         self.U, self.b, self.n = of.U / b, b, n
 
+    def middle(self, some: NDArray[np.intp], l: float) -> Array:
+        """The form in (w, √ε p) with N in the middle of some boxes: the lower triangles, (count, 2n, 2n)."""
+        n, eps = self.n, self.eps[some]
+        shift = 0.25 * eps * self.compliance[some]
+        places = np.arange(n)
+        big = np.zeros((len(some), 2 * n, 2 * n))
+        big[:, n:, :n] = -np.sqrt(eps)[:, :, None] * (
+            0.5 * (np.eye(n) + l * self.N[some]) - shift[:, :, None] * np.eye(n)
+        )
+        big[:, places, places] = self.W[some]
+        big[:, n + places, n + places] = l / self.U - eps * shift
+        return big
+
     def tried(self, some: NDArray[np.intp], power: int) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
         """Which of some boxes seem to be shown at one l, and the sizes of w and p as powers of √2."""
         n, count, l = self.n, len(some), np.sqrt(2.0) ** power
         eps, spread = self.eps[some], self.spread[some]
-        diagonal = np.eye(n)
-        shift = 0.25 * eps * self.compliance[some]
-        G = 0.5 * (diagonal + l * self.N[some]) - shift[:, :, None] * diagonal
-        big = np.zeros((count, 2 * n, 2 * n))
-        big[:, n:, :n] = -np.sqrt(eps)[:, :, None] * G
-        places = np.arange(n)
-        steady = self.W[some], l / self.U - eps * shift
+        big = self.middle(some, l)
+        places = np.arange(2 * n)
+        steady = big[:, places, places]
         # in units of w; p as a plain number
         sizes = np.zeros((count, 2 * n))
         sizes[:, n:] = np.log2(self.U)
@@ -181,8 +190,8 @@ class _At:
         for _ in range(ROUNDS):
             powers = np.clip(np.rint(sizes + offset), 1 - SCALES // 2, SCALES // 2 - 1)
             w, p = np.split(np.sqrt(2.0) ** (powers - offset), 2, axis=1)
-            big[:, places, places] = steady[0] - eps * l / 2 * np.einsum("bij,bi->bj", spread, p) / w
-            big[:, n + places, n + places] = steady[1] - l / 2 * np.einsum("bij,bj->bi", spread, w) / p
+            lost = eps * np.einsum("bij,bi->bj", spread, p) / w, np.einsum("bij,bj->bi", spread, w) / p
+            big[:, places, places] = steady - l / 2 * np.hstack(lost)
             values, vectors = np.linalg.eigh(big)
             now = (values[:, 0] > LEAST) & ~shown
             best[now] = powers[now]

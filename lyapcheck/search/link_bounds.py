@@ -1,4 +1,8 @@
-"""The largest ε₀ that bounds along the links and boxes of e prove, for arms of many joints."""
+"""The largest ε₀ that bounds along the links and boxes of e prove, for arms of many joints.
+
+There is no least U, nor a least Q_j: what one entry gives up, others may gain. They are found again and again
+with each entry as dear as it has been at the errors that resisted so far.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +21,9 @@ from lyapcheck.constants.storage.problem import Problem, energy_problem, rate_pr
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.cover import RESISTS
 from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.error_costs import ErrorCosts, Shares
 from lyapcheck.search.proof import Proof
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 83, 85, 87, 90, 93, 95, 97))
@@ -26,6 +32,8 @@ MAX_BOXES = 100_000
 """Of one share: as many as the checker judges in half a minute."""
 MORE = 1.01
 """How far an entry of U may exceed the largest eigenvalue of B^−½MB^−½, which lets the others be smaller."""
+ROUNDS = 4
+"""In which U and Q_j may become better."""
 _MARGINS = (1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3)
 _DIGITS = 8
 
@@ -52,9 +60,13 @@ def linked_epsilon(
     bounds = link_bounds(controlled)
     if bounds is None:
         return None, 0, "no bounds along the links were shown"
-    result, looked_at, reason = None, 0, ""
-    shares, proved = list(SHARES), Fraction(0)
-    while shares:
+    bounds, failing = fitted(controlled, bounds, ceiling)
+    result, looked_at, reason = None, 0, _not_proved(failing, RESISTS)
+    proved, top = Fraction(0), failing / ceiling
+    shares, between = [share for share in SHARES if share < top], False
+    while shares or (proved and not between):
+        if not shares:
+            shares, between = [(proved + top) / 2], True
         share = shares.pop(0)
         progress(0.9 * float(share), f"{float(share):.1%} of falsified")
         loop = controlled.loop(Fraction(f"{float(ceiling * share):.6g}"))
@@ -70,8 +82,8 @@ def linked_epsilon(
             result = controlled.proof(loop, replace(bounds, tree=found.tree, scales=found.scales))
             proved = share
         else:
-            reason = f"ε₀ = {float(loop.eps0):.6g} was not proved: {found.reason}"
-            shares = [(proved + share) / 2] if share in SHARES and proved else []
+            reason = _not_proved(loop.eps0, found.reason)
+            top, shares = share, []
     if result is not None and not result.accepted():
         return None, looked_at, "the checker refused the boxes"
     return result, looked_at, reason
@@ -79,24 +91,64 @@ def linked_epsilon(
 
 def link_bounds(controlled: ControlledArm) -> LinkBounds | None:
     """Bounds of M and its rates, without boxes yet; ``None`` where some were not found."""
-    friction = tuple(low for low, _ in controlled.loop(Fraction(1)).friction)
-    return bounds_along(controlled.chains, friction) if controlled.chains else None
+    return bounds_along(controlled.chains, _friction(controlled)) if controlled.chains else None
+
+
+def fitted(controlled: ControlledArm, bounds: LinkBounds, ceiling: Fraction) -> tuple[LinkBounds, Fraction]:
+    """Bounds that allow more at single errors, as far as such are found, and the ε₀ at which one resists.
+
+    Args:
+        controlled: gains and arm.
+        bounds: where the search begins.
+        ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
+    """
+    costs = ErrorCosts(controlled, ceiling)
+    costs.climb(bounds)
+    for _ in range(ROUNDS):
+        if costs.failing > SHARES[-1] * ceiling:
+            break
+        other = bounds_along(controlled.chains, _friction(controlled), costs.shares)
+        if other is None:
+            break
+        if costs.climb(other):
+            bounds = other
+    return bounds, costs.failing
+
+
+def _not_proved(eps0: Fraction, why: str) -> str:
+    return f"ε₀ = {float(eps0):.6g} was not proved: {why}"
+
+
+def _friction(controlled: ControlledArm) -> tuple[Fraction, ...]:
+    return tuple(low for low, _ in controlled.loop(Fraction(1)).friction)
 
 
 @lru_cache(maxsize=4)
-def bounds_along(chains: tuple[Chain, ...], friction: tuple[Fraction, ...]) -> LinkBounds | None:
-    """The same for the links at each corner, and the lower ends of the friction, N·m·s/rad."""
-    weight = np.array([float(b) for b in friction])
+def bounds_along(
+    chains: tuple[Chain, ...], friction: tuple[Fraction, ...], shares: Shares | None = None
+) -> LinkBounds | None:
+    """The same for the links at each corner, and the lower ends of the friction, N·m·s/rad.
+
+    Args:
+        chains: at each corner.
+        friction: b.
+        shares: what U_i/b_i and each further Q_ji/b_i cost; without, all the same.
+    """
+    n, weight = len(friction), np.array([float(b) for b in friction])
     energies = [energy_problem(chain, 1) for chain in chains]
-    uniform = propose(energies, _MARGINS[0], weight[:, None])
-    if uniform is None:
-        return None
-    inertia = _shown(energies, weight, MORE * float(uniform.prices[0]) / weight[0])
+    most = None
+    if shares is None:
+        shares = ((1.0,) * n,) * n
+        uniform = propose(energies, _MARGINS[0], weight[:, None])
+        if uniform is None:
+            return None
+        most = MORE * float(uniform.prices[0]) / weight[0]
+    inertia = _shown(energies, weight, shares[0], most)
     rising, falling = [], []
-    for joint in range(1, len(friction)):
+    for joint in range(1, n):
         # the same prices for both signs
         problems = [rate_problem(chain, joint, sign) for sign in (1, -1) for chain in chains]
-        both = _shown(problems, weight, None)
+        both = _shown(problems, weight, shares[joint])
         if both is None:
             return None
         rising.append(replace(both, forms=both.forms[: len(chains)]))
@@ -107,10 +159,12 @@ def bounds_along(chains: tuple[Chain, ...], friction: tuple[Fraction, ...]) -> L
     return LinkBounds(arms, inertia, tuple(rising), tuple(falling), "", "")
 
 
-def _shown(problems: Sequence[Problem], weight: Array, most: float | None) -> Shown | None:
-    """Prices κ_k with a small Σ κ_k/b_k, and forms for each problem that show them."""
+def _shown(
+    problems: Sequence[Problem], weight: Array, share: Sequence[float], most: float | None = None
+) -> Shown | None:
+    """Prices κ_k with a small Σ κ_k share_k/b_k, and forms for each problem that show them."""
     for margin in _MARGINS:
-        found = propose(problems, margin, np.diag(weight), most)
+        found = propose(problems, margin, np.diag(weight / share), most)
         if found is None:
             continue
         least = 1e-7 * np.max(np.abs(found.prices / weight)) * weight
