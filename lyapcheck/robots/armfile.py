@@ -80,7 +80,7 @@ from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import Plan, read_plan
-from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, varied, varied_numbers
+from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
 
 EXACT = Fraction(0)
 
@@ -130,7 +130,12 @@ def read_arm(
 
 
 def with_ranges(model: RobotModel, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
-    """An arm of a URDF file with ranges for masses and friction."""
+    """An arm of a URDF file with ranges for masses and friction.
+
+    Raises:
+        InputError: a range of another number.
+    """
+    require_movable(model, vary)
     all_of_it = (
         tuple(Vary(name, 1 - spread, 1 + spread, True) for name in ("mass", "viscous")) if spread else ()
     )

@@ -183,6 +183,20 @@ def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
         raise InputError([Problem("argument", None, OPTION, one.name, rule, repair) for one in wrong])
 
 
+def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:
+    """Refuse what cannot vary of an arm given by a URDF file: all but numbers of joints, masses, a payload.
+
+    Raises:
+        InputError: every such name.
+    """
+    keys = [f"{joint}_{part}" for joint in model.joints for part in (*MOTOR, "mass")]
+    wrong = [one for one in varies if one.name != PAYLOAD and not any(map(one.matches, keys))]
+    if wrong:
+        rule = f"cannot vary on {model.name}, an arm of a URDF file; its friction, limits and masses can"
+        repair = f"use {', '.join((*MOTOR, 'mass', PAYLOAD))}, or one joint's, such as {keys[-1]}"
+        raise InputError([Problem("argument", None, OPTION, one.name, rule, repair) for one in wrong])
+
+
 def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, RobotModel]]:
     """The arm at the ends of what varies: each number alone if these are few, else all of a name together.
 
