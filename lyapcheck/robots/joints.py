@@ -51,7 +51,7 @@ def read_motor(name: str, fields: ArmFields, required: bool) -> Joint:
     """Friction, limits and encoder of a joint."""
     return Joint(
         name,
-        fields.quantity("viscous", "N·m·s/rad", Sign.POSITIVE, required=required),
+        fields.quantity("viscous", "N·m·s/rad", Sign.NONNEGATIVE, required=required),
         fields.quantity("coulomb", "N·m", Sign.NONNEGATIVE),
         fields.quantity("torque_limit", "N·m", Sign.POSITIVE),
         fields.integer("encoder", 1, 2**40),

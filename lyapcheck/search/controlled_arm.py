@@ -151,6 +151,24 @@ class ControlledArm:
         asked = replace(whole, within=self.within)
         return slowed(asked, self.floors) if self.floors else asked
 
+    def require_friction(self) -> None:
+        """Refuse a bounded h on an arm without viscous friction at each joint: no ε₀ > 0 is certified.
+
+        As ‖w‖ → ∞ dV/dt comes to −wᵀ(B + ε S)w, where S need not be positive.
+
+        Raises:
+            InputError: a joint without.
+        """
+        low = [number.bounds[0] if self.ranges else number.value for number in self.model.viscous]
+        bare = [joint for joint, b in zip(self.model.joints, low, strict=True) if b <= 0]
+        if bare and self.family.bounded:
+            rule = (
+                f"has no viscous friction at {', '.join(bare)}, without which no ε₀, no time and no error is "
+                "certified; that motions end at the goal, by LaSalle's theorem, needs none"
+            )
+            repair = "state it in the arm file (robot --export writes one), or ask gate --condition lasalle"
+            raise argument_error("arm", self.model.name, rule, repair)
+
     def proof(self, loop: ClosedLoop, by: RateData) -> Proof:
         """What is to be judged, with untrusted data for dV/dt < 0."""
         return Proof(loop, by, self.inertia_proof)

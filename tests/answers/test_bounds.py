@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -10,8 +11,10 @@ import pytest
 
 from lyapcheck.answers.bounds.answer import Comparisons
 from lyapcheck.answers.bounds.compare import Comparison, compare
+from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.errors import InputError
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import load
@@ -129,3 +132,14 @@ def test_ranges_are_told_beside_what_holds_at_nominal_numbers() -> None:
         result.settling.shown.statement.text()
         == Comparisons((result,)).data()["results"][0]["settling"]["statement"]
     )
+
+
+def test_an_arm_without_viscous_friction_is_refused_with_what_is_known() -> None:
+    """It was an internal error: nothing divides by the friction before this is said."""
+    bare = load("reyes-kelly2")
+    bare = replace(bare, viscous=(bare.viscous[0], replace(bare.viscous[1], value=F(0))))
+    said = r"no viscous friction at elbow.*gate --condition lasalle"
+    with pytest.raises(InputError, match=said):
+        epsilon(FILE.gains[0], bare)
+    with pytest.raises(InputError, match=said):
+        compare(FILE.gains[0], bare, TASK, 0.1, max_boxes=1)

@@ -94,6 +94,10 @@ def test_the_corners_are_the_ends_of_all_that_varies() -> None:
         ("buap3", "payload=0..1", "has no number of that name"),
         ("buap3", "viscous=-130%..0%", "must not be negative"),
         (UR5, "mass=-100%..0%", "must be positive"),
+        (UR5, "ixx=-10%..10%", "cannot vary on ur5"),
+        (UR5, "gravity_z=-9.9..-9.7", "cannot vary on ur5"),
+        (UR5, "upper_arm_link_mass=1..2", "such as wrist_3_joint_mass"),
+        (UR5, "foo=1..2", "cannot vary on ur5"),
     ],
 )
 def test_ranges_that_no_arm_has_are_refused(name: str, text: str, said: str) -> None:

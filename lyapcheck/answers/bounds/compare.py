@@ -101,6 +101,7 @@ def compare(
     """
     progress = on_progress or (lambda fraction, note: None)
     unvaried, controlled, arms = None, ControlledArm(gain_set, model), [model]
+    controlled.require_friction()
     if varied is not None:
         unvaried = compare(
             gain_set,
@@ -115,6 +116,7 @@ def compare(
         )
         ranged = only_varied(*varied)
         controlled = ControlledArm(gain_set, ranged, ranges=True)
+        controlled.require_friction()
         arms = [arm for _, arm in corners(*varied)]
     friction = tuple(dry) if dry is not None else coulomb(model) if varied is None else most_coulomb(ranged)
     settling, left = kept_bounds(

@@ -87,6 +87,7 @@ def epsilon(
     gain_set, model = one_gain_set(gain_set), arm_of(model)
     progress = on_progress or (lambda fraction, note: None)
     controlled = ControlledArm(gain_set, model, ranges)
+    controlled.require_friction()
     progress(0.0, "scalar form")
     published, scalar, reasons = by_forms(controlled)
     by = ""

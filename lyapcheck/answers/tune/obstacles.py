@@ -35,7 +35,8 @@ def impossible(limits: Limits) -> list[str]:
     if limits.viscous_min is not None and limits.viscous_min <= 0:
         result.append(
             "λmin(B) is 0: without viscous friction in every joint (19) admits no k_v; measure the friction "
-            "and give --viscous-min"
+            "and give --viscous-min, or give targets, such as --overshoot 5: stability by LaSalle's theorem "
+            "needs none"
         )
     return result
 
