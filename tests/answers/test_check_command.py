@@ -11,9 +11,11 @@ from tests.helpers.shares import one_in
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
 
-@pytest.mark.parametrize(("claim", "code"), [("7a", 0), ("16.6", 1), ("P", 3), ("T1.torque.m1.elbow", 0)])
-def test_exit_codes_follow_the_verdicts(claim, code, tmp_path):
-    run = lyapcheck("check", "published.py", "--m", "2", "--only", claim, folder=tmp_path)
+@pytest.mark.parametrize(
+    ("claim", "m", "code"), [("7a", 2, 0), ("16.6", 2, 1), ("7g", 4, 3), ("T1.torque.m1.elbow", 2, 0)]
+)
+def test_exit_codes_follow_the_verdicts(claim, m, code, tmp_path):
+    run = lyapcheck("check", "published.py", "--m", m, "--only", claim, folder=tmp_path)
     assert run.returncode == code, run.stderr
     assert claim in run.stdout
 

@@ -39,11 +39,9 @@ def run(*arguments):
     return invoke("explain", *arguments)
 
 
-EVERY = [(script, known) for script in SHIPPED for known in load_proof(find_script(script)).claims]
-
-
 def test_claims_of_every_proof_are_explained():
-    for script, known in EVERY[::37]:
+    every = [(script, known) for script in SHIPPED for known in load_proof(find_script(script)).claims]
+    for script, known in every[::61]:
         result = explain(known, script)
         assert result.id == known
         assert result.says

@@ -21,9 +21,9 @@ from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import circle
 from tests.helpers.urdf_texts import generic
 
-N = 5
-Q = [0.3, -1.1, 2.5, 0.7, -2.9]
-X = [0.5, -1.5, 2.0, 0.25, -0.75]
+N = 4
+Q = [0.3, -1.1, 2.5, -2.9]
+X = [0.5, -1.5, 2.0, -0.75]
 
 
 @pytest.fixture(scope="module")
