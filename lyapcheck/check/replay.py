@@ -9,11 +9,14 @@ from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
+from flint import ctx
+
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.expressions.witness import Comparison, refutation
-from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.expressions.witness import Comparison, holds
+from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import OfTerms, Point, Witness
 from lyapcheck.check.verify import Accepted, rule
 
@@ -95,6 +98,9 @@ def require_failure(
     for left, _, right in (conclusion, *hypotheses):
         require_defined_at(left, point)
         require_defined_at(right, point)
-    if refutation(conclusion, point, hypotheses, require_bits(bits)) is None:
-        shown = ", ".join(f"{name} = {value}" for name, value in point.items())
-        raise Refused("point", shown, "is not shown to break the statement")
+    with ctx.workprec(require_bits(bits)):
+        balls = {name: ball_of(value) for name, value in point.items()}
+        met = all(holds(hypothesis, balls) is True for hypothesis in hypotheses)
+        fails = met and holds(conclusion, balls) is False
+    shown = ", ".join(f"{name} = {value}" for name, value in point.items())
+    require(fails, "point", shown, "is not shown to break the statement")

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from lyapcheck.check.expressions.expression import ball, derivative, taylor
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
-from lyapcheck.check.expressions.witness import refutation
 from lyapcheck.check.kinds.trigonometric import extent
 from lyapcheck.check.numbers.polynomials import count_roots, nonnegative_on, positive_on
 from lyapcheck.claims import (
@@ -63,6 +62,7 @@ from lyapcheck.claims.decision import Decision, decided, undecided
 from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.procedures.search import broken_sides
 from lyapcheck.claims.run import paper_case
 from lyapcheck.verdicts import Grade, Verdict
 
@@ -250,14 +250,14 @@ def test_equality_of_values_is_not_taken_for_a_proof():
 def test_an_undefined_expression_proves_and_refutes_nothing():
     decision = propose(for_all(expr(0) <= sqrt(x - 10), 0, 5))
     assert decision.verdict is Verdict.UNDECIDED
-    assert refutation((sqrt(x).tree, "<=", expr(0).tree), {"x": Fraction(-1)}) is None
+    assert broken_sides((sqrt(x).tree, "<=", expr(0).tree), {"x": Fraction(-1)}) is None
 
 
 def test_a_witness_must_meet_the_hypotheses():
     conclusion = (a.tree, "<=", expr(1).tree)
     point = {"a": Fraction(2)}
-    assert refutation(conclusion, point) is not None
-    assert refutation(conclusion, point, ((a.tree, "<", expr("1.5").tree),)) is None
+    assert broken_sides(conclusion, point) is not None
+    assert broken_sides(conclusion, point, ((a.tree, "<", expr("1.5").tree),)) is None
 
 
 def test_fourier_bounds_of_a_product_hold_at_points():

@@ -14,12 +14,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import isqrt, prod
+from math import prod
 
 from flint import arb
 
 from lyapcheck.check.expressions.expression import Unsupported, family_constant
 from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.numbers.polynomials import rational_root
 
 Key = tuple[Fraction, Fraction, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
@@ -98,8 +99,8 @@ def _monomial(powers: Iterable[tuple[Symbol, int]], factor: Fraction) -> tuple[M
         if name == "sqrt":
             factor *= c ** (e // 2)
             exponents[symbol] = e % 2
-            root = Fraction(isqrt(c.numerator), isqrt(c.denominator))
-            if e % 2 and root**2 == c:
+            root = rational_root(c)
+            if e % 2 and root is not None:
                 factor, exponents[symbol] = factor * root, 0
     return tuple(sorted((symbol, e) for symbol, e in exponents.items() if e)), factor
 

@@ -15,7 +15,7 @@ References: ``reyes2019family`` (6), (8), (12).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -31,6 +31,9 @@ FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "
 FAMILY = ("h", "dh", "potential")
 CONSTANTS = ("gamma", "rho", "L")
 LEAVES = ("num", "var", "pi", *CONSTANTS)
+SUMS = ("add", "neg", "sum", "transpose")
+PRODUCTS = {"mul": "add", "dot": "add", "scale": "sum", "apply": "sum"}
+"""What is linear in each part, and the sum that the product rule makes; of ``check.letters`` too."""
 
 
 class Unsupported(ValueError):
@@ -240,26 +243,34 @@ def taylor(tree: Tree, name: str, centre: arb, order: int) -> list[arb]:
 
 def derivative(tree: Tree, name: str) -> Tree:
     """The derivative of an expression with respect to a variable, as an expression."""
+
+    def other(tree: Tree) -> Tree:
+        kind, *rest = tree
+        if kind in LEAVES:
+            return ("num", "1" if tree == ("var", name) else "0")
+        if kind in FAMILY:
+            return derivative(family_formula(kind, *rest), name)
+        return ("mul", _outer_derivative(kind, rest[0]), derivative(rest[0], name))
+
+    return differentiated(tree, other)
+
+
+def differentiated(tree: Tree, other: Callable[[Tree], Tree]) -> Tree:
+    """By the rules for sums, products, quotients and powers; ``other`` has the derivative of all else."""
     kind, *rest = tree
-    if kind in LEAVES:
-        return ("num", "1" if (kind, rest) == ("var", [name]) else "0")
-    if kind in FAMILY:
-        return derivative(family_formula(kind, *rest), name)
-    if kind in ("mul", "div", "pow"):
-        return _product_rule(kind, rest, name)
-    slopes = [derivative(part, name) for part in rest]
-    return (kind, *slopes) if kind in ("add", "neg") else ("mul", _outer_derivative(kind, rest[0]), slopes[0])
-
-
-def _product_rule(kind: str, rest: list[Any], name: str) -> Tree:
-    if kind == "mul":
-        slopes = [("mul", *rest[:i], derivative(part, name), *rest[i + 1 :]) for i, part in enumerate(rest)]
-        return ("add", *slopes)
-    a, b = rest
+    if kind in SUMS:
+        return (kind, *(differentiated(part, other) for part in rest))
+    if kind in PRODUCTS:
+        each = ((kind, *rest[:k], differentiated(part, other), *rest[k + 1 :]) for k, part in enumerate(rest))
+        return (PRODUCTS[kind], *each)
     if kind == "pow":
-        return ("mul", ("num", str(b)), ("pow", a, b - 1), derivative(a, name)) if b else ("num", "0")
-    top = ("add", ("mul", derivative(a, name), b), ("neg", ("mul", a, derivative(b, name))))
-    return ("div", top, ("pow", b, 2))
+        a, k = rest
+        return ("mul", ("num", str(k)), ("pow", a, k - 1), differentiated(a, other)) if k else ("num", "0")
+    if kind == "div":
+        a, b = rest
+        slopes = differentiated(a, other), differentiated(b, other)
+        return ("div", ("add", ("mul", slopes[0], b), ("neg", ("mul", a, slopes[1]))), ("pow", b, 2))
+    return other(tree)
 
 
 def _outer_derivative(kind: str, a: Tree) -> Tree:

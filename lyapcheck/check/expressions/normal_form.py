@@ -28,7 +28,7 @@ from lyapcheck.check.expressions.expression import (
     variables,
 )
 from lyapcheck.check.expressions.grammar import MAX_SIZE, written_out
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import rational, rational_root
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
 MAX_STEPS = 5_000_000
@@ -151,9 +151,10 @@ class RationalAlgebra(Algebra):
         if not value.bottom.is_constant():
             return self._opaque("sqrt", value)
         radicand = value.top / value.bottom.leading_coefficient()
-        exact = _rational_root(radicand)
-        if exact is not None:
-            return self.number(exact)
+        if radicand.is_constant():
+            exact = rational_root(_constant(radicand))
+            if exact is not None:
+                return self.number(exact)
         root = self._generator("sqrt", str(radicand))
         self.squares[self.uses["sqrt", str(radicand)]] = radicand
         return root
@@ -208,16 +209,9 @@ def _product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
     return left * right
 
 
-def _rational_root(radicand: fmpq_mpoly) -> Fraction | None:
-    from math import isqrt
-
-    if not radicand.is_constant():
-        return None
-    value = radicand.leading_coefficient() if radicand != 0 else fmpq(0)
-    p, q = int(value.p), int(value.q)
-    if p < 0 or isqrt(p) ** 2 != p or isqrt(q) ** 2 != q:
-        return None
-    return Fraction(isqrt(p), isqrt(q))
+def _constant(polynomial: fmpq_mpoly) -> Fraction:
+    value = polynomial.leading_coefficient() if polynomial != 0 else fmpq(0)
+    return Fraction(int(value.p), int(value.q))
 
 
 def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
@@ -232,6 +226,17 @@ def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     algebra = RationalAlgebra(names, room_for(tree))
     ratio = evaluate(tree, {name: algebra.variable(name) for name in names}, algebra)
     return Ratio(algebra.reduced(ratio.top), algebra.reduced(ratio.bottom)), algebra
+
+
+def rational_value(tree: Tree) -> fmpq | None:
+    """The value of a number whose normal form is rational, else ``None``."""
+    try:
+        ratio, _ = normal_form(tree)
+    except (Unsupported, ZeroDivisionError):
+        return None
+    if not (ratio.top.is_constant() and ratio.bottom.is_constant()):
+        return fmpq(0) if ratio.top == 0 else None
+    return fmpq(0) if ratio.top == 0 else ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient()
 
 
 def is_zero(tree: Tree) -> bool:

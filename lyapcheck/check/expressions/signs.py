@@ -28,7 +28,7 @@ from lyapcheck.check.expressions.expression import (
     variables,
 )
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
-from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
+from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form, rational_value
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational, univariate
 
@@ -166,14 +166,9 @@ def _sign(value: Fraction | fmpq) -> int:
 
 def _of_number(tree: Tree) -> Signs:
     """The sign of a number: exactly where its normal form is rational, else by a ball that avoids 0."""
-    try:
-        ratio, algebra = normal_form(tree)
-        if ratio.top == 0:
-            return frozenset([0])
-        if not algebra.uses:
-            return frozenset([_sign(ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient())])
-    except (Unsupported, ZeroDivisionError):
-        pass
+    value = rational_value(tree)
+    if value is not None:
+        return frozenset([_sign(value)])
     for bits in BITS:
         with ctx.workprec(bits):
             result = _sign_of(ball(tree))

@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from flint import arb, ctx
+from flint import ctx
 
 from lyapcheck.check.expressions.domain import Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.parts import require_distinct
-from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import require_bits
 from lyapcheck.check.statement import OfTerms, Proof
@@ -51,8 +51,8 @@ class Agrees(OfTerms):
 
     def terms(self) -> list[tuple[Tree, Domain]]:
         """The formula over all roundings of the inputs."""
-        ranges = {name: printed_range(value) for name, value in self.inputs}
-        return [(self.formula, {name: Interval(r.lower, r.upper) for name, r in ranges.items()})]
+        ranges = zip(self.inputs, _ranges(self), strict=True)
+        return [(self.formula, {name: Interval(r.lower, r.upper) for (name, _), r in ranges})]
 
     def text(self) -> str:
         """The statement in one line."""
@@ -136,14 +136,12 @@ def printed_range(text: str) -> Enclosure:
 
 def at_printed(statement: Agrees, bits: int) -> Enclosure:
     """The formula at the printed inputs."""
-    return _enclosed(
-        statement, {name: Enclosure.exact(Fraction(text)) for name, text in statement.inputs}, bits
-    )
+    return _enclosed(statement, [Enclosure.exact(Fraction(text)) for _, text in statement.inputs], bits)
 
 
 def over_all(statement: Agrees, bits: int) -> Enclosure:
     """The formula over all roundings of the inputs; raises ``ValueError`` where it is not finite."""
-    return _enclosed(statement, {name: printed_range(text) for name, text in statement.inputs}, bits)
+    return _enclosed(statement, _ranges(statement), bits)
 
 
 def at_corner(statement: Agrees, ends: tuple[int, ...], bits: int) -> Enclosure:
@@ -154,19 +152,18 @@ def at_corner(statement: Agrees, ends: tuple[int, ...], bits: int) -> Enclosure:
     """
     named = len(ends) == len(statement.inputs) and set(ends) <= {0, 1}
     require(named, "corner", ends, "must say 0 or 1 for each input")
-    ranges = [(name, printed_range(text)) for name, text in statement.inputs]
-    corner = {
-        name: Enclosure.exact(r.upper if end else r.lower)
-        for (name, r), end in zip(ranges, ends, strict=True)
-    }
-    return _enclosed(statement, corner, bits)
+    pairs = zip(_ranges(statement), ends, strict=True)
+    return _enclosed(statement, [Enclosure.exact(r.upper if end else r.lower) for r, end in pairs], bits)
 
 
-def _enclosed(statement: Agrees, inputs: dict[str, Enclosure], bits: int) -> Enclosure:
+def _ranges(statement: Agrees) -> list[Enclosure]:
+    return [printed_range(text) for _, text in statement.inputs]
+
+
+def _enclosed(statement: Agrees, inputs: list[Enclosure], bits: int) -> Enclosure:
+    names = (name for name, _ in statement.inputs)
     with ctx.workprec(require_bits(bits)):
-        values: dict[str, arb] = {
-            name: ball_of(e.lower) if e.width == 0 else e.to_arb() for name, e in inputs.items()
-        }
+        values = {name: e.to_arb() for name, e in zip(names, inputs, strict=True)}
         return Enclosure.from_arb(ball(statement.formula, values))
 
 

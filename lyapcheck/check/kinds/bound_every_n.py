@@ -232,7 +232,7 @@ def drawn_entries(
     """n, random exact entries that meet all bounds, and there the sign of right − left."""
     random, numbers = Random(repr(statement)), statement.numbers
     written = {name for kind, name in letters(statement.left) if kind == "var"}
-    only_bounds = frozenset(numbers - written)
+    only_bounds = numbers - written
     both = {n: at_size(statement, n) for n in sizes}
     at = {n: (one, norms_at(statement, n), names_at(statement, n, *one)) for n, one in both.items()}
     for _ in range(tries):

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from flint import arb, ctx
 
 from lyapcheck.check.expressions.domain import Domain
-from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
-from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.expression import Tree, ball
+from lyapcheck.check.expressions.normal_form import rational_value
 from lyapcheck.check.expressions.witness import sign_holds
 from lyapcheck.check.kinds.parts import relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused
@@ -97,13 +97,5 @@ def _with_values(statement: Constant, truth: bool, grade: str) -> Accepted:
 
 def exact_truth(relation: Relation) -> bool | None:
     """The truth of a relation between numbers whose difference is rational, else ``None``."""
-    try:
-        ratio, algebra = normal_form(relation.gap)
-    except Unsupported:
-        return None
-    if ratio.top == 0:
-        return not relation.strict
-    if algebra.uses and not (ratio.top.is_constant() and ratio.bottom.is_constant()):
-        return None
-    gap = ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient()
-    return bool(gap > 0)
+    gap = rational_value(relation.gap)
+    return None if gap is None else bool(gap > 0 or (gap == 0 and not relation.strict))

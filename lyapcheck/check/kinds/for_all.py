@@ -13,7 +13,7 @@ from itertools import pairwise
 from flint import ctx
 
 from lyapcheck.check.expressions.domain import Interval
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import Tree, substitute
 from lyapcheck.check.expressions.inequality import positive_at, positive_on_box, sign_everywhere
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.expressions.text import number_text
@@ -125,14 +125,8 @@ def pieces(statement: ForAll) -> Iterator[Stretch]:
         yield gap, max(low, zero) if low is not None else zero, high
     if low is None or low < 0:
         start = max(-high, zero) if high is not None else zero
-        yield reflected(gap, statement.variable), start, None if low is None else -low
-
-
-def reflected(tree: Tree, name: str) -> Tree:
-    """The expression with −x for x."""
-    if tree[0] == "var":
-        return ("neg", tree) if tree[1] == name else tree
-    return (tree[0], *(reflected(part, name) if isinstance(part, tuple) else part for part in tree[1:]))
+        mirrored = substitute(gap, {statement.variable: ("neg", ("var", statement.variable))})
+        yield mirrored, start, None if low is None else -low
 
 
 def zero_must_be_positive(statement: ForAll, low: Fraction) -> bool:

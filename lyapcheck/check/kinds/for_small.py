@@ -4,8 +4,8 @@ The gap of the conclusion is a polynomial p(ε, t, …), t in (0, 1]. Divided by
 divide it, it is continuous on the compact range of t, so p > 0 for small ε as soon as its value at ε = 0 is
 positive and free of t. That value is the leading term, and its sign is an implication of its own.
 
-At a point of all other variables each gap is a function of ε alone. As a quotient of polynomials it has, for
-small ε, the signs of the lowest coefficients above and below. Hypotheses that hold so, and a conclusion that
+At a point of all other variables each gap is a function of ε alone. It has, for
+small ε, the sign of its dominant term. Hypotheses that hold so, and a conclusion that
 fails so, refute the statement.
 """
 
@@ -14,12 +14,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb, fmpq_mpoly
+from flint import fmpq_mpoly
 
 from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
-from lyapcheck.check.expressions.expression import Tree, substitute
-from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form
+from lyapcheck.check.expressions.expression import Tree, substitute, variables
+from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.expressions.scales import sign_beside
 from lyapcheck.check.kinds.parts import domain_of, range_text, relation_text, require_relations, terms_of
 from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused, require
@@ -28,6 +29,8 @@ from lyapcheck.check.statement import OfTerms, Point, Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 UNIT = Interval(Fraction(0), Fraction(1), open_low=True)
+NEAR = Fraction(1, 2**64)
+"""Up to here the dominant term has to dominate."""
 
 
 @dataclass(frozen=True)
@@ -124,29 +127,15 @@ def sign_for_small(tree: Tree) -> int:
     """The sign that an expression in one variable has for all small enough positive values of it.
 
     Raises:
-        Refused: it is no quotient of polynomials, or balls do not tell the sign of a coefficient.
+        Refused: it has other variables, or its dominant term next to 0 does not tell.
     """
-    ratio, algebra = normal_form(tree)
-    require(len(algebra.names) <= 1, "variables", ", ".join(algebra.names), "must be one")
-    return _lowest_sign(ratio.top, algebra) * _lowest_sign(ratio.bottom, algebra)
-
-
-def _lowest_sign(polynomial: fmpq_mpoly, algebra: RationalAlgebra) -> int:
-    """The sign of the lowest coefficient of a polynomial in one variable, with constants among them."""
-    constants = algebra.constants()
-    require(len(constants) == len(algebra.uses), "expression", "", "has functions in it")
-    coefficients: dict[int, arb] = {}
-    for exponents, c in polynomial.to_dict().items():
-        power = int(exponents[0]) if algebra.names else 0
-        size = arb(c)
-        for index, constant in constants.items():
-            size *= constant ** int(exponents[index])
-        coefficients[power] = coefficients.get(power, arb(0)) + size
-    if not coefficients:
+    if is_zero(tree):
         return 0
-    lowest = coefficients[min(coefficients)]
-    require(bool(lowest > 0 or lowest < 0), "coefficient", lowest, "has no certain sign")
-    return 1 if lowest > 0 else -1
+    names = variables(tree)
+    require(len(names) <= 1, "variables", ", ".join(sorted(names)), "must be one")
+    sign = sign_beside(tree, next(iter(names), ""), Fraction(0), NEAR)
+    require(sign != 0, "expression", "", "has no certain sign for small values")
+    return sign
 
 
 def signs_of(statement: ForSmall) -> Signs:

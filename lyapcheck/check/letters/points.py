@@ -14,7 +14,7 @@ from random import Random
 
 from flint import arb, ctx, fmpq_mat
 
-from lyapcheck.check.expressions.expression import Tree, Unsupported, ball
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, variables
 from lyapcheck.check.letters.entries import Entries, exact
 from lyapcheck.check.numbers.enclosure import ball_of
 from lyapcheck.check.numbers.polynomials import rational
@@ -153,14 +153,14 @@ class Norms:
     def _scaled(self, letter: Tree, share: Fraction, point: Point) -> Point:
         return point | {entry: share * point[entry] for entry in dict.fromkeys(self.entries.names(letter))}
 
-    def widened(self, names: frozenset[str], point: Point) -> Point:
+    def widened(self, names: set[str], point: Point) -> Point:
         """The point with the numbers ``names``, that only bounds speak of, put where the bounds hold.
 
         A number that bounds a norm is raised to it; one that a number is at least is lowered to that.
         """
-        raised = {name for _, size in self.norms for name in _names(size)}
+        raised = {name for _, size in self.norms for name in variables(size)}
         for letters, size in self.norms:
-            free = sorted(_names(size) & names)
+            free = sorted(variables(size) & names)
             if not free:
                 continue
             square, upper = self.squared(letters, point), _value(size, point)
@@ -168,7 +168,7 @@ class Norms:
                 rest = upper / point[free[-1]]
                 point = point | {free[-1]: _root_above(square) / rest if rest else point[free[-1]]}
         for number, size in self.least:
-            free = sorted((_names(size) & names) - raised)
+            free = sorted((variables(size) & names) - raised)
             if not free:
                 continue
             upper, value = _value(size, point), exact(self.entries.number(number), point)
@@ -185,15 +185,9 @@ def _matrices(tree: Tree) -> set[Tree]:
     return set().union(*(_matrices(part) for part in tree[1:] if isinstance(part, tuple)))
 
 
-def _names(tree: Tree) -> frozenset[str]:
-    if tree[0] == "var":
-        return frozenset([tree[1]])
-    return frozenset().union(*(_names(part) for part in tree[1:] if isinstance(part, tuple)))
-
-
 def _value(size: Tree, point: Mapping[str, Fraction]) -> Fraction | None:
     """A rational not above a size; ``None`` where it depends on more than the point."""
-    names = _names(size)
+    names = variables(size)
     if not names <= point.keys():
         return None
     with ctx.workprec(BITS):

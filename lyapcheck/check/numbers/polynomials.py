@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import pairwise
+from math import isqrt
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
@@ -18,6 +19,14 @@ End = Fraction | None
 def rational(value: Fraction | int) -> fmpq:
     """The same number for flint."""
     return fmpq(value.numerator, value.denominator)
+
+
+def rational_root(square: Fraction) -> Fraction | None:
+    """The square root of a number, where it is rational."""
+    if square < 0:
+        return None
+    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    return root if root**2 == square else None
 
 
 def univariate(polynomial: fmpq_mpoly, index: int) -> fmpq_poly:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.expressions.expression import Unsupported
-from lyapcheck.check.expressions.witness import Comparison, Sides, refutation
-from lyapcheck.check.numbers.enclosure import Enclosure
+from flint import ctx
+
+from lyapcheck.check.expressions.expression import Unsupported, ball
+from lyapcheck.check.expressions.witness import Comparison, holds
+from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.statement import Point as Coordinates
 from lyapcheck.check.statement import Witness
 
@@ -23,6 +26,16 @@ ROUND = tuple(map(Fraction, ("0", "1", "1/2", "2", "1/10", "10", "1/100", "100")
 """What a reader takes in at a glance, the roundest first."""
 
 Point = dict[str, Fraction]
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Both sides of a comparison that fails, enclosed."""
+
+    left: Enclosure
+    right: Enclosure
+
+
 Failure = tuple[Comparison, Point, Sides]
 
 
@@ -32,12 +45,22 @@ def first_refutation(
     """The first point at which balls show that the relation fails while every hypothesis holds."""
     for point in points:
         try:
-            sides = refutation(claim, point, tuple(hypotheses), BITS)
+            sides = broken_sides(claim, point, hypotheses)
         except (Unsupported, ValueError, ZeroDivisionError):
             continue
         if sides is not None and all(map(_can_be_written, (sides.left, sides.right))):
             return claim, point, sides
     return None
+
+
+def broken_sides(claim: Comparison, point: Point, hypotheses: Sequence[Comparison] = ()) -> Sides | None:
+    """Both sides of a relation, if the point provably meets the hypotheses and breaks it."""
+    with ctx.workprec(BITS):
+        balls = {name: ball_of(value) for name, value in point.items()}
+        met = all(holds(hypothesis, balls) is True for hypothesis in hypotheses)
+        if not met or holds(claim, balls) is not False:
+            return None
+        return Sides(*(Enclosure.from_arb(ball(side, balls)) for side in (claim[0], claim[2])))
 
 
 def rounder(failure: Failure, hypotheses: Sequence[Comparison] = ()) -> Failure:
