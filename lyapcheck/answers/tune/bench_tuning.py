@@ -67,7 +67,7 @@ def tune_for(
         share = _share(on_progress, done, len(jobs), f"m = {m}, {IN_WORDS[way]}")
         search = Search(bench, arms, limits, m, way)
         if not search.possible:
-            reasons.append(_none(m, way))
+            reasons.append(_none(m, way, limits))
             continue
         result = search.run(share)
         stable = stable_by(result.gains, way, limits, robot, ranges)
@@ -87,13 +87,11 @@ def _overloaded(limits: Limits) -> list[str]:
     return [text for text in impossible(limits) if "gravity" in text]
 
 
-def _none(m: int, way: str) -> str:
-    if way == BY_19:
-        return (
-            f"m = {m}: (19) admits no k_v with so few decimal places, or none at all without friction; "
-            "stability by proof does without it"
-        )
-    return f"m = {m}: (10p) leaves no room for gains with so few decimal places"
+def _none(m: int, way: str, limits: Limits) -> str:
+    if way == BY_19 and not limits.viscous_min:
+        return f"m = {m}: (19) admits no k_v without viscous friction; stability by proof does without it"
+    rule = "(19) admits no k_v" if way == BY_19 else "(10p) leaves no room for gains"
+    return f"m = {m}: {rule} with so few decimal places; raise --digits"
 
 
 def stable_by(
