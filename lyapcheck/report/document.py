@@ -2,42 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from lyapcheck.answers.tune.effect import Effect, effect_section
-from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
-from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.model import WEIGHTS, Data, Finding, Report, Witness, applies
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
+from lyapcheck.report.model import WEIGHTS, Data, Finding, Report, Witness
 from lyapcheck.report.text import (
     SYMBOLS,
     and_list,
-    bracket,
-    fixed,
-    joined,
     letter,
     member_words,
-    number,
     short_number,
     span_words,
 )
 from lyapcheck.report.verdict import badges, chain, route, sentences
-from lyapcheck.report.words import (
-    answer_cell,
-    at_once_words,
-    figure_gains_words,
-    printed_words,
-    quantity_words,
-    span,
-    tally_words,
-    together_words,
-    value_words,
-)
 
 
 class ReportAnswer(Answer):
@@ -161,7 +142,7 @@ def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
     items.append(f"Witness: {witness_sentence(finding.witness)}" if finding.witness else finding.text)
     yield Bullets(tuple(items))
     if finding.figure not in drawn:
-        yield from _figure(report, finding.figure, finding.title)
+        yield from figure(report, finding.figure, finding.title)
         drawn.add(finding.figure)
 
 
@@ -176,38 +157,6 @@ def witness_sentence(witness: Witness) -> str:
         f"{span_words(witness.left)} is not {witness.operator.replace('<=', '≤')} {span_words(witness.right)}"
     )
     return f"{', '.join(where)}: {sides}"
-
-
-def _figure(report: Report, name: str, caption: str) -> Iterator[Figure]:
-    if f"{name}.svg" in report.figures:
-        yield Figure(f"figures/{name}.svg", caption)
-
-
-def four_epsilons(report: Report) -> Iterator[Block]:
-    """The four ε₀ of each gain set, why one is missing, and their drawing."""
-    kinds = ("published", "scalar", "certified", "falsified", "ratio")
-    rows = tuple((row["name"], *(row[kind] or "–" for kind in kinds)) for row in report.epsilon)
-    heads = ("gains", "published (18)", "scalar", "certified", "falsified", "certified/falsified")
-    yield Table(
-        heads,
-        rows,
-        "Published: the end of (18). Scalar: from two norms. Certified: proved on this arm at every state. "
-        "Falsified: a state with dV/dt > 0 is known. Certified ≤ true ≤ falsified; rounded to the safe side.",
-    )
-    missing = [(row["name"], kind, text) for row in report.epsilon for kind, text in row["reasons"].items()]
-    if missing:
-        yield Bullets(tuple(f"{name}, no {kind} ε₀: {text}" for name, kind, text in missing))
-    yield from _figure(report, "epsilon", "The four ε₀ of each gain set")
-
-
-def evidence(report: Report) -> Iterator[Section]:
-    """Constants, gate, runs and the printed experiment."""
-    yield Section("The family and its constants", tuple(_constants(report)))
-    yield Section("The gate", tuple(_gate(report)))
-    yield Section("The closed loop", tuple(_runs(report)))
-    yield from _members(report)
-    if report.sensitivity:
-        yield Section("The printed experiment and what is assumed", tuple(_study(report, report.sensitivity)))
 
 
 def _claims(report: Report) -> Iterator[Section]:
@@ -231,143 +180,3 @@ def _claims(report: Report) -> Iterator[Section]:
             grades = ", ".join(sorted({row["grade"] for row in result}))
             lines.append((claim, shown, grades, result[0]["comment"]))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))
-
-
-def _constants(report: Report) -> Iterator[Block]:
-    rows = tuple(
-        (
-            str(row["m"]),
-            bracket(row["gamma"]),
-            bracket(row["rho"]),
-            bracket(row["L"]),
-            bracket(row["gamma_at"], 8) if row["gamma_at"] else "∞",
-        )
-        for row in report.table
-    )
-    caption = "γ = sup h, ρ = sup |h′|, L = sup h(x)/x: certified, digits cut off, all correct."
-    yield Table(("m", "γ", "ρ", "L", "x of γ"), rows, caption)
-    yield from _figure(report, "family", "The bounded functions and their derivatives")
-
-
-def _gate(report: Report) -> Iterator[Block]:
-    for result in report.gate:
-        if not applies(result):
-            yield Paragraph(f"{result['name']}: without a bound γ of h the conditions do not apply.")
-            continue
-        rows = tuple(
-            (
-                f"({check['id']}){'' if check['id'] in result['deciding'] else ' does not decide'}",
-                check["joint"] or "all",
-                f"{SYMBOLS[check['verdict']]} {check['verdict']}",
-                check["value"],
-                bracket(check["limit"], 7),
-                number(check["margin"], 4),
-                check["largest_admissible"] or "none",
-            )
-            for check in result["checks"]
-        )
-        heads = ("condition", "joint", "verdict", "value", "limit", "margin", "largest admissible")
-        yield Table(heads, rows, f"{result['name']}: {result['verdict']}", align="lllrrrr", keys=2)
-
-
-def _runs(report: Report) -> Iterator[Block]:
-    rows = tuple(
-        (
-            row["name"],
-            fixed(row["L2"], 3),
-            fixed(row["printed"]["L2"], 3) if row["printed"] else "–",
-            joined(row["settling"]),
-            joined(row["overshoot"], 1),
-            joined(row["peak_torque"], 1),
-            "never rose" if row["V_decreases"] else "rose",
-        )
-        for row in report.runs
-    )
-    heads = ("gains", "L2 [°]", "measured L2 [°]", "settling [s]", "overshoot [%]", "peak torque [N·m]", "V")
-    yield Table(heads, rows, "Reference simulation of (11), in floating point")
-    yield from _figure(report, "indices", "The L2 index (20), simulated and measured")
-    for row in report.runs:
-        yield from _figure(report, f"{file_stem(row['name'])}_errors", f"{row['name']}: position errors")
-
-
-def _members(report: Report) -> Iterator[Section]:
-    """What m does in these runs, where each member has one gain set."""
-    members = sorted(
-        (row for row in report.runs if row["m"] is not None and row["complete"]), key=lambda row: row["m"]
-    )
-    if len(members) > 1 and len({row["m"] for row in members}) == len(members):
-        first = members[0]
-        section = effect_section([_effect(row) for row in members], first["target"], first["time"])
-        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
-
-
-OWN_GAINS = (
-    "Each m has the gains of its own gain set. Floating point, one motion; lyapcheck tune --m compares "
-    "members at the largest gains of each."
-)
-
-
-def _effect(row: Data) -> Effect:
-    known = [peak / most for peak, most in zip(row["peak_torque"], row["torque_limit"], strict=True) if most]
-    return Effect(
-        row["m"],
-        row["L2"],
-        max(map(abs, row["final_error"])),
-        max(known, default=math.nan),
-        row["top_speed"],
-        math.inf if row["rest"] is None else row["rest"],
-    )
-
-
-def _study(report: Report, study: Data) -> Iterator[Block]:
-    said = [tally_words(study), *([together_words(study)] if study["together"] else [])]
-    said += [text for one in study["sets"] for text in (at_once_words(one), figure_gains_words(one))]
-    yield Bullets(tuple(said))
-    yield from _figure(report, "spread", "What is printed against what the assumed arms do")
-    rows = tuple(
-        (
-            f"{one['name']}: {quantity_words(entry)}",
-            printed_words(entry),
-            value_words(entry["nominal"], entry["unit"]),
-            span(entry["typical"]),
-            answer_cell(entry),
-        )
-        for one in study["sets"]
-        for entry in one["numbers"]
-    )
-    heads = ("number", "printed", "nominal arm", "middle 90 %", "does an arm do it?")
-    yield Table(heads, rows, align="lrrll")
-    yield from _figure(report, "assumptions", "The L2 index when one assumption alone runs over its range")
-
-
-def rests(report: Report) -> Iterator[Section]:
-    """What is assumed, certificates, versions and seed."""
-    versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
-    assumed = tuple(report.robot["assumptions"])
-    blocks: list[Block] = [Bullets(assumed)] if assumed else [Paragraph("Nothing is assumed about the arm.")]
-    if report.certificates:
-        words = f"{len(report.certificates)} certificates; the small checker judges them again with"
-        blocks += [Paragraph(words), Code("lyapcheck recheck certificates/"), *_kernel(report)]
-    boxes = {row["boxes"] for row in report.epsilon}
-    budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
-    blocks.append(Paragraph(f"{versions}. Seed {report.seed}.{budget}"))
-    yield Section(f"What this rests on: {report.robot['title']}", tuple(blocks))
-
-
-def known(report: Report) -> Iterator[Section]:
-    """What was known before the paper, and what is new."""
-    if not report.own:
-        yield Section("What was known, and what is new", (Bullets(report.notes.known[1:]),))
-
-
-def _kernel(report: Report) -> Iterator[Block]:
-    """What the grade ``kernel`` means, and which verdicts have it."""
-    rows = [row for row in report.every_claim if row["verdict"] in ("proved", "refuted")]
-    kernel = [row for row in rows if row["grade"] == GRADE]
-    if kernel:
-        yield Paragraph(
-            "Grade kernel: Coq's kernel has accepted it too, as a theorem printed from the claim's own data, "
-            "on golden axioms; what its words mean stands on one page, formal/Definitions.v. So it is for "
-            f"{len(kernel)} of {len(rows)} verdicts. With Coq installed, it judges them anew by"
-        )
-        yield Code("lyapcheck recheck --kernel certificates/")

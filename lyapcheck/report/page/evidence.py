@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import blocks
-from lyapcheck.report.document import evidence, four_epsilons, known, rests
+from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.drawing import figure
 
