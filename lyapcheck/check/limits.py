@@ -12,6 +12,8 @@ MAX_ARM = 9
 """Joints of an arm."""
 MOST_CORNERS = 256
 """Of the ranges of an arm's parameters."""
+LARGEST = 10**9
+"""rad, rad/s, N·m and J: beyond all that is of use."""
 SHOWN = 300
 """Characters of a statement, or of its author's words, unless the whole is asked for."""
 

@@ -21,7 +21,6 @@ from lyapcheck.check.kinds.decreasing import (
     LargerKv,
     PositiveAndDecreasing,
     StateWitness,
-    closed_loop_of,
 )
 from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
@@ -55,7 +54,7 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     Raises:
         NotPrinted: the proof is of a kind, or about a function, that Coq has no theorem for.
     """
-    loop = closed_loop_of(statement)
+    loop = statement.closed_loop
     if isinstance(proof, StateWitness):
         return _by_state(loop, proof)
     if certifies(loop.tail, loop.eps0):

@@ -16,7 +16,7 @@ from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
-from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness, closed_loop_of
+from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
@@ -206,7 +206,7 @@ def _(statement: Stable, proof: Proof) -> str:
 
 @proved.register
 def _(statement: StableArm, proof: Proof) -> str:
-    return by_norms(closed_loop_of(on_one_arm(statement)), statement.argument.system.desired)
+    return by_norms(on_one_arm(statement).closed_loop, statement.argument.system.desired)
 
 
 @proved.register

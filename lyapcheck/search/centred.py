@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array
 from lyapcheck.check.loop.arithmetic import Ring
 from lyapcheck.check.loop.centred import Centred, of_error, transformed, triangle
+from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.check.loop.schur import Errors, form
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative
@@ -28,8 +29,6 @@ SURELY = 1e-9
 """What a pivot has to exceed, beside its value in the middle: rounding is not directed."""
 
 
-MOST_CENTRED = 2
-"""Joints up to which slopes cost the checker less than the smaller boxes that go without."""
 SMALL = 1.0
 """Length of sides, rad, below which slopes are tried."""
 

@@ -10,9 +10,9 @@ from time import monotonic
 
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.centred import MOST_CENTRED
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.link_bounds import linked_epsilon

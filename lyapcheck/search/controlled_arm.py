@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
-from lyapcheck.check.loop.affine import corners_of
+from lyapcheck.check.kinds.at_corners import MassAtCorners
+from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.corners import corners_of
 from lyapcheck.check.loop.decay.speeds import slowed
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
@@ -130,12 +131,12 @@ class ControlledArm:
         return tuple(chain for chain in arms if chain is not None)
 
     @cached_property
-    def inertia_proof(self) -> Bisection | Links | LinksAtCorners:
+    def inertia_proof(self) -> Bisection | Links | MassAtCorners:
         """What shows M ≻ 0."""
         if self.ranges:
             # boxes of many angles are too many
             known = self.n > FEW_JOINTS and self.chains
-            return LinksAtCorners(tuple(chain.links for chain in self.chains)) if known else Bisection()
+            return MassAtCorners(tuple(Links(chain.links) for chain in self.chains)) if known else Bisection()
         remember(self.fixed)
         return mass_proof(mass_of(self.fixed))
 

@@ -25,7 +25,8 @@ from lyapcheck.search.decay_input import Start, start_of, torques_of
 from lyapcheck.search.decay_levels import Descent, descent
 from lyapcheck.search.decay_rest import resting
 from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Shown, accepted
-from lyapcheck.search.margins import MAX_BOXES, Attempt, as_stated, attempts, candidates
+from lyapcheck.search.heaviest import Heaviest, heaviest
+from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
 from lyapcheck.search.phases import Phases
 
 COARSE = 0.6
@@ -135,6 +136,9 @@ class _Wanted:
     def shown(self, max_boxes: int, jobs: int, progress: Progress) -> tuple[Shown | None, str]:
         """The best statement that the checker accepts, or why there is none."""
         progress(0.05, "margins by samples")
+        heavy = heaviest(self.controlled)
+        if heavy is None:
+            return None, NO_MARGIN
         result = candidates(self.controlled, any(self.acting.torque))
         rows = ((self._worth(margin), margin.friction, margin) for margin in result)
         ranked = sorted((row for row in rows if row[0] < math.inf), key=lambda row: row[:2])
@@ -143,7 +147,7 @@ class _Wanted:
         for index, (_, friction, margin) in enumerate(ranked):
             progress(0.3 + 0.08 * index, f"proving a margin, η = {float(friction):g}")
             for attempt in attempts(self.controlled, margin, max_boxes):
-                claim = self._claim(attempt)
+                claim = self._claim(attempt, heavy)
                 if claim is not None and accepted(claim.statement, claim.proof, jobs):
                     return claim, ""
         return None, f"{NO_MARGIN}; allow more boxes"
@@ -160,7 +164,7 @@ class _Wanted:
         except ValueError:  # a level of V that allows errors beyond all bounds
             return None
 
-    def _claim(self, attempt: Attempt) -> Shown | None:
+    def _claim(self, attempt: Attempt, heavy: Heaviest) -> Shown | None:
         """What there is to be judged."""
         margin = attempt.margin
         result = self._descent(margin, FINE)
@@ -190,7 +194,8 @@ class _Wanted:
             margin.stiffness,
             margin.split,
             margin.slack,
-            as_stated(margin.inertia),
+            heavy.diagonal,
+            heavy.proof,
             PositiveAndDecreasing(self.controlled.inertia_proof, attempt.by),
             result.slopes,
         )

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.at_corners import RateAtCorners
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
-from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
+from lyapcheck.search.processes import shared_between
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -51,9 +50,8 @@ class Shown:
         frictions, stiffnesses, rates, eps0s = zip(*parts, strict=True)
         every = [one for rate in rates for one in (rate.each if isinstance(rate, RateAtCorners) else [rate])]
         boxes = sum(getattr(rate, "tree", "").count(".") for rate in every)
-        by = "bounds in ‖e‖ alone"
-        for kind, name in ((BoxTree, "branch and bound"), (LinkBounds, "bounds along the links")):
-            by = name if all(isinstance(rate, kind) for rate in every) else by
+        boxed = all(isinstance(rate, BoxTree) for rate in every)
+        by = "branch and bound" if boxed else "bounds along the links"
         return Provenance(by, boxes, min(eps0s), max(frictions), max(stiffnesses), len(parts))
 
     def _parts(self) -> list[tuple[Phase | FallingLevels, Proof, Fraction]]:

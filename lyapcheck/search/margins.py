@@ -10,21 +10,20 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from lyapcheck._types import SEED
+from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.at_corners import RateAtCorners
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.kinds.link_bounds import InertiaAlongLinks, LinkBounds
-from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
+from lyapcheck.check.kinds.link_bounds import LinkBounds
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.radial import RadialBounds
+from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import short_above
 from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.heaviest import Heaviest, heaviest
 from lyapcheck.search.link_bounds import link_bounds
-from lyapcheck.search.radial import holds_radially, radial_data
 from lyapcheck.search.schur import Problem
 
 FRICTION = tuple(Fraction(k, 100) for k in (8, 15, 25, 40, 60))
@@ -48,108 +47,87 @@ _KEPT = 16
 
 @dataclass(frozen=True)
 class Attempt:
-    """A margin, and untrusted data for dV/dt < 0 of its reduced closure."""
+    """A margin, and untrusted data for dV/dt < 0 of its reduced loop."""
 
     margin: Margin
-    by: BoxTree | RadialBounds | RateAtCorners | LinkBounds
+    by: BoxTree | LinkBounds | RateAtCorners
 
 
 def candidates(
     controlled: ControlledArm, disturbed: bool, shares: Sequence[Fraction] = FRICTION
 ) -> list[Margin]:
-    """One margin for each η, with the largest ε₀ that samples, or bounds of the parts of dV/dt, allow.
+    """One margin for each η, with the largest ε₀ that samples, or norms, allow.
 
     Args:
         controlled: gains and arm, with a bounded h.
         disturbed: whether damping has to be left for disturbances.
         shares: the η.
     """
-    inertia = inertia_bound(controlled)
-    if inertia is None:
+    heavy = heaviest(controlled)
+    if heavy is None:
         return []
     slack = SLACK if disturbed else Fraction(0)
-    rows = zip(shares, _largest_allowed(controlled, tuple(shares)), strict=True)
-    return [margin_at(controlled, eps0, friction, slack, inertia) for friction, eps0 in rows if eps0 > 0]
+    rows = zip(shares, _largest_allowed(controlled, heavy, tuple(shares)), strict=True)
+    return [margin_at(controlled, eps0, eta, slack, heavy.diagonal) for eta, eps0 in rows if eps0 > 0]
 
 
 @lru_cache(maxsize=_KEPT)
-def _largest_allowed(controlled: ControlledArm, shares: tuple[Fraction, ...]) -> list[Fraction]:
+def _largest_allowed(
+    controlled: ControlledArm, heavy: Heaviest, shares: tuple[Fraction, ...]
+) -> list[Fraction]:
     """The largest ε₀ for each η; what is left for disturbances has no part in it."""
-    inertia = inertia_bound(controlled)
-    assert inertia is not None
-    if isinstance(inertia, InertiaAlongLinks):
-        allows = _by_errors(controlled)
-    elif isinstance(inertia, RadialBounds) and controlled.n > FEW_JOINTS:
-        allows = _by_bounds(inertia)
-    else:
-        allows = _by_samples(controlled)
+    allows = _by_samples(controlled) if controlled.n <= FEW_JOINTS else _of_many_joints(controlled)
 
     def holds(eps0: Fraction, eta: Fraction) -> bool:
-        return allows(margin_at(controlled, eps0, eta, Fraction(0), inertia).reduced)
+        return allows(margin_at(controlled, eps0, eta, Fraction(0), heavy.diagonal).reduced)
 
     return [_largest(partial(holds, eta=friction)) for friction in shares]
 
 
-@lru_cache(maxsize=_KEPT)
-def inertia_bound(controlled: ControlledArm) -> InertiaBound | None:
-    """μ with M ≼ μ B: along the links of arms of many joints where they are known, else by boxes of q."""
-    bounds = link_bounds(controlled) if controlled.n > FEW_JOINTS else None
-    if bounds is None:
-        return radial_data(controlled)
-    friction = [low for low, _ in controlled.loop(Fraction(1)).friction]
-    weights = tuple(map(_root_below, friction))
-    mu = max(x / (d * d) for x, d in zip(bounds.inertia.prices, weights, strict=True))
-    return InertiaAlongLinks(weights, short_above(mu), bounds.arms, bounds.inertia)
-
-
-def as_stated(inertia: InertiaBound) -> InertiaBound:
-    """What of it a certificate has to hold: cuts of r are for dV/dt alone."""
-    return replace(inertia, cuts=()) if isinstance(inertia, RadialBounds) else inertia
-
-
 def margin_at(
-    controlled: ControlledArm, eps0: Fraction, friction: Fraction, slack: Fraction, inertia: InertiaBound
+    controlled: ControlledArm,
+    eps0: Fraction,
+    friction: Fraction,
+    slack: Fraction,
+    heaviest: tuple[Fraction, ...],
 ) -> Margin:
     """The margin of one ε₀ and η; t is chosen so that no joint loses more than `LOSS` of κ k_pi."""
     loop = controlled.loop(eps0)
     rows = zip((low for low, _ in loop.friction), loop.kp, strict=True)
     split = max(friction * b * eps0 / (4 * LOSS * STIFFNESS * k) for b, k in rows)
-    return Margin(loop, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, inertia)
+    return Margin(loop, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, heaviest)
 
 
 def attempts(controlled: ControlledArm, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
     """The margin at falling shares of its ε₀, wherever the search finds data; for the checker to judge."""
     for share in SHARES:
         eps0 = _short(margin.loop.eps0 * share)
-        tried = margin_at(controlled, eps0, margin.friction, margin.slack, margin.inertia)
-        by = _data(controlled, eps0, margin.friction, max_boxes)
+        tried = margin_at(controlled, eps0, margin.friction, margin.slack, margin.heaviest)
+        by = _data(controlled, eps0, margin.friction, margin.heaviest, max_boxes)
         if by is not None:
             yield Attempt(tried, by)
 
 
 @lru_cache(maxsize=_KEPT)
 def _data(
-    controlled: ControlledArm, eps0: Fraction, friction: Fraction, max_boxes: int
-) -> BoxTree | RadialBounds | RateAtCorners | LinkBounds | None:
-    """Untrusted data for the reduced closure; where parameters range at each corner, or for all at once."""
-    inertia = inertia_bound(controlled)
-    if inertia is None:
-        return None
-    margin = margin_at(controlled, eps0, friction, Fraction(0), inertia)
-    loop = margin.reduced
+    controlled: ControlledArm,
+    eps0: Fraction,
+    friction: Fraction,
+    heaviest: tuple[Fraction, ...],
+    max_boxes: int,
+) -> BoxTree | LinkBounds | RateAtCorners | None:
+    """Untrusted data for the reduced loop, by boxes at each corner where parameters range."""
+    loop = margin_at(controlled, eps0, friction, Fraction(0), heaviest).reduced
     if not loop.admissible:
         return None
-    if isinstance(margin.inertia, InertiaAlongLinks):
+    if controlled.n > FEW_JOINTS:
         bounds = link_bounds(controlled)
-        covered = None if bounds is None else ErrorBoxes(loop, bounds).covered(max_boxes)
-        if bounds is None or covered is None or not covered.proved:
-            return None
-        return replace(bounds, tree=covered.tree, scales=covered.scales)
-    found: list[BoxTree | RadialBounds] = []
+        if bounds is None:
+            return BoxTree(".") if certifies(loop.tail, loop.eps0) else None
+        covered = ErrorBoxes(loop, bounds).covered(max_boxes)
+        return replace(bounds, tree=covered.tree, scales=covered.scales) if covered.proved else None
+    found: list[BoxTree] = []
     for corner in at_corners(loop):
-        if controlled.n > FEW_JOINTS:
-            found.append(reduced_radial(margin))
-            continue
         outcome = certify(Problem(corner), max_boxes)
         if not outcome.proved:
             return None
@@ -157,30 +135,12 @@ def _data(
     return RateAtCorners(tuple(found)) if loop.parameters else found[0]
 
 
-def reduced_radial(margin: Margin) -> RadialBounds:
-    """The data in r for (1 − η)B."""
-    assert isinstance(margin.inertia, RadialBounds)
-    return _shrunk(margin.inertia, _root_below(1 - margin.friction))
-
-
-def _shrunk(data: RadialBounds, root: Fraction) -> RadialBounds:
-    """The data with smaller weights, in which M̃, and with it μ and ν, grow by the inverse of the square."""
-    weights, square = tuple(d * root for d in data.weights), root * root
-    return replace(data, weights=weights, inertia=data.inertia / square, lowest=data.lowest / square)
-
-
-def _root_below(value: Fraction) -> Fraction:
-    """A rational not above the square root."""
-    return Fraction(math.isqrt(math.floor(value * 10**12)), 10**6)
-
-
 def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
     """Whether P ≻ 0 at random q and e of all sizes."""
     random = np.random.default_rng(SEED)
     angles = controlled.loop(Fraction(1)).angles
     q = random.uniform(-np.pi, np.pi, (SAMPLES, len(angles)))
-    e = random.normal(size=(SAMPLES, controlled.n))
-    e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    e = _errors(random, controlled.n)
     if controlled.within:
         q, e = q[::NEAR], e[::NEAR]
         e = np.clip(e, *(sign * np.array(controlled.within, dtype=float) for sign in (-1.0, 1.0)))
@@ -195,31 +155,21 @@ def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
     return allows
 
 
-def _by_errors(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
-    """Whether the form of bounds along the links is positive definite at random e of all sizes."""
+def _of_many_joints(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
+    """Whether the form along the links is positive at random e; norms, where links are not known."""
     bounds = link_bounds(controlled)
-    random = np.random.default_rng(SEED)
-    e = np.abs(random.normal(size=(SAMPLES // FEW, controlled.n)))
-    e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES // FEW, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    if bounds is None:
+        return lambda loop: loop.admissible and certifies(loop.tail, loop.eps0)
+    e = np.abs(_errors(np.random.default_rng(SEED), controlled.n))[::FEW]
     points = np.stack((e, e), axis=1)
-
-    def allows(loop: ClosedLoop) -> bool:
-        if bounds is None or not loop.admissible:
-            return False
-        return bool(ErrorBoxes(loop, bounds).judged(points, False)[0].all())
-
-    return allows
+    return lambda loop: loop.admissible and bool(ErrorBoxes(loop, bounds).judged(points, False)[0].all())
 
 
-def _by_bounds(inertia: RadialBounds) -> Callable[[ClosedLoop], bool]:
-    """Whether the inequality in ‖e‖ holds."""
-
-    def allows(loop: ClosedLoop) -> bool:
-        rows = zip(loop.arm.viscous, inertia.weights, strict=True)
-        data = _shrunk(inertia, min(_root_below(b / (d * d)) for b, d in rows))
-        return loop.admissible and all(holds_radially(corner, data) for corner in at_corners(loop))
-
-    return allows
+def _errors(random: np.random.Generator, n: int) -> Array:
+    """e of all sizes, (SAMPLES, n)."""
+    e = random.normal(size=(SAMPLES, n))
+    e *= 10.0 ** random.uniform(-3.0, 1.0, (SAMPLES, 1)) / np.linalg.norm(e, axis=1, keepdims=True)
+    return e
 
 
 def _largest(allows: Callable[[Fraction], bool]) -> Fraction:

@@ -11,7 +11,8 @@ from lyapcheck.search.proof import Proof
 from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
+    from lyapcheck.check.kinds.at_corners import MassAtCorners
+    from lyapcheck.check.kinds.inertia import Bisection, Links
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.check.statement import Ends
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -39,7 +40,7 @@ def norm_epsilon(
 
 
 def norm_proof(
-    loop: ClosedLoop, inertia: Bisection | Links | LinksAtCorners, *, conic: bool = True
+    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners, *, conic: bool = True
 ) -> tuple[Proof | None, str]:
     """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 

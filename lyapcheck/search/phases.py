@@ -14,11 +14,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck._types import SEED, Array, Progress
+from lyapcheck._types import SEED, Progress
 from lyapcheck.check.kinds.at_corners import MassAtCorners
+from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.check.kinds.inertia import Bisection, Mass, MassAbove
-from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin, lightened
-from lyapcheck.check.loop.affine import corners_of, is_affine
+from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
+from lyapcheck.check.loop.corners import corners_of, is_affine
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate, reach_of
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded
@@ -28,13 +29,13 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay_digits import short_above, short_below
 from lyapcheck.search.decay_input import Start
 from lyapcheck.search.decay_levels import Descent, level_within, lowered
 from lyapcheck.search.decay_results import Shown
-from lyapcheck.search.margins import Attempt, as_stated, attempts, candidates, inertia_bound, margin_at
+from lyapcheck.search.heaviest import Heaviest, heaviest, masses
+from lyapcheck.search.margins import Attempt, attempts, candidates, margin_at
 
 FRICTION = tuple(Fraction(k, 100) for k in (20, 40, 60))
 """The η that are weighed against each other."""
@@ -90,15 +91,15 @@ class Phases:
 
     def _base(self) -> Estimate | None:
         """For what does not depend on ε₀, on speeds and errors."""
-        inertia = inertia_bound(self.controlled)
-        if inertia is None:
+        heavy = heaviest(self.controlled)
+        if heavy is None:
             return None
-        return self._estimate(margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), inertia))
+        return self._estimate(margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), heavy.diagonal))
 
     def _another(self, last: Fraction) -> bool:
         """One more phase; ``False`` where none is found."""
         near = self._near()
-        ranked = []
+        heavy, ranked = heaviest(near), []
         for margin in candidates(near, False, FRICTION):
             found = self._descent(margin, last, COARSE)
             if found is not None:
@@ -106,8 +107,8 @@ class Phases:
         for _, _, margin in sorted(ranked, key=lambda row: row[:2]):
             for attempt in attempts(near, margin, self.max_boxes):
                 found = self._descent(attempt.margin, last, FINE)
-                if found is not None:
-                    self._keep(near, attempt, found)
+                if found is not None and heavy is not None:
+                    self._keep(near, heavy, attempt, found)
                     return True
         return False
 
@@ -128,7 +129,7 @@ class Phases:
         try:
             estimate = self._estimate(margin)
             if self.made:
-                first = regraded(self.level, margin.loop.eps0 - self.eps0, margin.loop, margin.inertia)
+                first = regraded(self.level, margin.loop.eps0 - self.eps0, margin.loop, margin.heaviest)
             else:
                 first = estimate.start_level(*self.start)
             first = short_above(first)
@@ -140,9 +141,8 @@ class Phases:
             return None
         return found if found.level == low else None
 
-    def _keep(self, near: ControlledArm, attempt: Attempt, found: Descent) -> None:
+    def _keep(self, near: ControlledArm, heavy: Heaviest, attempt: Attempt, found: Descent) -> None:
         margin = attempt.margin
-        inertia = margin.inertia
         self.made.append(
             Phase(
                 margin.loop.eps0,
@@ -151,7 +151,8 @@ class Phases:
                 margin.friction,
                 margin.stiffness,
                 margin.split,
-                as_stated(inertia),
+                heavy.diagonal,
+                heavy.proof,
                 attempt.by,
                 found.envelope,
                 found.slopes,
@@ -159,7 +160,7 @@ class Phases:
         )
         self.last = self._estimate(margin)
         self.time, self.level, self.eps0 = found.time, found.level, margin.loop.eps0
-        self.energy = min(self.energy, regraded(self.level, self.eps0, margin.loop, inertia))
+        self.energy = min(self.energy, regraded(self.level, self.eps0, margin.loop, margin.heaviest))
 
     def _claim(self) -> Shown:
         """What there is to be judged."""
@@ -217,38 +218,29 @@ def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
     if controlled.n > FEW_JOINTS:
         return (Fraction(0),) * controlled.n
     loop = controlled.loop(Fraction(1))
-    mass, parameters = loop.arm.mass, loop.parameters
+    statement = statement_of(loop)
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, controlled.n))
     least = np.min(
-        [1.0 / np.diagonal(np.linalg.inv(M), axis1=1, axis2=2).max(axis=0) for M in _masses(controlled, q)],
+        [1.0 / np.diagonal(np.linalg.inv(M), axis1=1, axis2=2).max(axis=0) for M in masses(controlled, q)],
         axis=0,
     )
     found = []
     for joint, inertia in enumerate(least.tolist()):
         tried = (short_below(Fraction(inertia) * share) for share in SHARES)
-        shown = (x for x in tried if _shown(lightened(mass, joint, x, len(parameters)), parameters))
+        shown = (x for x in tried if _shown(statement.mass_lightened(joint, x)))
         found.append(next(shown, Fraction(0)))
     return tuple(found)
-
-
-def _masses(controlled: ControlledArm, q: Array) -> list[Array]:
-    """M at many angles, at each corner of its ranges."""
-    plant = controlled.ranged
-    corners = corners_of(controlled.loop(Fraction(1)).parameters)
-    arms = (plant.fixed(**dict(zip(plant.parameters, corner, strict=True))) for corner in corners)
-    return [NumericModel(arm).mass(q) for arm in arms]
 
 
 def light_proof(mass: Mass, parameters: tuple[Ends, ...]) -> Bisection | MassAtCorners:
     """What shows such bounds: boxes of angles, at each corner of the ranges if M is affine in parameters."""
     count = len(list(corners_of(parameters)))
-    return MassAtCorners((Bisection(),) * count) if parameters and is_affine(mass, len(mass)) else Bisection()
+    return MassAtCorners((Bisection(),) * count) if parameters and is_affine(mass) else Bisection()
 
 
-def _shown(mass: Mass, parameters: tuple[Ends, ...]) -> bool:
+def _shown(above: MassAbove) -> bool:
     """Whether the checker sees at once that a matrix is positive definite throughout."""
-    above = MassAbove(mass, parameters, Fraction(0))
     try:
-        return verify(above, light_proof(mass, parameters)).verdict == "proved"
+        return verify(above, light_proof(above.mass, above.parameters)).verdict == "proved"
     except Refused:
         return False

@@ -5,23 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
+from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     LargerKv,
     PositiveAndDecreasing,
     statement_of,
 )
-from lyapcheck.check.kinds.inertia import Bisection, Links, LinksAtCorners
+from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.proof import shared_between
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof as Shown
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
+from lyapcheck.search.processes import shared_between
 
-RateData = BoxTree | RadialBounds | LinkBounds
+RateData = BoxTree | LinkBounds
 """What may show dV/dt < 0."""
 
 
@@ -34,7 +34,7 @@ class Proof:
 
     loop: ClosedLoop
     by: RateData
-    inertia: Bisection | Links | LinksAtCorners
+    inertia: Bisection | Links | MassAtCorners
     kv: tuple[Fraction, ...] = field(default=(), kw_only=True)
 
     @property

@@ -42,7 +42,6 @@ from lyapcheck.check.kinds.decreasing import (
     LargerKv,
     PositiveAndDecreasing,
     StateWitness,
-    closed_loop_of,
 )
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
@@ -51,14 +50,14 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     CoriolisBelow,
+    Dominance,
     HarmonicSizes,
     Links,
-    LinksAtCorners,
     MassAbove,
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.kinds.link_bounds import InertiaAlongLinks, LinkBounds
+from lyapcheck.check.kinds.link_bounds import EnergyBelow, LinkBounds, Shown
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
@@ -70,14 +69,12 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.decay_digits import short_above
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
 from lyapcheck.search.schur import Problem
@@ -134,7 +131,7 @@ RATES = (F(1), F(1, 2))
 def of_the_arm() -> Iterator[Row]:
     """Bounds and identities of M, C and g."""
     yield "links", MassAbove(MASS, (), F(0)), Links(LINKS)
-    yield "links-at-corners", MassAbove(LOADED, PAYLOAD, F(0)), LinksAtCorners((LINKS, HEAVIER))
+    yield "links-at-corners", MassAbove(LOADED, PAYLOAD, F(0)), MassAtCorners((Links(LINKS), Links(HEAVIER)))
     yield "mass-boxes", MassBelow(MASS, (), F(6)), Bisection()
     ranged = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1))),),)
     yield "mass-range", MassBelow(ranged, ((F(1), F(2)),), F(7, 2)), Bisection()
@@ -194,9 +191,11 @@ def decreasing(mass: Monomials, eps0: F, kp: F = F(1), viscous: F = F(1)) -> Dec
     return Decreasing(((mass,),), ((viscous, viscous),), (), "tanh", None, (kp,), (F(1),), eps0, ())
 
 
-RADIAL = RadialBounds((F(1),), F(11, 10), F(0), (), ".", (F(0), F(1)))
-REDUCED = RadialBounds((F(4, 5),), F(8, 5), F(0), (), ".", (F(0), F(1)))
-"""At three quarters of the friction."""
+CROSSED: Monomials = (((0, 0, 0, 1), F(3)),)
+DOMINANT = (((((0, 0, 0, 0), F(4)),), CROSSED), (CROSSED, (((0, 0, 0, 0), F(3)),)))
+"""[[4, 3 cos q2], [3 cos q2, 3]]: with equal weights the second row is not dominated by its diagonal."""
+HEAVIEST = (F(11, 10),)
+"""Above the inertia of that joint."""
 SETTLING = Settling(
     mass=((UNIT,),),
     viscous=((F(1), F(1)),),
@@ -219,8 +218,9 @@ LEVELS = FallingLevels(
     stiffness=F(1, 4),
     split=F(1, 2),
     slack=F(0),
-    inertia=RADIAL,
-    decreasing=PositiveAndDecreasing(Bisection(), REDUCED),
+    heaviest=HEAVIEST,
+    inertia=Dominance((F(1),)),
+    decreasing=PositiveAndDecreasing(Bisection(), BoxTree(".")),
     slopes=(F(2, 5), F(2, 5)),
 )
 FIRST = Phase(
@@ -230,7 +230,8 @@ FIRST = Phase(
     friction=F(1, 4),
     stiffness=F(1, 4),
     split=F(1, 2),
-    inertia=RADIAL,
+    heaviest=HEAVIEST,
+    inertia=Dominance((F(1),)),
     rate=BoxTree("."),
     envelope=((F(0), F(1, 4)), (F(40), F(1, 8)), (F(80), F(1, 16))),
     slopes=(F(2, 5), F(2, 5)),
@@ -266,7 +267,9 @@ RANGING: dict[str, Any] = {
 }
 """The same joint with ranges for inertia and friction."""
 RANGED_LEVELS = replace(
-    LEVELS, decreasing=PositiveAndDecreasing(MassAtCorners((Bisection(),) * 2), RateAtCorners((REDUCED,) * 2))
+    LEVELS,
+    inertia=MassAtCorners((Dominance((F(1),)),) * 2),
+    decreasing=PositiveAndDecreasing(MassAtCorners((Bisection(),) * 2), RateAtCorners((BoxTree("."),) * 2)),
 )
 RANGED_PHASES = replace(
     PHASES,
@@ -274,7 +277,7 @@ RANGED_PHASES = replace(
     lightest=(F(4, 5),),
     lightness=(MassAtCorners((Bisection(),) * 2),),
     phases=tuple(
-        replace(phase, rate=RateAtCorners((BoxTree("."),) * 2))
+        replace(phase, inertia=MassAtCorners((Bisection(),) * 2), rate=RateAtCorners((BoxTree("."),) * 2))
         for phase in (FIRST, replace(SECOND, floors=(F(17, 20),)))
     ),
 )
@@ -308,17 +311,21 @@ def linked(loop: ClosedLoop) -> PositiveAndDecreasing:
     boxes = ErrorBoxes(loop, bounds).covered(5_000)
     assert boxes.proved
     rate = replace(bounds, tree=boxes.tree, scales=boxes.scales)
-    return PositiveAndDecreasing(LinksAtCorners((LINKS, HEAVIER)), rate)
+    return PositiveAndDecreasing(MassAtCorners((Links(LINKS), Links(HEAVIER))), rate)
+
+
+def energies_below() -> tuple[EnergyBelow, ...]:
+    """That M is below the prices of these bounds, for each arm."""
+    shown = along_links().inertia
+    rows = zip((LINKS, HEAVIER), shown.forms, strict=True)
+    return tuple(EnergyBelow(links, Shown(shown.prices, (forms,))) for links, forms in rows)
 
 
 def settling_linked() -> tuple[Settling, FallingLevels]:
     """One band of V of the same arm at a smaller ε₀."""
     eps0 = F(1, 10)
-    loop = replace(closed_loop_of(LINKED), eps0=eps0)
-    bounds, weights = along_links(), (F(2), F(17, 10))
-    mu = max(x / (d * d) for x, d in zip(bounds.inertia.prices, weights, strict=True))
-    inertia = InertiaAlongLinks(weights, short_above(mu), bounds.arms, bounds.inertia)
-    margin = Margin(loop, F(1, 4), F(1, 2), F(1, 4), F(0), inertia)
+    each = energies_below()
+    margin = Margin(LINKED.loop(eps0), F(1, 4), F(1, 2), F(1, 4), F(0), each[0].bound.prices)
     statement = Settling(
         mass=LOADED,
         viscous=LINKED.viscous,
@@ -337,7 +344,8 @@ def settling_linked() -> tuple[Settling, FallingLevels]:
         errors=(F(3, 2), F(3, 2)),
     )
     shares = margin.friction, margin.stiffness, margin.split, margin.slack
-    return statement, FallingLevels(*shares, inertia, linked(margin.reduced), (F(1, 10),))
+    below = linked(margin.reduced)
+    return statement, FallingLevels(*shares, margin.heaviest, MassAtCorners(each), below, (F(1, 10),))
 
 
 NO_ARM = (F(0),), (), (F(1),)
@@ -361,8 +369,11 @@ def of_the_loop() -> Iterator[Row]:
     yield "boxes", decreasing(UNIT, F(1, 10)), PositiveAndDecreasing(Bisection(), BoxTree("."))
     damped = PositiveAndDecreasing(Bisection(), BoxTree("."))
     yield "larger-kv", replace(decreasing(UNIT, F(1, 10)), kv=(F(1, 2),)), LargerKv((F(1),), damped)
-    yield "radial", decreasing(UNIT, F(1, 4)), PositiveAndDecreasing(Bisection(), RADIAL)
-    yield "linked", LINKED, linked(closed_loop_of(LINKED))
+    yield "linked", LINKED, linked(LINKED.closed_loop)
+    yield "settling-linked", *settling_linked()
+    energy = energies_below()[0]
+    heavy = replace(LINKED, mass=MASS, parameters=()).mass_below(energy.bound.prices)
+    yield "energy-below", heavy, energy
     yield "no-arm", decreasing(MINUS, F(1, 10)), PostureWitness(*NO_ARM)
     at = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
     yield "eps0-too-large", decreasing(UNIT, F(10)), at
@@ -374,12 +385,12 @@ def of_the_loop() -> Iterator[Row]:
     slower = ((F(0), F(1, 4)), (F(400), F(1, 8)), (F(800), F(1, 16)))
     pushed = replace(SETTLING, torque=(F(1, 100),), dry=(F(1, 1000),), envelope=slower)
     yield "pushed", pushed, replace(LEVELS, slack=F(1, 5))
-    yield "settling-linked", *settling_linked()
     yield "phases", STAYS_WITHIN, PHASES
     yield "settling-ranged", replace(SETTLING, **RANGING), RANGED_LEVELS
     yield "phases-ranged", replace(STAYS_WITHIN, **RANGING), RANGED_PHASES
     yield "stopping-ranged", replace(STOPPING, **RANGING), EnergyFalls(Bisection())
     mass_range = MassAbove(RANGING["mass"], RANGING["parameters"], F(1, 2))
+    yield "dominant", MassAbove(DOMINANT, (), F(0)), Dominance((F(4), F(5)))
     yield "mass-at-corners", mass_range, MassAtCorners((Bisection(),) * 2)
     yield "stopping", STOPPING, None
     yield "not-stopping", replace(STOPPING, errors=(F(1, 2),)), None

@@ -33,7 +33,7 @@ STATED = {
     "phases": (replace(STAYS_WITHIN, **RANGING), RANGED_PHASES, PHASES),
 }
 WIDER: dict[str, Callable[[Any], Any]] = {
-    "less friction": lambda one: replace(one, viscous=((F(9, 10), F(6, 5)),)),
+    "far less friction": lambda one: replace(one, viscous=((F(1, 10), F(6, 5)),)),
     "far more friction": lambda one: replace(one, viscous=((F(1), F(20)),)),
     "more inertia": lambda one: replace(one, parameters=((F(9, 10), F(6, 5)),)),
     "no inertia": lambda one: replace(one, parameters=((F(0), F(1)),)),
@@ -86,7 +86,7 @@ def test_corners_decide_only_where_m_is_affine() -> None:
 
 def test_friction_between_its_ends_is_paid_by_stiffness() -> None:
     """(1 − κ)K_p − ¼ ε₀ Δ, at the lower end of B: high friction is worst for stiffness, low for damping."""
-    margin = Margin(_loop(((F(1), F(3)),)), F(1, 4), F(1, 4), F(1, 2), F(0), LEVELS.inertia)
+    margin = Margin(_loop(((F(1), F(3)),)), F(1, 4), F(1, 4), F(1, 2), F(0), LEVELS.heaviest)
     assert margin.reduced.kp == (F(3, 4) - F(1, 5) * 2 / 4,)
     assert margin.reduced.friction == ((F(3, 4), F(3, 4)),)
     assert margin.viscous == (F(1),)

@@ -123,7 +123,7 @@ FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
     ("λ = 0", put("0", "proof", "slopes", -1), "too short|is not shown to fall"),
     ("one λ fewer", put([], "proof", "slopes"), "one a band"),
     ("a larger share of friction", put("9/10", "proof", "friction"), "."),
-    ("a smaller μ", put("1/10", "proof", "inertia", "inertia"), "."),
+    ("a smaller u", put(["1/10", "1/10"], "proof", "heaviest"), "."),
     ("one box", put(".", "proof", "decreasing", "rate", "tree"), "dV/dt|tree"),
     ("no level", put([], "statement", "envelope"), "must have a level"),
     ("a torque below 0", put(["-1", "0"], "statement", "torque"), "from 0 to"),

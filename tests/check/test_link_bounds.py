@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
-from lyapcheck.check.kinds.inertia import LinksAtCorners
-from lyapcheck.check.kinds.link_bounds import BITS, InertiaAlongLinks, LinkBounds
+from lyapcheck.check.kinds.inertia import Links
+from lyapcheck.check.kinds.link_bounds import BITS, EnergyBelow, LinkBounds
 from lyapcheck.check.loop.boxes import BrokenTree
-from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.error_form import BoxForm
 from lyapcheck.check.loop.schur import inverse_one_plus_root
 from lyapcheck.check.loop.states import State, rate
@@ -29,8 +29,8 @@ from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.heaviest import heaviest
 from lyapcheck.search.link_bounds import link_bounds
-from lyapcheck.search.margins import inertia_bound
 from lyapcheck.search.proof import Proof
 from tests.helpers.shares import but
 
@@ -217,42 +217,43 @@ def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -
     low, high = found.loop.parameters[0]
     assert high - low == 3
     assert found.loop.viscous[0] == (F("4.2"), F("7.8"))
-    assert isinstance(found.inertia, LinksAtCorners)
+    assert isinstance(found.inertia, MassAtCorners)
     assert judged(found.statement, found, data) == "proved"
     for wrong in (data.arms[::-1], data.arms[:1]):
         with pytest.raises(Refused):
             judged(found.statement, found, replace(data, arms=wrong))
         with pytest.raises(Refused):
-            verify(found.statement, PositiveAndDecreasing(LinksAtCorners(wrong), data))
+            verify(found.statement, PositiveAndDecreasing(MassAtCorners(tuple(map(Links, wrong))), data))
     wider = replace(found.loop, parameters=((low, high + 1),))
     with pytest.raises(Refused):
         judged(statement_of(wider), found, data)
 
 
 @pytest.mark.slow
-def test_the_inertia_beside_the_friction_is_shown_by_the_links_of_each_corner() -> None:
+def test_m_is_below_a_diagonal_by_the_links_of_each_corner() -> None:
     controlled = example("px100", 1)
-    arms, heavier = at_corners(controlled.loop(F(1))), [Vary.parsed("mass=+0%..+30%")]
-    bound = inertia_bound(controlled)
-    assert isinstance(bound, InertiaAlongLinks)
-    assert bound.shows_inertia(arms)
+    statement, heavy = statement_of(controlled.loop(F(1))), heaviest(controlled)
+    assert heavy is not None
+    proof, below = heavy.proof, statement.mass_below(heavy.diagonal)
+    assert isinstance(proof, EnergyBelow)
+    assert verify(below, proof).verdict == "proved"
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2_000, 4))
-    d = np.array([float(x) for x in bound.weights])
-    largest = np.linalg.eigvalsh(controlled.numeric.mass(q) / np.outer(d, d)).max()
-    assert largest < bound.inertia < F("1.1") * F(largest)
-    model = varied(controlled.model, heavier)  # type: ignore[arg-type]
-    ranged = at_corners(ControlledArm(controlled.gains, model, True).loop(F(1)))
-    assert len(ranged) == 16
-    prices = tuple(x * F(9, 10) for x in bound.bound.prices)
-    faults = {
-        "μ too small": replace(bound, inertia=bound.inertia * F(9, 10)),
-        "weights too small": replace(bound, weights=tuple(x / 2 for x in bound.weights)),
-        "one weight": replace(bound, weights=bound.weights[:1]),
-        "U too small": replace(bound, bound=replace(bound.bound, prices=prices)),
-        "no arm": replace(bound, arms=()),
-        "a joint left out": replace(bound, arms=(bound.arms[0][:3],)),
-        "no form": replace(bound, bound=replace(bound.bound, forms=())),
-    }
-    assert [name for name, fault in faults.items() if fault.shows_inertia(arms)] == []
-    assert not bound.shows_inertia(ranged)
-    assert not bound.shows_inertia(ranged[-1:])
+    root = np.sqrt([float(b) for b, _ in controlled.loop(F(1)).friction])
+    largest = np.linalg.eigvalsh(controlled.numeric.mass(q) / np.outer(root, root)).max()
+    ratio = max(float(u) / b**2 for u, b in zip(heavy.diagonal, root, strict=True))
+    assert largest < ratio < 1.1 * largest
+    for wrong in (
+        replace(proof, bound=replace(proof.bound, prices=tuple(x * F(9, 10) for x in proof.bound.prices))),
+        replace(proof, bound=replace(proof.bound, forms=())),
+        replace(proof, links=proof.links[:3]),
+    ):
+        with pytest.raises(Refused):
+            verify(below, wrong)
+    smaller = tuple(x * F(9, 10) for x in heavy.diagonal)
+    with pytest.raises(Refused):
+        verify(statement.mass_below(smaller), replace(proof, bound=replace(proof.bound, prices=smaller)))
+    ranged = ControlledArm(controlled.gains, varied(controlled.model, [Vary.parsed("mass=+0%..+30%")]), True)
+    over = heaviest(ranged)
+    assert over is not None
+    assert isinstance(over.proof, MassAtCorners)
+    assert len(over.proof.each) == 16

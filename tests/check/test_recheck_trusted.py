@@ -37,21 +37,20 @@ HEADLINES = {
         "bisection",
         "tree of boxes",
     ),
-    "ε₀ in ‖e‖ alone": ("Decreasing", "M positive and V decreasing", "links", "bounds in ‖e‖"),
     "ε₀ along the links": ("Decreasing", "M positive and V decreasing", "links", "bounds along the links"),
     "how near an arm comes, and when": (
         "Settling",
         "falling levels",
         "M positive and V decreasing",
         "links",
-        "bounds in ‖e‖",
+        "tree of boxes",
+        "dominant diagonal",
     ),
     "when errors are small, in phases": (
         "StaysWithin",
         "falling levels in phases",
         "bisection",
         "tree of boxes",
-        "bounds in ‖e‖",
     ),
     "how near an arm of many joints comes, and when": (
         "Settling",
@@ -59,7 +58,7 @@ HEADLINES = {
         "M positive and V decreasing",
         "links",
         "bounds along the links",
-        "inertia along the links",
+        "energy along the links",
     ),
     "a property of the closed loop": ("Property", "obligations", *OF_OBLIGATIONS),
     "a theorem about a closed loop": ("Stable", "obligations", *OF_OBLIGATIONS, "leading term"),
@@ -135,7 +134,7 @@ PURPOSES = {
     "`kinds/`, every n": "every_n bound_every_n",
     "`kinds/`, one arm": "inertia coriolis gravity compared chain chain_identity",
     "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting "
-    "ranges at_corners radial_bounds",
+    "of_loop at_corners",
     "`kinds/`, theorems": "stability stable_arm property",
 }
 

@@ -22,7 +22,6 @@ from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.weights import Weighted, weighted_epsilon
 from tests.helpers.shares import one_in
 
@@ -114,12 +113,8 @@ def test_certificates_hold_the_weights() -> None:
             verify(statement_of(replace(proof.loop, coupling=coupling)), proof.certificate)
 
 
-def test_states_and_radial_bounds_are_about_no_weights() -> None:
+def test_states_are_about_no_weights() -> None:
     loop, nothing = weighted(0).proof.loop, (F(0), F(0))
     witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
     with pytest.raises(Refused):
         verify(statement_of(loop), witness)
-    radial = radial_epsilon(controlled(0))
-    assert radial is not None
-    with pytest.raises(Refused):
-        verify(statement_of(replace(radial.loop, coupling=(F(1), F(1)))), radial.certificate)

@@ -13,17 +13,18 @@ from functools import cache
 import numpy as np
 import pytest
 
-from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.inertia import Bisection, Dominance, MassAbove
 from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
-from lyapcheck.check.kinds.settling import require_margin
+from lyapcheck.check.kinds.settling import require_signs
+from lyapcheck.check.loop.closed_loop import RateProof
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.least import Well
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.radial import Parts
-from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
 from lyapcheck.cli.main import main
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -33,9 +34,10 @@ from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay import disturbance_bound, settling_bound
 from lyapcheck.search.decay_levels import level_within
-from lyapcheck.search.margins import Attempt, attempts, margin_at, reduced_radial
-from lyapcheck.search.radial import radial_data
+from lyapcheck.search.heaviest import heaviest
+from lyapcheck.search.margins import Attempt, attempts, margin_at
 from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
+from tests.arena.extra import DOMINANT
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -62,10 +64,13 @@ LIMIT = {"buap3": (F("0.134"), F("0.166"), F("0.104")), "reyes-kelly2": (F("0.81
 """Just below an ε₀ that an explicit state refutes."""
 
 
-def shown(margin: Margin, positive: Proof, by: Proof) -> bool:
+def shown(margin: Margin, positive: Proof, by: RateProof) -> bool:
     """Whether the checker takes the margin."""
     try:
-        return require_margin(margin, PositiveAndDecreasing(positive, by)) == "enclosure"
+        require_signs(margin)
+        above = verify(statement_of(margin.loop).mass_below(margin.heaviest), Bisection())
+        below = verify(statement_of(margin.reduced), PositiveAndDecreasing(positive, by))
+        return above.verdict == below.verdict == "proved"
     except Refused:
         return False
 
@@ -74,9 +79,9 @@ def shown(margin: Margin, positive: Proof, by: Proof) -> bool:
 def accepted(robot: str, index: int) -> Attempt:
     """A margin with η = 1/4 at less than half of what is refuted."""
     at = controlled(robot, index)
-    data = radial_data(at)
-    assert data is not None
-    tried = attempts(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), data))
+    heavy = heaviest(at)
+    assert heavy is not None
+    tried = attempts(at, margin_at(at, LIMIT[robot][index] / 2, F(1, 4), F(0), heavy.diagonal))
     return next(one for one in tried if shown(one.margin, at.inertia_proof, one.by))
 
 
@@ -291,34 +296,32 @@ def test_a_margin_that_is_too_large_is_refused() -> None:
     assert not shown(replace(margin, friction=F(19, 20)), at.inertia_proof, result.by)
     assert not shown(replace(margin, stiffness=F(1)), at.inertia_proof, result.by)
     assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), at.inertia_proof, result.by)
-    smaller = replace(margin.inertia, inertia=margin.inertia.inertia / 2)
-    assert not shown(replace(margin, inertia=smaller), at.inertia_proof, result.by)
-    heavier = replace(margin.inertia, weights=tuple(2 * d for d in margin.inertia.weights))
-    assert not shown(replace(margin, inertia=heavier), at.inertia_proof, result.by)
+    lighter = tuple(u / 2 for u in margin.heaviest)
+    assert not shown(replace(margin, heaviest=lighter), at.inertia_proof, result.by)
     assert not shown(
-        margin_at(at, F(1), margin.friction, F(0), margin.inertia), at.inertia_proof, BoxTree(".")
+        margin_at(at, F(1), margin.friction, F(0), margin.heaviest), at.inertia_proof, BoxTree(".")
     )
 
 
-def test_data_in_r_alone_show_a_margin_too() -> None:
-    at = controlled("reyes-kelly2", 0)
-    data = radial_data(at)
-    assert data is not None
-    margin = margin_at(at, F(1, 20), F(1, 10), F(0), data)
-    own = reduced_radial(margin)
-    by = own
-    assert shown(margin, at.inertia_proof, by)
-    assert not shown(margin_at(at, F(1), F(1, 10), F(0), data), at.inertia_proof, by)
+@pytest.mark.parametrize("robot", ["buap3", "reyes-kelly2", "pelican2"])
+def test_the_diagonal_above_m_is_in_proportion_to_the_friction(robot: str) -> None:
+    at = single(robot)
+    heavy = heaviest(at)
+    assert heavy is not None
+    M = at.numeric.mass(np.random.default_rng(1).uniform(-math.pi, math.pi, (2_000, at.n)))
+    above = np.diag([float(u) for u in heavy.diagonal])
+    assert np.linalg.eigvalsh(above - M).min() > 0
+    ratios = [float(u) / b for u, b in zip(heavy.diagonal, at.viscous, strict=True)]
+    assert max(ratios) <= 1.0001 * min(ratios)
 
 
-@pytest.mark.parametrize("friction", [F(1, 10), F(3, 5)])
-def test_bounds_of_the_inertia_hold_beside_the_friction_that_is_left(friction: Fraction) -> None:
-    at = controlled("buap3", 0)
-    data = radial_data(at)
-    assert data is not None
-    margin = margin_at(at, F(1, 100), friction, F(0), data)
-    with precision(64):
-        assert Parts(margin.reduced, reduced_radial(margin)).inertia_shown()
+def test_weights_show_a_dominant_diagonal() -> None:
+    assert verify(MassAbove(DOMINANT, (), F(0)), Dominance((F(4), F(5)))).verdict == "proved"
+    for weights in ((F(1), F(1)), (F(1), F(2)), (F(-4), F(-5)), (F(4),)):
+        with pytest.raises(Refused):
+            verify(MassAbove(DOMINANT, (), F(0)), Dominance(weights))
+    with pytest.raises(Refused):
+        verify(MassAbove(DOMINANT, (), F(1)), Dominance((F(4), F(5))))
 
 
 def test_a_slope_beyond_its_end_and_levels_out_of_order_are_refused() -> None:

@@ -34,7 +34,6 @@ from lyapcheck.search.falsify import STARTS, Witness, falsify
 from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
-from lyapcheck.search.radial import radial_epsilon
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.weights import weighted_epsilon
 
@@ -257,9 +256,6 @@ def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, s
     norm, reason = norm_epsilon(controlled)
     if norm is None:
         return None, "", reason
-    radial = radial_epsilon(controlled)
-    if radial is not None and radial.loop.eps0 > norm.loop.eps0:
-        return radial, "bounds in ‖e‖ alone", result.reason
     return norm, "norms alone", result.reason
 
 

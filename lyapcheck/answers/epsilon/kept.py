@@ -20,7 +20,6 @@ from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.radial import RadialBounds
 from lyapcheck.check.loop.states import State
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof as Shown
@@ -199,9 +198,7 @@ def _proof(told: Any, controlled: ControlledArm) -> Proof | None:
     if told is None:
         return None
     result = from_json(Shown, told["proof"], "proof")
-    if not isinstance(result, PositiveAndDecreasing) or not isinstance(
-        result.rate, BoxTree | RadialBounds | LinkBounds
-    ):
+    if not isinstance(result, PositiveAndDecreasing) or not isinstance(result.rate, BoxTree | LinkBounds):
         raise TypeError(f"{type(result).__name__} proves no ε₀")
     coupling = from_json(tuple[Fraction, ...], told["coupling"], "coupling")
     return Proof(controlled.loop(Fraction(told["eps0"]), coupling), result.rate, controlled.inertia_proof)

@@ -1,7 +1,7 @@
 """Certificates as conditions of the gate: gains are accepted where some ε₀ > 0 is proved for the arm.
 
     scalar   dV/dt < 0 at every state but the origin, from norms of M and C alone
-    global   the same by boxes or by bounds in ‖e‖, which prove a larger ε₀
+    global   the same by boxes or by bounds along the links, which prove a larger ε₀
     lasalle  M(q) ≻ 0, which is all that LaSalle's theorem asks of an arm, with or without friction
 
 The first two are statements ``Decreasing``, M(q) ≻ 0 included, accepted where ``lyapcheck.check.verify``
@@ -24,7 +24,6 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import Proof
-from lyapcheck.search.radial import radial_epsilon
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
@@ -110,7 +109,4 @@ def _proofs(controlled: ControlledArm, coarse: Proof) -> Iterator[Proof]:
         result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES)
         if result.proof is not None:
             yield result.proof
-    radial = radial_epsilon(controlled)
-    if radial is not None:
-        yield radial
     yield coarse

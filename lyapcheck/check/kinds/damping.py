@@ -11,29 +11,22 @@ from fractions import Fraction
 from lyapcheck.check.expressions.domain import Domain
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
-from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
+from lyapcheck.check.expressions.text import expression_text, number_text
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.decreasing import Decreasing, friction_text, member_text
-from lyapcheck.check.kinds.inertia import mass_text
+from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, OfTerms, Proof, Relation
+from lyapcheck.check.statement import OfTerms, Proof, Relation
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class DampingBelow(OfTerms):
+class DampingBelow(OfLoop, OfTerms):
     """For all κ > 0 and ε₀ > 0: where dV/dt < 0 at every state but the origin, κ λmax(K_v) < bound.
 
-    The gains are K_p and κ K_v; the other fields are those of ``Decreasing``, with (13) for V.
+    The gains are K_p and κ K_v; V is that of (13).
     """
 
-    mass: tuple[tuple[Monomials, ...], ...]
-    viscous: tuple[Ends, ...]
-    parameters: tuple[Ends, ...]
-    family: str
-    m: int | None
-    kp: tuple[Fraction, ...]
-    kv: tuple[Fraction, ...]
     bound: Tree
 
     def with_damping(self, factor: Fraction, eps0: Fraction) -> Decreasing:
@@ -47,8 +40,8 @@ class DampingBelow(OfTerms):
         return Constant(Relation(("num", str(factor * max(self.kv))), "<", self.bound))
 
     def require_well_formed(self) -> None:
-        """The fields that it shares with ``Decreasing``, at any ε₀."""
-        self.with_damping(Fraction(1), Fraction(1)).require_well_formed()
+        """K_v above 0, and an expression without variables."""
+        super().require_well_formed()
         require(all(k > 0 for k in self.kv), "kv", self.kv, "must be positive")
         require_expressions([self.bound], [])
 
@@ -60,10 +53,8 @@ class DampingBelow(OfTerms):
         """The statement in one line."""
         return (
             "for all κ > 0 and ε₀ > 0: if M(q) ≻ 0 and dV/dt < 0 at every state but the origin, for "
-            f"B = {friction_text(self.viscous)}, h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)} and κ K_v with K_v = {diagonal_text(self.kv)}, then "
-            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; "
-            f"{mass_text(self.mass, self.parameters)}"
+            f"{self.gains_text(' and κ K_v with K_v')}, then "
+            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; {self.mass_text()}"
         )
 
 

@@ -10,58 +10,36 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, mass_text, require_mass
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
-from lyapcheck.check.loop.proof import proves, sharing
+from lyapcheck.check.loop.corners import at_parameters
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Total
+from lyapcheck.check.statement import Ends, Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class Decreasing(Total):
+class Decreasing(OfLoop, Total):
     """M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, for every arm in the ranges.
 
     V of (13) is then positive definite and radially unbounded, so that the origin is globally asymptotically
     stable by Lyapunov's direct method (``kelly2005control``, chapter 2).
 
-    ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B, N·m·s/rad; ``parameters`` the
-    range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and ``kv`` are in N·m, ``eps0`` is ε₀;
-    ``coupling`` is the diagonal of Λ in y = w − εΛh, empty for (13).
+    ``eps0`` is ε₀; ``coupling`` is the diagonal of Λ in y = w − εΛh, empty for (13).
     """
 
-    mass: tuple[tuple[Monomials, ...], ...]
-    viscous: tuple[Ends, ...]
-    parameters: tuple[Ends, ...]
-    family: str
-    m: int | None
-    kp: tuple[Fraction, ...]
-    kv: tuple[Fraction, ...]
     eps0: Fraction
     coupling: tuple[Fraction, ...]
 
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
-        require_mass(self.mass, self.parameters)
-        n = len(self.mass)
-        for subject in ("viscous", "kp", "kv"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
-        coupling = len(self.coupling)
-        require(coupling in (0, n), "coupling", coupling, f"must be empty or {n}, one a joint")
-        for low, high in self.viscous:
-            require(low <= high, "range", f"[{low}, {high}]", "is empty")
-
-    @property
-    def granted(self) -> tuple[str, ...]:
-        """What ties the numbers to a robot."""
-        return (
-            "the robot is (1) with this M(q), C by Christoffel symbols, and B, whose ranges hold its numbers",
-            TORQUE,
-        )
+        super().require_well_formed()
+        if self.coupling:
+            self.require_one_a_joint("coupling")
 
     def text(self) -> str:
         """The statement in one line."""
@@ -73,11 +51,12 @@ class Decreasing(Total):
     def loop_text(self) -> str:
         """Of which closed loop and V."""
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
-        return (
-            f"B = {friction_text(self.viscous)}, h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
-            f"ε₀ = {number_text(self.eps0)}{weights} and {mass_text(self.mass, self.parameters)}"
-        )
+        return f"{self.gains_text()}, ε₀ = {number_text(self.eps0)}{weights} and {self.mass_text()}"
+
+    @property
+    def closed_loop(self) -> ClosedLoop:
+        """The loop, at this ε₀ and with these weights."""
+        return self.loop(self.eps0, coupling=self.coupling)
 
 
 @dataclass(frozen=True)
@@ -90,7 +69,7 @@ class BoxTree(RateProof):
     def require_shown(self, loop: ClosedLoop) -> None:
         """By :func:`proves`."""
         boxes = f"of {self.tree.count('.')} boxes"
-        require(proves(loop, self.tree, sharing()), "tree", boxes, "has a box on which P ≻ 0 is not shown")
+        require(proves(loop, self.tree), "tree", boxes, "has a box on which P ≻ 0 is not shown")
 
 
 @dataclass(frozen=True)
@@ -99,7 +78,7 @@ class PositiveAndDecreasing(Proof):
 
     rule = "M positive and V decreasing"
     inertia: Proof
-    rate: Proof
+    rate: RateProof
 
 
 @dataclass(frozen=True)
@@ -126,11 +105,9 @@ class StateWitness(Proof):
 @rule(Decreasing, PositiveAndDecreasing)
 def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
     """Soundness: M ≻ 0 by a proof of its own, dV/dt < 0 by ``lyapcheck.check.loop``."""
-    positive = require_proved(mass_positive(statement), proof.inertia, "M ≻ 0")
-    loop = closed_loop_of(statement)
+    positive = require_proved(statement.mass_positive, proof.inertia, "M ≻ 0")
+    loop = statement.closed_loop
     require(loop.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
-    if not isinstance(proof.rate, RateProof):
-        raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
     proof.rate.require_shown(loop)
     return Accepted("proved", weakest([positive, "enclosure"]))
 
@@ -148,15 +125,10 @@ def by_larger_kv(statement: Decreasing, proof: LargerKv) -> Accepted:
     return Accepted("proved", grade)
 
 
-def mass_positive(statement: Decreasing) -> MassAbove:
-    """M(q) ≻ 0 for the arm of a statement."""
-    return MassAbove(statement.mass, statement.parameters, Fraction(0))
-
-
 @rule(Decreasing, PostureWitness)
 def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
     """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
-    result = verify(mass_positive(statement), proof)
+    result = verify(statement.mass_positive, proof)
     require(result.verdict == "refuted", "M ≻ 0", result.verdict, "must be refuted")
     return result
 
@@ -178,7 +150,7 @@ def require_rising(statement: Decreasing, proof: StateWitness) -> None:
     _require_within("viscous", proof.viscous, statement.viscous)
     _require_within("parameters", proof.parameters, statement.parameters)
     mass = tuple(
-        tuple(_at(entry, 2 * len(statement.mass), proof.parameters) for entry in row)
+        tuple(at_parameters(entry, 2 * len(statement.mass), proof.parameters) for entry in row)
         for row in statement.mass
     )
     known = member(statement.family, statement.m)
@@ -186,21 +158,6 @@ def require_rising(statement: Decreasing, proof: StateWitness) -> None:
     state = State(proof.q, proof.e, proof.w)
     if not confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state):
         raise Refused("state", "", "does not show dV/dt > 0")
-
-
-def closed_loop_of(statement: Decreasing) -> ClosedLoop:
-    """The statement as the checker of trees takes it."""
-    return ClosedLoop(
-        arm=Arm(statement.mass, tuple(low for low, _ in statement.viscous)),
-        family=statement.family,
-        m=statement.m,
-        kp=statement.kp,
-        kv=statement.kv,
-        eps0=statement.eps0,
-        parameters=statement.parameters,
-        viscous=statement.viscous,
-        coupling=statement.coupling,
-    )
 
 
 def statement_of(loop: ClosedLoop) -> Decreasing:
@@ -222,29 +179,3 @@ def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[E
     require(len(values) == len(ranges), subject, len(values), f"must be {len(ranges)}")
     for value, (low, high) in zip(values, ranges, strict=True):
         require(low <= value <= high, subject, value, f"must be between {low} and {high}")
-
-
-def _at(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
-    """The entry with numbers for the parameters."""
-    result = []
-    for powers, coefficient in entry:
-        value = coefficient
-        for parameter, power in zip(parameters, powers[angles:], strict=True):
-            value *= parameter**power
-        result.append((powers[:angles], value))
-    return tuple(result)
-
-
-def friction_text(viscous: Sequence[Ends]) -> str:
-    """``diag(…)`` with the numbers, or the ranges."""
-    return f"diag({', '.join(map(_ends_text, viscous))})"
-
-
-def member_text(family: str, m: int | None) -> str:
-    """The function by its name, with its m."""
-    return family if m is None else f"{family}_{m}"
-
-
-def _ends_text(ends: Ends) -> str:
-    low, high = map(number_text, ends)
-    return low if low == high else f"{low} … {high}"

@@ -18,9 +18,9 @@ from flint import arb
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.field import MOST_BOXES
+from lyapcheck.check.loop.field import MOST_BOXES, size_of
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
-from lyapcheck.check.loop.links import makes, makes_at_corners
+from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
@@ -333,31 +333,46 @@ def by_links(statement: MassAbove, proof: Links) -> Accepted:
     """Soundness: xᵀMx is the sum of energies none of which is negative; the first that moves is positive."""
     require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
     require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
-    same = len(proof.links) == len(statement.mass) and all(link.fits for link in proof.links)
-    require(same, "links", len(proof.links), "must be one joint and real body for each row")
-    require(makes(proof.links, statement.mass), "links", "", "do not make this M(q)")
+    made = makes(proof.links, statement.mass)
+    require(made, "links", len(proof.links), "must be one joint and real body for each row, making this M")
     moves = all(link.about_axis > 0 for link in proof.links)
     require(moves, "links", "", "have one without energy about its own axis")
     return Accepted("proved", "exact")
 
 
 @dataclass(frozen=True)
-class LinksAtCorners(Proof):
-    """The links of the arm at each corner of the ranges of its parameters, in the order of ``corners_of``."""
+class Dominance(Proof):
+    """Weights w_i > 0 with which each entry of the diagonal exceeds the others of its row: Σ_j |M_ij| w_j."""
 
-    rule = "links at corners"
-    arms: tuple[tuple[RigidLink, ...], ...]
+    rule = "dominant diagonal"
+    weights: tuple[Fraction, ...]
 
 
-@rule(MassAbove, LinksAtCorners)
-def by_links_at_corners(statement: MassAbove, proof: LinksAtCorners) -> Accepted:
-    """Soundness: M is a mean of its values at the corners, each positive definite as by `by_links`."""
-    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
-    made = makes_at_corners(proof.arms, statement.mass, statement.parameters)
-    require(made, "links", len(proof.arms), "do not make M(q) at the corners of its ranges")
-    moves = all(link.about_axis > 0 for links in proof.arms for link in links)
-    require(moves, "links", "", "have one without energy about its own axis")
+@rule(MassAbove, Dominance)
+def by_dominance(statement: MassAbove, proof: Dominance) -> Accepted:
+    """Soundness: 2|x_i x_j| ≤ x_i² w_j/w_i + x_j² w_i/w_j, so xᵀMx ≥ Σ_i x_i² (M_ii − Σ_j |M_ij| w_j/w_i)."""
+    mass, w = statement.symmetric.mass, proof.weights
+    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
+    fits = len(w) == len(mass) and min(w) > 0
+    require(fits, "weights", len(w), f"must be {len(mass)} positive numbers")
+    for i, row in enumerate(mass):
+        mean, _ = row[i].get((), {}).get((0,) * len(mass), (Fraction(0), 0))
+        others = sum((size_of(x, ()) * by for x, by in zip(row, w, strict=True)), -abs(mean) * w[i])
+        exceeds = (mean - statement.low) * w[i] > others
+        require(exceeds, f"row {i + 1}", f"{float(others):.6g}", "is not exceeded by the diagonal")
     return Accepted("proved", "exact")
+
+
+def shifted(mass: Mass, sign: int, diagonal: Sequence[Fraction], parameters: int) -> Mass:
+    """± M + diag(…), M a polynomial in so many parameters."""
+    constant = (0,) * (2 * len(mass) + parameters)
+    return tuple(
+        tuple(
+            (*((powers, sign * c) for powers, c in entry), *([(constant, diagonal[i])] if i == j else []))
+            for j, entry in enumerate(row)
+        )
+        for i, row in enumerate(mass)
+    )
 
 
 def dot(x: Sequence[arb], y: Sequence[arb]) -> arb:

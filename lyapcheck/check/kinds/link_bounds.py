@@ -8,14 +8,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from lyapcheck.check.kinds.inertia import MassAbove, shifted
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound, RateProof
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
+from lyapcheck.check.loop.corners import masses_at_corners
 from lyapcheck.check.loop.error_form import SCALE, BoxForm, Row
-from lyapcheck.check.loop.links import makes, makes_at_corners
+from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import Accepted, rule
 
 BITS = 64
 
@@ -40,29 +44,26 @@ class Shown:
 
 
 @dataclass(frozen=True)
-class InertiaAlongLinks(InertiaBound):
-    """M ≼ U, kg·m², with a diagonal U_i ≤ μ d_i², by the links at each corner of the ranges of parameters.
+class EnergyBelow(Proof):
+    """Links whose M(q) is ≺ diag(u), and what shows that, of diag(u) − M(q) ≻ 0; u are its prices."""
 
-    Args:
-        weights: d_i.
-        inertia: μ.
-        arms: the links, in the order of ``corners_of``.
-        bound: U.
-    """
-
-    rule = "inertia along the links"
-    arms: tuple[tuple[RigidLink, ...], ...]
+    rule = "energy along the links"
+    links: tuple[RigidLink, ...]
     bound: Shown
 
-    def shows_inertia(self, arms: Sequence[ClosedLoop]) -> bool:
-        """The links are those of each arm in turn, and their energy is nowhere above that of U."""
-        prices, limits = self.bound.prices, [self.inertia * d * d for d in self.weights]
-        below = len(prices) == len(limits) and all(x <= most for x, most in zip(prices, limits, strict=True))
-        made = len(self.arms) == len(arms) and all(
-            len(links) == arm.n and all(link.fits for link in links) and makes(links, arm.arm.mass)
-            for links, arm in zip(self.arms, arms, strict=True)
-        )
-        return below and made and self.bound.holds([storage.energy(links, 1) for links in self.arms], 2)
+
+@rule(MassAbove, EnergyBelow)
+def by_energy(statement: MassAbove, proof: EnergyBelow) -> Accepted:
+    """Soundness: diag(u) less this matrix is M of the links, with xᵀMx < Σ u_i x_i² for x ≠ 0."""
+    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
+    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
+    prices, n = proof.bound.prices, len(statement.mass)
+    require(len(prices) == n, "prices", len(prices), f"must be {n}, one a joint")
+    made = makes(proof.links, shifted(statement.mass, -1, prices, 0))
+    require(made, "links", len(proof.links), "do not make diag(u) less this matrix")
+    held = proof.bound.holds([storage.energy(proof.links, 1)], 2)
+    require(held, "forms", "", "do not show that the energy is below that of diag(u)")
+    return Accepted("proved", "enclosure")
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,8 @@ class LinkBounds(RateProof):
         require(not loop.coupling, "weights", loop.coupling, "must be none")
         require(not loop.within, "errors", loop.within, "must not be bounded: ε is ε₀/(1 + ‖e‖)")
         require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")
-        made = makes_at_corners(self.arms, loop.arm.mass, loop.parameters)
+        masses = masses_at_corners(loop.arm.mass, loop.parameters)
+        made = len(self.arms) == len(masses) and all(map(makes, self.arms, masses))
         require(made, "links", len(self.arms), "do not make M(q) at the corners of its ranges")
         sizes = {len(self.rising), len(self.falling)}
         require(sizes == {n - 1}, "rates", sizes, f"must be bounded for {n - 1} joints")

@@ -17,19 +17,16 @@ from lyapcheck.check.expressions.text import angles_text, list_text, number_text
 from lyapcheck.check.kinds.decreasing import (
     Decreasing,
     StateWitness,
-    closed_loop_of,
-    mass_positive,
     require_rising,
 )
-from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
-from lyapcheck.check.kinds.phases import lightened
-from lyapcheck.check.kinds.resting import LARGEST
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.limits import LARGEST
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
 from lyapcheck.check.loop.decay.estimate import BITS, reach_of
 from lyapcheck.check.loop.decay.speeds import secant_above, slowed
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.members import member
-from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
@@ -100,7 +97,7 @@ class SlowerAndNearer(Proof):
     rule = "slower and nearer"
     inertia: Proof
     floors: tuple[Fraction, ...]
-    rate: Proof
+    rate: RateProof
     lightest: tuple[Fraction, ...]
     lightness: tuple[Proof, ...]
 
@@ -109,7 +106,7 @@ class SlowerAndNearer(Proof):
 def by_both(statement: DecreasingNearby, proof: SlowerAndNearer) -> Accepted:
     """Soundness: h(w_i)/w_i is from the floor to L within the limits, see ``decay.speeds``; E as above."""
     whole = statement.everywhere
-    grades = [require_proved(mass_positive(whole), proof.inertia, "M ≻ 0")]
+    grades = [require_proved(whole.mass_positive, proof.inertia, "M ≻ 0")]
     known, n = member(whole.family, whole.m), len(whole.mass)
     require(len(proof.floors) == n, "floors", len(proof.floors), f"must be {n}, one a joint")
     for floor, speed in zip(proof.floors, statement.speeds or (Fraction(0),) * n, strict=True):
@@ -117,8 +114,6 @@ def by_both(statement: DecreasingNearby, proof: SlowerAndNearer) -> Accepted:
         require(shown, "floor", floor, f"is not shown to be below h(w)/w up to {number_text(speed)} rad/s")
     loop = nearby_loop(statement, proof.floors)
     require(loop.admissible, "gains, friction or ε₀", "", "K_p, K_v, B, K̃ and ε₀ must be positive, M = Mᵀ")
-    if not isinstance(proof.rate, RateProof):
-        raise Refused("rate", proof.rate.rule, "is not a way to show dV/dt < 0")
     proof.rate.require_shown(loop)
     if statement.energy is not None:
         grades += _require_kept(statement, statement.energy, proof)
@@ -127,7 +122,7 @@ def by_both(statement: DecreasingNearby, proof: SlowerAndNearer) -> Accepted:
 
 def nearby_loop(statement: DecreasingNearby, floors: tuple[Fraction, ...]) -> ClosedLoop:
     """The closed loop that has to be shown, with what the floors add to the damping."""
-    return slowed(replace(closed_loop_of(statement.everywhere), nearby=statement.errors), floors)
+    return slowed(replace(statement.everywhere.closed_loop, nearby=statement.errors), floors)
 
 
 def _require_kept(statement: DecreasingNearby, energy: Fraction, proof: SlowerAndNearer) -> list[str]:
@@ -149,8 +144,7 @@ def _require_kept(statement: DecreasingNearby, energy: Fraction, proof: SlowerAn
         require(inertia > 0, "lightest", inertia, "must be positive")
         slow = speed * speed * inertia >= 2 * energy
         require(slow, "energy", energy, f"is not shown to keep |w_i| ≤ {number_text(speed)} rad/s")
-        mass = lightened(whole.mass, i, inertia, len(whole.parameters))
-        lighter = MassAbove(mass, whole.parameters, Fraction(0))
+        lighter = whole.mass_lightened(i, inertia)
         grades.append(require_proved(lighter, by, f"M − {number_text(inertia)} at joint {i + 1} ≻ 0"))
     return grades
 
@@ -158,7 +152,7 @@ def _require_kept(statement: DecreasingNearby, energy: Fraction, proof: SlowerAn
 @rule(DecreasingNearby, PostureWitness)
 def by_posture(statement: DecreasingNearby, proof: PostureWitness) -> Accepted:
     """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
-    result = verify(mass_positive(statement.everywhere), proof)
+    result = verify(statement.everywhere.mass_positive, proof)
     require(result.verdict == "refuted", "M ≻ 0", result.verdict, "must be refuted")
     return result
 

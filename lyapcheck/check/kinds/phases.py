@@ -11,21 +11,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
-from lyapcheck.check.kinds.decreasing import friction_text
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text
-from lyapcheck.check.kinds.ranges import of_arm, require_arm
-from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.kinds.settling import Envelope, require_falling
-from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound, RateProof
+from lyapcheck.check.expressions.text import angles_text, list_text, number_text
+from lyapcheck.check.kinds.of_loop import OfLoop
+from lyapcheck.check.kinds.settling import Envelope, require_falling, require_signs
+from lyapcheck.check.limits import LARGEST
+from lyapcheck.check.loop.closed_loop import RateProof
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded, secant_above, slowed
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
-from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Ends, Proof, Total
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Times = tuple[tuple[Fraction, tuple[Fraction, ...]], ...]
@@ -44,22 +41,13 @@ class DiesOut:
 
 
 @dataclass(frozen=True)
-class StaysWithin(Total):
+class StaysWithin(OfLoop, Total):
     """Every solution of (11) from some starts has |e_i| within bounds from times on.
 
-    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
-    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
-    ``kv`` are in N·m. ``errors_at_start``, rad, and ``rates_at_start``, rad/s, bound each |e_i(0)| and
+    ``errors_at_start``, rad, and ``rates_at_start``, rad/s, bound each |e_i(0)| and
     |w_i(0)|, for any q(0). ``after`` says how errors die out.
     """
 
-    mass: Mass
-    viscous: tuple[Ends, ...]
-    parameters: tuple[Ends, ...]
-    family: str
-    m: int | None
-    kp: tuple[Fraction, ...]
-    kv: tuple[Fraction, ...]
     errors_at_start: tuple[Fraction, ...]
     rates_at_start: tuple[Fraction, ...]
     within: Times
@@ -67,19 +55,15 @@ class StaysWithin(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint, none below 0 where sizes are bounded; times that rise."""
-        n = require_arm(self.mass, self.parameters, self.viscous)
-        for subject in ("kp", "kv", *SIZES):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
-        sizes = [(subject, getattr(self, subject)) for subject in SIZES]
+        super().require_well_formed()
+        self.require_sizes("errors_at_start", "rates_at_start")
+        n = len(self.mass)
         require(len(self.within) > 0, "within", "", "must have a time")
         for time, errors in self.within:
             require(time >= 0, "time", time, "must not be negative")
             require(len(errors) == n, "errors", len(errors), f"must be {n}, one a joint")
-            sizes.append(("errors", errors))
-        for subject, values in sizes:
-            for value in values:
-                require(0 <= value <= LARGEST, subject, value, f"must be from 0 to {LARGEST}")
+            for value in errors:
+                require(0 <= value <= LARGEST, "errors", value, f"must be from 0 to {LARGEST}")
         for (before, _), (after, _) in pairwise(self.within):
             require(before < after, "time", after, f"must be after {before}")
         if self.after is not None:
@@ -101,11 +85,10 @@ class StaysWithin(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
-        return (*of_arm(self.parameters, self.viscous), "no other torque acts")
+        return (*super().granted, "no other torque acts")
 
     def text(self) -> str:
         """The statement in one line."""
-        member_m = "" if self.m is None else f"_{self.m}"
         within = ", ".join(
             f"|e_i(t)| ≤ {angles_text(errors)} for all t ≥ {number_text(time)} s"
             for time, errors in self.within
@@ -114,9 +97,7 @@ class StaysWithin(Total):
             f"every solution of (11) that starts with "
             f"|e_i(0)| ≤ {angles_text(self.errors_at_start)} and |w_i(0)| ≤ "
             f"{list_text(self.rates_at_start)} rad/s, at any q(0), has {within}{self._dying()}; "
-            f"for B = {friction_text(self.viscous)}, h = {self.family}{member_m}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)} "
-            f"and {mass_text(self.mass, self.parameters)}"
+            f"for {self.gains_text()} and {self.mass_text()}"
         )
 
     def _dying(self) -> str:
@@ -129,16 +110,13 @@ class StaysWithin(Total):
         return f", and from then on |e_i(t)| ≤ a_i {falling} with a = {angles_text(self.after.sizes)}"
 
 
-SIZES = ("errors_at_start", "rates_at_start")
-
-
 @dataclass(frozen=True)
 class Phase:
     """Levels of V with ε = ε₀, while h(w_i)/w_i are at least ``floors`` and |e_i| at most ``within``, rad.
 
     ``friction`` η, ``stiffness`` κ and ``split`` t are those of ``lyapcheck.check.loop.decay``, for the loop
-    of ``decay.speeds`` with these ``floors``; ``inertia`` has the weights d_i, μ and what shows it (cuts
-    are not used); ``rate`` shows dV/dt < 0 at (1 − η)B and (1 − κ)K_p of that loop.
+    of ``decay.speeds`` with these ``floors``; ``inertia`` shows M(q) ≺ diag(u) for the u in ``heaviest``,
+    kg·m²; ``rate`` shows dV/dt < 0 at (1 − η)B and (1 − κ)K_p of that loop.
     """
 
     eps0: Fraction
@@ -147,8 +125,9 @@ class Phase:
     friction: Fraction
     stiffness: Fraction
     split: Fraction
-    inertia: InertiaBound
-    rate: Proof
+    heaviest: tuple[Fraction, ...]
+    inertia: Proof
+    rate: RateProof
     envelope: Envelope
     slopes: tuple[Fraction, ...]
 
@@ -174,21 +153,20 @@ def by_phases(statement: StaysWithin, proof: FallingPhases) -> Accepted:
     E does not rise, so that speeds keep below what E is at the start of a phase, and floors that hold then
     hold from then on. V ≤ v bounds the errors, as M ≻ 0 leaves Σ k_pi U(e_i) ≤ V; so does E.
     """
-    grades = [
-        require_proved(MassAbove(statement.mass, statement.parameters, Fraction(0)), proof.positive, "M ≻ 0")
-    ]
+    grades = [require_proved(statement.mass_positive, proof.positive, "M ≻ 0")]
     grades += _require_lightest(statement, proof)
     require(len(proof.phases) > 0, "phases", 0, "must be at least one")
     energy = last = eps0 = time = Fraction(0)
     levels: list[tuple[Fraction, Fraction]] = []
     for phase in proof.phases:
+        grades.append(require_proved(statement.mass_below(phase.heaviest), phase.inertia, "M ≺ diag(u)"))
         estimate = _estimate(statement, phase)  # the last one is asked again how errors die out
         start = statement.errors_at_start, statement.rates_at_start
         if not levels:
             energy, first = estimate.start_energy(*start), estimate.start_level(*start)
             levels.append((time, energy))
         else:
-            first = regraded(last, phase.eps0 - eps0, estimate.margin.loop, phase.inertia)
+            first = regraded(last, phase.eps0 - eps0, estimate.margin.loop, phase.heaviest)
         _require_slow(statement, proof, phase, energy)
         require(len(phase.within) > 0, "within", "", "must bound the errors: ε = ε₀ there")
         near = estimate.keeps(energy, phase.within)
@@ -200,7 +178,7 @@ def by_phases(statement: StaysWithin, proof: FallingPhases) -> Accepted:
         require_falling(estimate, phase.envelope, phase.slopes)
         levels += phase.envelope
         (time, last), eps0 = phase.envelope[-1], phase.eps0
-        energy = min(energy, regraded(last, eps0, estimate.margin.loop, phase.inertia))
+        energy = min(energy, regraded(last, eps0, estimate.margin.loop, phase.heaviest))
     for since, errors in statement.within:
         level = min((level for reached, level in levels if reached <= since))
         kept = estimate.keeps(level, errors)
@@ -225,24 +203,10 @@ def _require_dying(statement: StaysWithin, estimate: Estimate, time: Fraction, l
 
 def _estimate(statement: StaysWithin, phase: Phase) -> Estimate:
     """What follows from the margin of a phase, which is shown here."""
-    arm = Arm(statement.mass, tuple(low for low, _ in statement.viscous))
-    gains = statement.family, statement.m, statement.kp, statement.kv
-    loop = ClosedLoop(
-        arm,
-        *gains,
-        phase.eps0,
-        parameters=statement.parameters,
-        viscous=statement.viscous,
-        within=phase.within,
-    )
+    loop = statement.loop(phase.eps0, within=phase.within)
     shares = (phase.friction, phase.stiffness, phase.split, Fraction(0))
-    margin = Margin(slowed(loop, phase.floors), *shares, phase.inertia)
-    signs = "have a sign or size that does not fit: gains, B, K̃, ε₀ and shares must be positive"
-    require(margin.admissible and margin.reduced.admissible, "gains, friction, shares or weights", "", signs)
-    mu = float(phase.inertia.inertia)
-    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹)")
-    if not isinstance(phase.rate, RateProof):
-        raise Refused("rate", phase.rate.rule, "is not a way to show dV/dt < 0")
+    margin = Margin(slowed(loop, phase.floors), *shares, phase.heaviest)
+    require_signs(margin)
     phase.rate.require_shown(margin.reduced)
     return Estimate(margin, Disturbance.none(len(statement.mass)))
 
@@ -268,16 +232,6 @@ def _require_lightest(statement: StaysWithin, proof: FallingPhases) -> list[str]
     for i, by in zip(used, proof.lightness, strict=True):
         inertia = proof.lightest[i]
         require(inertia > 0, "lightest", inertia, "must not be negative")
-        mass = lightened(statement.mass, i, inertia, len(statement.parameters))
-        lighter = MassAbove(mass, statement.parameters, Fraction(0))
+        lighter = statement.mass_lightened(i, inertia)
         grades.append(require_proved(lighter, by, f"M − {number_text(inertia)} at joint {i + 1} ≻ 0"))
     return grades
-
-
-def lightened(mass: Mass, joint: int, inertia: Fraction, parameters: int) -> Mass:
-    """M, a polynomial in so many parameters, with a number taken from one entry of its diagonal."""
-    constant = (0,) * (2 * len(mass) + parameters), -inertia
-    return tuple(
-        tuple((*entry, constant) if i == j == joint else entry for j, entry in enumerate(row))
-        for i, row in enumerate(mass)
-    )

@@ -10,15 +10,12 @@ from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
 from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.limits import MAX_ARM
+from lyapcheck.check.limits import LARGEST, MAX_ARM
 from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
-
-LARGEST = 10**9
-"""rad, rad/s and N·m: beyond all that is of use."""
 
 
 @dataclass(frozen=True)

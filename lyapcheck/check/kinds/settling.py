@@ -12,17 +12,14 @@ from fractions import Fraction
 from hashlib import sha256
 from itertools import pairwise
 
-from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text, number_text
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, friction_text, statement_of
-from lyapcheck.check.kinds.inertia import LONGEST, Mass, mass_text
-from lyapcheck.check.kinds.ranges import of_arm, require_arm
-from lyapcheck.check.kinds.resting import LARGEST
-from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
+from lyapcheck.check.expressions.text import angles_text, list_text, number_text
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.inertia import LONGEST
+from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Proof, Total
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
 
 Envelope = tuple[tuple[Fraction, Fraction], ...]
@@ -30,24 +27,15 @@ Envelope = tuple[tuple[Fraction, Fraction], ...]
 
 
 @dataclass(frozen=True)
-class Settling(Total):
+class Settling(OfLoop, Total):
     """Every solution of (11) from some starts, under a torque d − φ, stays below levels of V and errors.
 
-    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
-    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
-    ``kv`` are in N·m; ``eps0`` is ε₀ of (12). ``torque`` bounds each |d_i|, and ``dry`` each |φ_i| with
+    ``eps0`` is ε₀ of (12). ``torque`` bounds each |d_i|, and ``dry`` each |φ_i| with
     φ_i w_i ≥ 0, in N·m. ``errors_at_start``, rad, and ``rates_at_start``, rad/s, bound each |e_i(0)| and
     |w_i(0)|, for any q(0). ``errors`` bounds |e_i|, rad, from the last time of ``envelope`` on,
     ``largest_errors`` from its first time on.
     """
 
-    mass: Mass
-    viscous: tuple[Ends, ...]
-    parameters: tuple[Ends, ...]
-    family: str
-    m: int | None
-    kp: tuple[Fraction, ...]
-    kv: tuple[Fraction, ...]
     eps0: Fraction
     torque: tuple[Fraction, ...]
     dry: tuple[Fraction, ...]
@@ -59,13 +47,8 @@ class Settling(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint, none below 0 where sizes are bounded; times that rise and levels that fall."""
-        n = require_arm(self.mass, self.parameters, self.viscous)
-        for subject in ("kp", "kv", *SIZES):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
-        for subject in SIZES:
-            for value in getattr(self, subject):
-                require(0 <= value <= LARGEST, subject, value, f"must be from 0 to {LARGEST}")
+        super().require_well_formed()
+        self.require_sizes("torque", "dry", "errors_at_start", "rates_at_start", "largest_errors", "errors")
         require(len(self.envelope) > 0, "envelope", "", "must have a level")
         (time, _), (_, level) = self.envelope[0], self.envelope[-1]
         require(time >= 0, "time", time, "must not be negative")
@@ -82,14 +65,13 @@ class Settling(Total):
             "no other torque acts than d within its bounds" if any(self.torque) else "no other torque acts"
         )
         return (
-            *of_arm(self.parameters, self.viscous),
+            *super().granted,
             *([friction] if any(self.dry) else []),
             others,
         )
 
     def text(self) -> str:
         """The statement in one line."""
-        member_m = "" if self.m is None else f"_{self.m}"
         first, last = (number_text(self.envelope[end][0]) for end in (0, -1))
         return (
             f"every absolutely continuous solution of (11){self._acting()} that starts with "
@@ -97,9 +79,8 @@ class Settling(Total):
             f"{list_text(self.rates_at_start)} rad/s, at any q(0), "
             f"has |e_i(t)| ≤ {angles_text(self.errors)} for all t ≥ {last} s, "
             f"|e_i(t)| ≤ {angles_text(self.largest_errors)} for all t ≥ {first} s, "
-            f"and V of (13) is {_envelope_text(self.envelope)}; for B = {friction_text(self.viscous)}, "
-            f"h = {self.family}{member_m}, K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
-            f"ε₀ = {number_text(self.eps0)} and {mass_text(self.mass, self.parameters)}"
+            f"and V of (13) is {_envelope_text(self.envelope)}; for {self.gains_text()}, "
+            f"ε₀ = {number_text(self.eps0)} and {self.mass_text()}"
         )
 
     def _acting(self) -> str:
@@ -112,16 +93,13 @@ class Settling(Total):
         return f" with a torque {sum_of} on its right, {', '.join(filter(None, (torque, dry)))},"
 
 
-SIZES = ("torque", "dry", "errors_at_start", "rates_at_start", "largest_errors", "errors")
-
-
 @dataclass(frozen=True)
 class FallingLevels(Proof):
     """What dV/dt is below 0 by, and how steep V is taken to be in each band between two levels.
 
     ``friction`` is η, ``stiffness`` κ, ``split`` t, ``slack`` s and ``slopes`` the λ of
-    ``lyapcheck.check.loop.decay``; ``inertia`` has the weights d_i, μ and what shows it (cuts are not
-    used); ``decreasing`` shows M ≻ 0, and dV/dt < 0 at (1 − η)B and (1 − κ)K_p.
+    ``lyapcheck.check.loop.decay``; ``inertia`` shows M(q) ≺ diag(u) for the u in ``heaviest``, kg·m²;
+    ``decreasing`` shows M ≻ 0, and dV/dt < 0 at (1 − η)B and (1 − κ)K_p.
     """
 
     rule = "falling levels"
@@ -129,7 +107,8 @@ class FallingLevels(Proof):
     stiffness: Fraction
     split: Fraction
     slack: Fraction
-    inertia: InertiaBound
+    heaviest: tuple[Fraction, ...]
+    inertia: Proof
     decreasing: PositiveAndDecreasing
     slopes: tuple[Fraction, ...]
 
@@ -146,7 +125,13 @@ def by_levels(statement: Settling, proof: FallingLevels) -> Accepted:
     acting = any(statement.torque) or any(statement.dry)
     require(len(statement.envelope) > acting, "envelope", "one level", "need not be kept under a disturbance")
     margin = margin_of(statement, proof)
-    grade = require_margin(margin, proof.decreasing)
+    require_signs(margin)
+    grades = [
+        require_proved(statement.mass_below(proof.heaviest), proof.inertia, "M ≺ diag(u)"),
+        require_proved(
+            statement_of(margin.reduced), proof.decreasing, "M ≻ 0 and dV/dt < 0 of the reduced loop"
+        ),
+    ]
     estimate = Estimate(margin, Disturbance(statement.torque, statement.dry))
     _, first = statement.envelope[0]
     start = estimate.start_level(statement.errors_at_start, statement.rates_at_start)
@@ -156,7 +141,7 @@ def by_levels(statement: Settling, proof: FallingLevels) -> Accepted:
         errors = getattr(statement, subject)
         kept = estimate.keeps(level, errors)
         require(kept, subject, list_text(errors), f"are not what V ≤ {float(level):.6g} J allows at most")
-    return Accepted("proved", weakest([grade, "enclosure"]))
+    return Accepted("proved", weakest([*grades, "enclosure"]))
 
 
 def require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fraction, ...]) -> None:
@@ -178,39 +163,23 @@ def require_falling(estimate: Estimate, envelope: Envelope, slopes: tuple[Fracti
 
 def margin_of(statement: Settling, proof: FallingLevels) -> Margin:
     """What dV/dt is said to be below 0 by."""
-    loop = ClosedLoop(
-        Arm(statement.mass, tuple(low for low, _ in statement.viscous)),
-        statement.family,
-        statement.m,
-        statement.kp,
-        statement.kv,
-        statement.eps0,
-        parameters=statement.parameters,
-        viscous=statement.viscous,
-    )
     shares = (proof.friction, proof.stiffness, proof.split, proof.slack)
-    return Margin(loop, *shares, proof.inertia)
+    return Margin(statement.loop(statement.eps0), *shares, proof.heaviest)
 
 
-def require_margin(margin: Margin, decreasing: PositiveAndDecreasing) -> str:
-    """The grade of the margin: M ≻ 0, dV/dt < 0 for the reduced closure, and λmax(D⁻¹MD⁻¹) ≤ μ.
+def require_signs(margin: Margin) -> None:
+    """The argument applies to the numbers of a margin.
 
     Raises:
-        Refused: one of them is not shown.
+        Refused: it does not.
 
-    Soundness: dV/dt of the reduced closure is taken at the same states as that of the arm itself; how it was
+    Soundness: dV/dt of the reduced loop is taken at the same states as that of the arm itself; how it is
         proved to be below 0 does not matter.
     """
     signs = (
         "have a sign or size that does not fit: gains, B, K̃ and ε₀ must be positive, shares within 0 and 1"
     )
-    require(margin.admissible and margin.reduced.admissible, "gains, friction, shares or weights", "", signs)
-    grade = require_proved(
-        statement_of(margin.reduced), decreasing, "M ≻ 0 and dV/dt < 0 of the reduced loop"
-    )
-    mu = float(margin.inertia.inertia)
-    require(margin.inertia_shown(), "μ", f"{mu:.6g}", "is not shown to be above λmax(D⁻¹MD⁻¹)")
-    return grade
+    require(margin.admissible and margin.reduced.admissible, "gains, friction, shares or u", "", signs)
 
 
 def _envelope_text(envelope: Envelope) -> str:

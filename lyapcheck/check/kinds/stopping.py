@@ -13,32 +13,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
-from lyapcheck.check.kinds.decreasing import friction_text, member_text
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text
-from lyapcheck.check.kinds.ranges import of_arm, require_arm
+from lyapcheck.check.expressions.text import angles_text, list_text
+from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Proof, Total
+from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 
 @dataclass(frozen=True)
-class ComesToRest(Total):
+class ComesToRest(OfLoop, Total):
     """Every solution of (11) with a torque −φ, φ_i w_i ≥ 0, has w → 0 and lim sup |e_i| ≤ ``errors``.
 
-    For every arm in the ranges: ``mass`` is M(q), kg·m²; ``viscous`` the range of each diagonal entry of B,
-    N·m·s/rad; ``parameters`` the range of each parameter in M; ``family`` and ``m`` name h; ``kp`` and
-    ``kv`` are in N·m; ``dry`` bounds each |φ_i|, N·m; ``errors`` are in rad, ``None`` bounds nothing.
+    ``dry`` bounds each |φ_i|, N·m; ``errors`` are in rad, ``None`` bounds nothing.
     """
 
-    mass: Mass
-    viscous: tuple[Ends, ...]
-    parameters: tuple[Ends, ...]
-    family: str
-    m: int | None
-    kp: tuple[Fraction, ...]
-    kv: tuple[Fraction, ...]
     dry: tuple[Fraction, ...]
     errors: tuple[Fraction | None, ...]
 
@@ -49,10 +38,8 @@ class ComesToRest(Total):
 
     def require_well_formed(self) -> None:
         """One number a joint; gains and B above 0."""
-        n = require_arm(self.mass, self.parameters, self.viscous)
-        for subject in ("kp", "kv", "dry", "errors"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
+        super().require_well_formed()
+        self.require_one_a_joint("dry", "errors")
         for subject, least in (("viscous", min(self.viscous)[0]), ("kv", min(self.kv))):
             require(least > 0, subject, least, "must be positive")
         self.resting.require_well_formed()
@@ -61,7 +48,7 @@ class ComesToRest(Total):
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
         return (
-            *of_arm(self.parameters, self.viscous),
+            *super().granted,
             "dry friction opposes each joint's motion, or holds it, with at most the torque stated",
             "no other torque acts",
         )
@@ -71,9 +58,7 @@ class ComesToRest(Total):
         return (
             "every absolutely continuous solution of (11) with a torque −φ on its right, "
             f"|φ_i| ≤ {list_text(self.dry)} N·m and φ_i w_i ≥ 0 (dry friction), comes to rest, w → 0, with "
-            f"lim sup |e_i| ≤ {angles_text(self.errors)}; for B = {friction_text(self.viscous)}, "
-            f"h = {member_text(self.family, self.m)}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)} and {mass_text(self.mass, self.parameters)}"
+            f"lim sup |e_i| ≤ {angles_text(self.errors)}; for {self.gains_text()} and {self.mass_text()}"
         )
 
 
@@ -88,8 +73,7 @@ class EnergyFalls(Proof):
 @rule(ComesToRest, EnergyFalls)
 def by_energy(statement: ComesToRest, proof: EnergyFalls) -> Accepted:
     """Soundness: the argument above; M(q) is a polynomial in sines and cosines, so M ≻ 0 holds uniformly."""
-    above = MassAbove(statement.mass, statement.parameters, Fraction(0))
-    positive = require_proved(above, proof.inertia, "M ≻ 0")
+    positive = require_proved(statement.mass_positive, proof.inertia, "M ≻ 0")
     near = require_proved(statement.resting, AtBounds(), "states of rest")
     return Accepted("proved", weakest([positive, near]))
 

@@ -108,20 +108,11 @@ class ClosedLoop:
     def one_sided(self) -> tuple[int, ...]:
         """The joints whose error may be taken ≥ 0, by sign symmetry.
 
-        If M(σq) = Σ M(q) Σ for Σ = diag(σ), then (q, e, w) → (σq, Σe, Σw) leaves dV/dt as it is. In reduced
-        echelon form over GF(2) each basis symmetry flips its own pivot and no other one.
+        If M(σq) = Σ M(q) Σ for Σ = diag(σ), then (q, e, w) → (σq, Σe, Σw) leaves dV/dt as it is. Such σ are a
+        group, in which the first joint that each turns can be turned without any other of these first ones.
         """
-        basis: list[tuple[int, ...]] = []
-        for signs in product((1, -1), repeat=self.n):
-            row = tuple(int(sign < 0) for sign in signs)
-            if not self.symmetric_under(signs):
-                continue
-            for kept in basis:
-                if row[kept.index(1)]:
-                    row = _xor(row, kept)
-            if any(row):
-                basis = [_xor(kept, row) if kept[row.index(1)] else kept for kept in basis] + [row]
-        return tuple(sorted(row.index(1) for row in basis))
+        turns = (signs for signs in product((1, -1), repeat=self.n) if self.symmetric_under(signs))
+        return tuple(sorted({signs.index(-1) for signs in turns if -1 in signs}))
 
     def symmetric_under(self, signs: Sequence[int]) -> bool:
         """Whether M(σq) = Σ M(q) Σ."""
@@ -212,27 +203,7 @@ def root_above(value: Fraction) -> Fraction:
     return Fraction(root if root * root == scaled else root + 1, 10**12)
 
 
-def _xor(a: tuple[int, ...], b: tuple[int, ...]) -> tuple[int, ...]:
-    return tuple((x + y) % 2 for x, y in zip(a, b, strict=True))
-
-
 @dataclass(frozen=True)
-class InertiaBound(Proof, ABC):
-    """Weights and a number with M(q) ≼ μ diag(d)² for every q and every arm in the ranges, untrusted.
-
-    Args:
-        weights: d_i > 0, (N·m·s/rad)^½.
-        inertia: μ, dimensionless beside the friction: rad/s.
-    """
-
-    weights: tuple[Fraction, ...]
-    inertia: Fraction
-
-    @abstractmethod
-    def shows_inertia(self, arms: Sequence[ClosedLoop]) -> bool:
-        """Whether that is shown of a loop, at each corner of its parameters in turn."""
-
-
 class RateProof(Proof, ABC):
     """A proof that dV/dt < 0 at every state asked about, but the origin, of an admissible loop with M ≻ 0.
 

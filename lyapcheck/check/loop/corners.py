@@ -9,11 +9,13 @@ References: ``reyes2019family`` (11), (15).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+from math import prod
 
 from lyapcheck.check.limits import MOST_CORNERS
-from lyapcheck.check.loop.affine import at_corner, corners_of, is_affine
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
@@ -22,18 +24,35 @@ from lyapcheck.check.statement import Ends, Monomials
 Mass = tuple[tuple[Monomials, ...], ...]
 
 
+def corners_of(parameters: Sequence[Ends]) -> Iterator[tuple[Fraction, ...]]:
+    """The corners of the ranges of the parameters; one where nothing ranges."""
+    return product(*([low, high] if low < high else [low] for low, high in parameters))
+
+
+def is_affine(mass: Mass) -> bool:
+    """Whether M(q) is affine in each of its parameters."""
+    return all(max(p[2 * len(mass) :], default=0) <= 1 for row in mass for entry in row for p, _ in entry)
+
+
+def at_parameters(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
+    """The entry with numbers for the parameters; their exponents follow those of sines and cosines."""
+    return tuple(
+        (powers[:angles], c * prod(x**p for x, p in zip(parameters, powers[angles:], strict=True)))
+        for powers, c in entry
+    )
+
+
 def masses_at_corners(mass: Mass, parameters: Sequence[Ends]) -> tuple[Mass, ...]:
     """M(q) with numbers for its parameters, one for each corner, in the order of ``corners_of``.
 
     Raises:
         Refused: M is not affine in each of them, or they have too many corners.
     """
-    n = len(mass)
-    require(is_affine(mass, n), "M(q)", "", "must be affine in each of its parameters")
+    require(is_affine(mass), "M(q)", "", "must be affine in each of its parameters")
     ranging = sum(low < high for low, high in parameters)
     require(2**ranging <= MOST_CORNERS, "corners", 2**ranging, f"must not exceed {MOST_CORNERS}")
     return tuple(
-        tuple(tuple(at_corner(entry, 2 * n, corner) for entry in row) for row in mass)
+        tuple(tuple(at_parameters(entry, 2 * len(mass), corner) for entry in row) for row in mass)
         for corner in corners_of(parameters)
     )
 

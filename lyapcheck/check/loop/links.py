@@ -7,44 +7,25 @@ from fractions import Fraction
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from lyapcheck.check.loop.affine import at_corner, corners_of, is_affine
 from lyapcheck.check.loop.chain import Posture, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import Algebra
-from lyapcheck.check.statement import Ends, Monomials
+from lyapcheck.check.statement import Monomials
 
 Reduce = Callable[[fmpq_mpoly], fmpq_mpoly]
 
 
 def makes(links: Sequence[RigidLink], mass: Sequence[Sequence[Monomials]]) -> bool:
-    """Whether M(q) of the links has these entries, polynomials in sin q_1 … sin q_n, cos q_1 … cos q_n.
+    """Whether these are real links whose M(q) has these entries, polynomials in sin q_1 …, cos q_1 … cos q_n.
 
     Soundness: both sides are reduced by s² = 1 − c², after which equal functions are equal polynomials.
     """
+    if len(links) != len(mass) or not all(link.fits for link in links):
+        return False
     n, (ring, reduced) = len(links), _ring(len(links))
     rows = _posture(links, ring, reduced).mass()
     return all(
         reduced(ring.from_dict(_terms(mass[i][j])) - rows[i][j]) == 0 for i in range(n) for j in range(n)
-    )
-
-
-def makes_at_corners(
-    arms: Sequence[Sequence[RigidLink]], mass: Sequence[Sequence[Monomials]], parameters: Sequence[Ends]
-) -> bool:
-    """Whether M is affine in each parameter, and at each corner of their ranges that of real links given.
-
-    Soundness: M then is everywhere a mean of its values at the corners, and so are its rates.
-    """
-    n, corners = len(mass), list(corners_of(parameters))
-    real = all(len(links) == n and all(link.fits for link in links) for links in arms)
-    return (
-        is_affine(mass, n)
-        and real
-        and len(arms) == len(corners)
-        and all(
-            makes(links, [[at_corner(entry, 2 * n, corner) for entry in row] for row in mass])
-            for links, corner in zip(arms, corners, strict=True)
-        )
     )
 
 

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
@@ -18,40 +15,20 @@ from lyapcheck.check.numbers.balls import precision
 
 BITS = 64
 BLOCK = 64
-WORTH_SHARING = 20_000
-"""Characters of a tree from which a second process pays for its start."""
 MORE_HALVINGS = 12
 """How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
-TRIES = 64
-SELDOM = 8
-"""After so many tries an evaluator that has shown less than one box in so many waits for smaller ones."""
+MOST_CENTRED = 2
+"""Joints up to which slopes cost less than the smaller boxes that go without."""
+IN_PARTS: ContextVar[Callable[[ClosedLoop, str], bool] | None] = ContextVar("in_parts", default=None)
+"""Who judges trees by `proves_part` in several processes; nobody unless a caller has set it."""
 
 
-_JOBS = ContextVar("jobs", default=1)
-
-
-@contextmanager
-def shared_between(jobs: int) -> Iterator[None]:
-    """Let the leaves of large trees be shared between some processes inside; verdicts are the same."""
-    token = _JOBS.set(jobs)
-    try:
-        yield
-    finally:
-        _JOBS.reset(token)
-
-
-def sharing() -> int:
-    """How many processes may share the leaves of a tree."""
-    return _JOBS.get()
-
-
-def proves(loop: ClosedLoop, tree: str, jobs: int = 1) -> bool:
+def proves(loop: ClosedLoop, tree: str) -> bool:
     """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
 
     Args:
         loop: arm, controller and ε₀.
         tree: in preorder, a digit for the side of ``loop.start`` that is cut, a dot for a leaf.
-        jobs: processes to share the leaves between.
 
     Returns:
         ``True`` only if proved; ``False`` says nothing about the statement.
@@ -61,28 +38,8 @@ def proves(loop: ClosedLoop, tree: str, jobs: int = 1) -> bool:
 
     Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
     """
-    if jobs <= 1 or len(tree) < WORTH_SHARING:
-        return proves_part(loop, tree, 0, 1)
-    # spawned processes import afresh; the copy leaves behind what the closed loop has computed for itself
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        with main_unnamed():
-            parts = [pool.submit(proves_part, replace(loop), tree, part, jobs) for part in range(jobs)]
-        return all(part.result() for part in parts)
-
-
-@contextmanager
-def main_unnamed() -> Iterator[None]:
-    """Hide where the main module came from, so that processes spawned inside do not run a caller's script."""
-    main = sys.modules["__main__"]
-    file, main.__spec__, spec = vars(main).pop("__file__", None), None, main.__spec__
-    try:
-        yield
-    finally:
-        main.__spec__ = spec
-        vars(main).update({} if file is None else {"__file__": file})
+    in_parts = IN_PARTS.get()
+    return proves_part(loop, tree, 0, 1) if in_parts is None else in_parts(loop, tree)
 
 
 def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
@@ -96,47 +53,28 @@ def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
     if certifies(loop.tail, loop.eps0):
         return all(True for _ in boxes)  # the tree is read to its end, though no box need be judged
     with precision(BITS):
-        means = [
-            _Means(Evaluator(loop, BALLS)),
-            _Means(CentredEvaluator(loop)),
-            _Means(Evaluator(loop, SPANS)),
-        ]
+        slopes = [CentredEvaluator(loop)] if loop.n <= MOST_CENTRED else []
+        means = [Evaluator(loop, BALLS), *slopes, Evaluator(loop, SPANS)]
         # blocks, not single leaves: neighbours share the ranges that the evaluator keeps
         mine = (box for k, box in enumerate(boxes) if k // BLOCK % parts == part)
         return all(_shown(means, box) for box in mine)
 
 
-@dataclass
-class _Means:
-    """An evaluator, and how often it was tried and has shown a box."""
-
-    evaluator: Evaluator
-    tried: int = 0
-    succeeded: int = 0
-
-    def proves(self, box: Box, depth: int) -> bool:
-        """Whether P ≻ 0 is shown; not asked of a box that was hardly cut if the answer is seldom yes."""
-        if depth < 2 and self.tried >= TRIES and self.succeeded * SELDOM < self.tried:
-            return False
-        result = self.evaluator.proves(box)
-        self.tried, self.succeeded = self.tried + 1, self.succeeded + result
-        return result
-
-
-def _shown(means: list[_Means], box: Box) -> bool:
+def _shown(means: Sequence[Evaluator], box: Box) -> bool:
     """Whether P ≻ 0 is shown on a box, by one of the means, cut further where that is needed.
 
-    The side that is cut is the widest beside what it was at the start.
+    The side that is cut is the widest beside what it was at the start. Spans, the last means, cost
+    several times what the others do: halves are tried without them first.
     """
+    start = means[0].loop.start
     stack = [(box, 0)]
     while stack:
         part, depth = stack.pop()
-        # each costs several times what the one before does: halves are tried without spans first
-        if any(one.proves(part, depth) for one in means[: 2 + (depth > 0)]):
+        if any(one.proves(part) for one in (means if depth else means[:-1])):
             continue
         if depth == MORE_HALVINGS:
             return False
-        whole = [high - low for low, high in means[0].evaluator.loop.start]
-        side = max(range(len(part)), key=lambda i: (part[i][1] - part[i][0]) / whole[i])
+        sides = range(len(part))
+        side = max(sides, key=lambda i: (part[i][1] - part[i][0]) / (start[i][1] - start[i][0]))
         stack += [(half, depth + 1) for half in halves(part, side)]
     return True

@@ -19,8 +19,6 @@ from lyapcheck.check.kinds.decreasing import (
     Decreasing,
     PositiveAndDecreasing,
     StateWitness,
-    closed_loop_of,
-    mass_positive,
 )
 from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.loop.scalar import certifies
@@ -51,8 +49,8 @@ ONE_BOX = BoxTree(".")
 @procedure(Decreasing)
 def find_decreasing(statement: Decreasing) -> SearchResult:
     """Norms alone, else a state with dV/dt > 0, else boxes."""
-    loop = closed_loop_of(statement)
-    positive = find_mass_above(mass_positive(statement))
+    loop = statement.closed_loop
+    positive = find_mass_above(statement.mass_positive)
     if positive.verdict is not Verdict.PROVED:
         return replace(positive, reason=f"M ≻ 0: {positive.reason}" if positive.reason else "")
     if not loop.admissible:
@@ -75,7 +73,7 @@ def _with_mass(statement: Decreasing | DampingBelow, by: BoxTree) -> PositiveAnd
 @procedure(DampingBelow)
 def find_damping_below(statement: DampingBelow) -> SearchResult:
     """Look for a κ that breaks the bound and an ε₀ at which norms alone give dV/dt < 0; never proves."""
-    positive = find_mass_above(mass_positive(statement.with_damping(Fraction(1), Fraction(1))))
+    positive = find_mass_above(statement.mass_positive)
     if positive.verdict is not Verdict.PROVED:
         return still_open(f"M ≻ 0 is not shown: {positive.reason or 'it is refuted'}", METHOD)
     for factor in _factors(statement):
@@ -106,7 +104,7 @@ def _small_enough(statement: Decreasing) -> Fraction | None:
     """A power of ½ for ε₀ at which norms alone give dV/dt < 0."""
     for power in range(HALVINGS):
         eps0 = Fraction(1, 2**power)
-        loop = closed_loop_of(replace(statement, eps0=eps0))
+        loop = replace(statement, eps0=eps0).closed_loop
         if loop.admissible and certifies(loop.tail, eps0):
             return eps0
     return None
@@ -149,7 +147,7 @@ def _by_boxes(statement: Decreasing) -> SearchResult:
     n = len(statement.kp)
     if n > FEW_JOINTS:
         return still_open(f"norms do not suffice, and boxes are tried up to {FEW_JOINTS} joints", METHOD)
-    loop = closed_loop_of(statement)
+    loop = statement.closed_loop
     outcome = certify(Problem(loop), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)

@@ -11,7 +11,7 @@ so a proof of dV/dt < 0 for the smaller friction (1 − η)B and the smaller sti
 
 That is a sum over joints. Where B is anywhere from b to b + Δ the proof is for (1 − η)b and
 (1 − κ)K_p − ¼ ε₀ Δ, as δ_i y_i w_i ≥ −¼ ε² δ_i h_i² for 0 ≤ δ_i ≤ Δ_i, and b_i is the lower end throughout;
-ranges of parameters in M are those of the proof and of μ (``lyapcheck.check.loop.corners``).
+ranges of parameters in M are those of the proof.
 
 A torque d = d' − φ, |d'_i| ≤ d̄_i, |φ_i| ≤ f_i and φ_i w_i ≥ 0 (dry friction), adds yᵀd to dV/dt, and
 yᵀd ≤ Σ |y_i| d̄_i + ε Σ f_i |h_i| because −wᵀφ ≤ 0. With shares t, s > 0 of the damping,
@@ -19,8 +19,8 @@ yᵀd ≤ Σ |y_i| d̄_i + ε Σ f_i |h_i| because −wᵀφ ≤ 0. With shares 
     −dV/dt ≥ (1 − t − s) η Σ b_i y_i² + ε Σ (c_i h_i² − f_i |h_i|) − K,
     c_i = κ k_pi − η b_i ε₀/(4t),     K = Σ d̄_i²/(4 s η b_i).
 
-For D = diag(d_i), d_i² ≤ b_i, and a certified μ ≥ λmax(D⁻¹M(q)D⁻¹) the kinetic part T = ½ yᵀMy of V has
-(1 − t − s) η Σ b_i y_i² ≥ a T, a = 2 (1 − t − s) η/μ. For every 0 ≤ λ ≤ a/ε₀ and wherever v ≤ V ≤ v',
+For certified u_i with M(q) ≼ diag(u) the kinetic part T = ½ yᵀMy of V has (1 − t − s) η Σ b_i y_i² ≥ a T,
+a = 2 (1 − t − s) η min b_i/u_i. For every 0 ≤ λ ≤ a/ε₀ and wherever v ≤ V ≤ v',
 
     −dV/dt ≥ ε [λ v + Σ min (c_i h² − f_i |h| − λ k_pi U)] − K,     |e_i| ≤ U⁻¹(v'/k_pi),
 

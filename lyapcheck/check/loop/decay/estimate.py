@@ -69,7 +69,8 @@ class Estimate:
         loop = margin.loop
         self.member: Member = loop.member
         rest = 1 - margin.split - margin.slack
-        self.damping = 2 * rest * margin.friction / margin.inertia.inertia
+        lightest = min(b / u for b, u in zip(margin.viscous, margin.heaviest, strict=True))
+        self.damping = 2 * rest * margin.friction * lightest
         self.steepest = self.damping / loop.eps0
         self.stiffness = tuple(
             margin.stiffness * k - margin.friction * b * loop.eps0 / (4 * margin.split)
@@ -89,7 +90,7 @@ class Estimate:
     def start_level(self, errors: Sequence[Fraction], rates: Sequence[Fraction]) -> Fraction:
         """A bound from above of V where |e_i| ≤ errors, rad, and |w_i| ≤ rates, rad/s, for all q: J.
 
-        ½ μ Σ d_i² (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x, or ε₀ L x
+        ½ Σ u_i (|w_i| + ε |h_i|)² + Σ k_pi U(e_i), and ε |h(e_i)| ≤ ε₀ L x/(1 + x) at |e_i| ≤ x, or ε₀ L x
         where ε = ε₀.
         """
         return self._at_start(errors, rates, self.margin.loop.eps0)
@@ -99,15 +100,15 @@ class Estimate:
         return self._at_start(errors, rates, Fraction(0))
 
     def _at_start(self, errors: Sequence[Fraction], rates: Sequence[Fraction], eps0: Fraction) -> Fraction:
-        loop, inertia = self.margin.loop, self.margin.inertia
+        loop = self.margin.loop
         with precision(BITS):
             steepest = to_arb(eps0 * self.member.L)
             moving = stored = arb(0)
-            for x, rate, d, k in zip(errors, rates, inertia.weights, loop.kp, strict=True):
+            for x, rate, u, k in zip(errors, rates, self.margin.heaviest, loop.kp, strict=True):
                 near = x if loop.within else x / (1 + x)
-                moving += (to_arb(d) * (to_arb(rate) + steepest * to_arb(near))) ** 2
+                moving += to_arb(u) * (to_arb(rate) + steepest * to_arb(near)) ** 2
                 stored += to_arb(k) * self.member.potential(to_arb(x))
-            return Enclosure.from_arb(to_arb(inertia.inertia) * moving / 2 + stored).upper
+            return Enclosure.from_arb(moving / 2 + stored).upper
 
     def keeps(self, level: Fraction, errors: Sequence[Fraction]) -> bool:
         """Whether V ≤ level is shown to keep every |e_i| ≤ errors, rad: k_pi U at them is not below it."""

@@ -8,8 +8,8 @@ least h(x)/x up to W_i. Then
 
 a proof of dV/dt < 0 for all such D' with B + K_v δ and (1 − δ/L)K_v holds at all states that are so slow.
 
-U' = h and |h'| ≤ ρ give h² ≤ 2ρU, so ½ hᵀMh ≤ c Σ k_pi U(e_i) with c = μρ max d_i²/k_pi for D̃⁻¹MD̃⁻¹ ≼ μ,
-D̃ = diag(d). Between V with ε = ε₀ and with ε = ε₀', y differs by |ε₀ − ε₀'| h, so that with s = |ε₀ − ε₀'| √c
+U' = h and |h'| ≤ ρ give h² ≤ 2ρU, so ½ hᵀMh ≤ c Σ k_pi U(e_i) with c = ρ max u_i/k_pi for M ≼ diag(u).
+Between V with ε = ε₀ and with ε = ε₀', y differs by |ε₀ − ε₀'| h, so that with s = |ε₀ − ε₀'| √c
 
     V' ≤ (√T + s √P)² + P ≤ (s/2 + √(1 + s²/4))² V,     T = ½ yᵀMy,  P = Σ k_pi U(e_i),  T + P = V.
 
@@ -24,7 +24,7 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop, InertiaBound
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -72,10 +72,9 @@ def slowed(loop: ClosedLoop, floors: Sequence[Fraction]) -> ClosedLoop:
     return replace(loop, arm=Arm(loop.arm.mass, more), viscous=ranges if loop.viscous else (), kv=less)
 
 
-def regraded(level: Fraction, change: Fraction, loop: ClosedLoop, inertia: InertiaBound) -> Fraction:
-    """A bound of V at one ε₀, J, from V ≤ level at another one, ``change`` away."""
-    share = max(d * d / k for d, k in zip(inertia.weights, loop.kp, strict=True))
-    c = inertia.inertia * loop.member.rho * share
+def regraded(level: Fraction, change: Fraction, loop: ClosedLoop, heaviest: Sequence[Fraction]) -> Fraction:
+    """A bound of V at one ε₀, J, from V ≤ level at another one, ``change`` away, where M ≼ diag(heaviest)."""
+    c = loop.member.rho * max(u / k for u, k in zip(heaviest, loop.kp, strict=True))
     with precision(BITS):
         s = to_arb(abs(change)) * to_arb(c).sqrt()
         factor = (s / 2 + (1 + s * s / 4).sqrt()) ** 2
