@@ -53,6 +53,14 @@ def test_a_urdf_file_is_exported_as_an_arm_file_to_be_completed(tmp_path: Path) 
     assert {float(b.value) for b in robots.load(tmp_path / "mine.toml").viscous} == {2.0}
 
 
+def test_an_exported_arm_goes_to_standard_output(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert leaves(monkeypatch, "robot", "buap3", "--export", "-") == 0
+    assert capsys.readouterr().out == arm_text("buap3", Path())
+    assert not Path("-").exists()
+
+
 def test_export_does_not_write_over_a_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     target = tmp_path / "arm.toml"
     assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 0

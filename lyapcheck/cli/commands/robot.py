@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,7 +26,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--tip", metavar="LINK", help=about)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
     parser.add_whole("--max-boxes", about, least=1)
-    about = "Write the arm as an arm file to be edited, and decide nothing."
+    about = "Write the arm as an arm file to be edited, - for standard output, and decide nothing."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
     add_certificates(parser, "Write the certificates of what is decided there")
     add_no_store(parser)
@@ -63,6 +64,9 @@ def run(
         from lyapcheck.cli.output import require_writable
         from lyapcheck.robots.export import arm_text
 
+        if str(export) == "-":
+            sys.stdout.write(arm_text(robot, Path()))
+            return Exit.PROVED
         require_writable("--export", export)
         if export.exists():
             raise argument_error("--export", export, "is there already", "name another file")
