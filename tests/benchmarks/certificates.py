@@ -24,7 +24,7 @@ from .results import CertificateResult, Cost, ManyResult
 T = TypeVar("T")
 
 ARMS = ("pendulum1", "reyes-kelly2", "buap3")
-MANY = (("px100", (1,)), ("px150", (1,)), ("ur5", (1, 2, 3)), ("panda", (1,)))
+MANY = (("px100", (1,)), ("px150", (1,)), *((arm, (1, 2, 3)) for arm in ("ur5", "xarm6", "iiwa14", "panda")))
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEMBERS = (1, 2, 3, 4, 5)
 SHARES = tuple(Fraction(n, 1000) for n in (900, 950, 980, 990, 995))
