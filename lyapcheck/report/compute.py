@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
+from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.report.bench import map_path
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
@@ -29,7 +30,6 @@ from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.report.kept import question, read, written
 from lyapcheck.report.model import Data, behind
 from lyapcheck.robots import load
-from lyapcheck.search.processes import main_unnamed
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:

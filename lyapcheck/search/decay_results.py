@@ -12,10 +12,10 @@ from lyapcheck.check.kinds.phases import FallingPhases, Phase, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
+from lyapcheck.check.loop.processes import shared_between
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.search.processes import shared_between
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm

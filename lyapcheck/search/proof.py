@@ -15,11 +15,11 @@ from lyapcheck.check.kinds.decreasing import (
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.processes import shared_between
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof as Shown
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.search.processes import shared_between
 
 RateData = BoxTree | LinkBounds
 """What may show dV/dt < 0."""

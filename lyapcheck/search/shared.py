@@ -19,9 +19,9 @@ from time import monotonic
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored
-from lyapcheck.search.processes import main_unnamed
 from lyapcheck.search.schur import Problem
 
 WORTH = 8_192

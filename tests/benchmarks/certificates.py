@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from lyapcheck import GainSet, load_robot, paper_gain_file, read_gain_file
+from lyapcheck.check.loop.processes import shared_between
+from lyapcheck.check.loop.proof import proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.search.processes import proves_in_processes
 from lyapcheck.search.schur import Problem
 
 from .measure import LYAPCHECK, processor_seconds
@@ -84,7 +85,8 @@ def _cost(controlled: ControlledArm, falsified: Fraction, share: Fraction, max_b
     outcome, searched = _timed(lambda: certify(Problem(loop), max_boxes))
     if not outcome.proved:
         return Cost(float(share), outcome.boxes, searched, None)
-    accepted, checked = _timed(lambda: proves_in_processes(2, loop, outcome.tree))
+    with shared_between(2):
+        accepted, checked = _timed(lambda: proves(loop, outcome.tree))
     if not accepted:
         raise RuntimeError(f"the checker refused {outcome.boxes} boxes for ε₀ = {float(loop.eps0):.6g}")
     return Cost(float(share), outcome.boxes, searched, checked)

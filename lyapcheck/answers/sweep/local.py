@@ -12,7 +12,7 @@ from multiprocessing import get_context
 
 from lyapcheck.answers.sweep.ask import Batch, ask, failed
 from lyapcheck.answers.sweep.question import Answered
-from lyapcheck.search.processes import main_unnamed
+from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.temporary import temporary_folder
 
 AHEAD = 16

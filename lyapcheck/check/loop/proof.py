@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextvars import ContextVar
+from collections.abc import Sequence
+from dataclasses import replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
 from lyapcheck.check.loop.centred import CentredEvaluator
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.processes import all_parts
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
@@ -19,8 +20,8 @@ MORE_HALVINGS = 12
 """How much deeper than its tree a box may be cut: balls may be wider than the intervals of the search."""
 MOST_CENTRED = 2
 """Joints up to which slopes cost less than the smaller boxes that go without."""
-IN_PARTS: ContextVar[Callable[[ClosedLoop, str], bool] | None] = ContextVar("in_parts", default=None)
-"""Who judges trees by `proves_part` in several processes; nobody unless a caller has set it."""
+WORTH_SHARING = 20_000
+"""Characters of a tree from which a second process pays for its start."""
 
 
 def proves(loop: ClosedLoop, tree: str) -> bool:
@@ -38,8 +39,9 @@ def proves(loop: ClosedLoop, tree: str) -> bool:
 
     Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
     """
-    in_parts = IN_PARTS.get()
-    return proves_part(loop, tree, 0, 1) if in_parts is None else in_parts(loop, tree)
+    if len(tree) < WORTH_SHARING:
+        return proves_part(loop, tree, 0, 1)
+    return all_parts(proves_part, replace(loop), tree)  # the copy leaves behind what the loop has computed
 
 
 def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
