@@ -257,6 +257,18 @@ ON_DECREASING: list[Attack] = [
     ("linked-Q-none", "ext.linked", [(at(P, "rate", "rising"), [])], "no bound of the rates"),
     ("linked-tree", "ext.linked", [(at(P, "rate", "tree"), ".")], "a tree without its boxes"),
     ("linked-scales", "ext.linked", [(at(P, "rate", "scales"), "")], "no scales"),
+    ("linked-multiplier-small", "ext.linked", [(at(P, "rate", "scales"), "0LMUTNNNTS")], "l far too small"),
+    ("linked-multiplier-large", "ext.linked", [(at(P, "rate", "scales"), "oLMUTNNNTS")], "l far too large"),
+    ("linked-sizes", "ext.linked", [(at(P, "rate", "scales"), "N0o0oNNNTS")], "sizes of w and p far off"),
+    ("linked-scales-long", "ext.linked", [(at(P, "rate", "scales"), "NLMUTNNNTSN")], "a scale too many"),
+    ("linked-scale-none", "ext.linked", [(at(P, "rate", "scales"), "/LMUTNNNTS")], "a sign before the first"),
+    ("linked-no-boxes", "ext.linked", [(at(P, "rate", k), "") for k in ("tree", "scales")], "no box at all"),
+    (
+        "linked-Q-minus",
+        "ext.linked",
+        [(at(P, "rate", k, 0, "prices", 0), "-1") for k in ("rising", "falling")],
+        "Q < 0",
+    ),
     ("settle-linked-u", "ext.settling-linked", [(at(P, "heaviest"), ["1/2", "1/2"])], "u below U"),
     (
         "settle-linked-U",
