@@ -40,6 +40,7 @@ from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witn
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
 from tests.statement_fuzz.motions import decide_settling
+from tests.statement_fuzz.proposed import Proposed, decide_proposed
 
 __all__ = [
     "FAMILY",
@@ -102,4 +103,6 @@ __all__ = [
 
 def decide(statement: Any) -> Any:
     """The verdict that the search proposes and the rules of the checker accept."""
+    if isinstance(statement, Proposed):
+        return decide_proposed(statement)
     return decide_settling(statement) if isinstance(statement, Settling | StaysWithin) else propose(statement)

@@ -73,6 +73,7 @@ def _load() -> None:
         phases,
         printed,
         properties,
+        proposed,
         resting,
         settling,
         small,

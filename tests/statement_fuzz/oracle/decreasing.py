@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import isinf
 from random import Random
@@ -83,12 +83,14 @@ def _start(n: int, numbers: int) -> Any:
     return columns
 
 
-def rising(statement: Any, random: Random) -> Any:
+def rising(
+    statement: Any, random: Random, states: Callable[[Any, Any], States] = States
+) -> tuple[float, States]:
     """How fast V rises at most beside friction and stiffness, and the states at which it does."""
     n = len(statement.mass)
 
     def share(z: Any) -> Any:
-        at = States(z, statement)
+        at = states(z, statement)
         numbers = at.numbers()
         loop = loop_of(statement, numbers[:n], numbers[n:])
         with np.errstate(all="ignore"):
@@ -99,7 +101,7 @@ def rising(statement: Any, random: Random) -> Any:
             return rate / np.where(size > 0, size, np.inf)
 
     best, z = climbed(share, _start(n, n + len(statement.parameters)), random, SAMPLES, ROUNDS)
-    return best, States(z, statement)
+    return best, states(z, statement)
 
 
 @kinds.objections_to("Decreasing")
@@ -109,11 +111,14 @@ def decreasing(statement: Any, random: Random) -> Objection | None:
     result = mass_above(low, random)
     if result is not None:
         return result
-    if (joint := _held(statement)) is not None:
+    if (joint := held(statement)) is not None:
         return Objection("false", f"w = 0, e along joint {joint + 1}")
     best, at = rising(statement, random)
-    if not best > -1e-6:
-        return None
+    return rises_at(statement, at) if best > -1e-6 else None
+
+
+def rises_at(statement: Any, at: States) -> Objection | None:
+    """An objection, where dV/dt ≥ 0 at a state in many digits."""
     state, numbers = at.exactly()
     n = len(statement.mass)
     if not _rises(loop_of(statement, numbers[:n], numbers[n:]), state):
@@ -124,7 +129,7 @@ def decreasing(statement: Any, random: Random) -> Objection | None:
     return Objection("false", places)
 
 
-def _held(statement: Any) -> int | None:
+def held(statement: Any) -> int | None:
     """A joint along which V does not fall at rest, where dV/dt = −ε Σ λ_i k_pi h_i²."""
     weights = statement.coupling or (1,) * len(statement.kp)
     signs = [statement.eps0 * k * c for k, c in zip(statement.kp, weights, strict=True)]

@@ -1,0 +1,248 @@
+"""Proofs by corners, by links, by a larger K_v and within limits: of statements, and of what became of them.
+
+A statement that a proof was made for is changed at random, and the proof left as it is: mostly it then is
+false, or no longer shown, sometimes it is weaker and still shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from lyapcheck.check.kinds.at_corners import MassAtCorners, RateAtCorners
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    Decreasing,
+    LargerKv,
+    PositiveAndDecreasing,
+    closed_loop_of,
+)
+from lyapcheck.check.kinds.inertia import Bisection, LinksAtCorners, MassAbove
+from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
+from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.corners import at_corners
+from lyapcheck.check.numbers.members import member
+from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.trig import to_terms
+from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.error_boxes import ErrorBoxes
+from lyapcheck.search.link_bounds import bounds_along
+from lyapcheck.search.schur import Problem
+from tests.statement_fuzz.generators import Made, generates
+from tests.statement_fuzz.generators.controlled import FAMILIES, friction, gains
+from tests.statement_fuzz.generators.robots import Ranges, powers, robot, size
+from tests.statement_fuzz.oracle.arm import Rows
+from tests.statement_fuzz.proposed import ByCorners, ByLargerKv, ByLimits, ByLinks, ByMassAtCorners
+
+F = Fraction
+MAX_BOXES = 300
+SHARES = (F(1), F(1, 2), F(1, 5), F(1, 20))
+FACTORS = (F(11, 10), F(3, 2), F(4), F(100))
+AXES = ((F(0), F(0), F(1)), (F(1), F(0), F(0)), (F(3, 5), F(0), F(4, 5)))
+TURNS = (
+    ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1))),
+    ((F(1), F(0), F(0)), (F(0), F(0), F(-1)), (F(0), F(1), F(0))),
+)
+NO_PROOF = BoxTree(".")
+Change = Callable[[Random, Decreasing], Decreasing]
+
+
+def _stretched(values: tuple[Fraction, ...], by: Fraction) -> tuple[Fraction, ...]:
+    return tuple(x * by for x in values)
+
+
+def _wider(ranges: Ranges, by: Fraction) -> Ranges:
+    return tuple((low / by, high * by) for low, high in ranges)
+
+
+CHANGES: dict[str, Change] = {
+    "as it is": lambda random, one: one,
+    "a larger ε₀": lambda random, one: replace(one, eps0=one.eps0 * random.choice(FACTORS)),
+    "a smaller ε₀": lambda random, one: replace(one, eps0=one.eps0 / random.choice(FACTORS)),
+    "softer": lambda random, one: replace(one, kp=_stretched(one.kp, 1 / random.choice(FACTORS))),
+    "less friction": lambda random, one: replace(
+        one, viscous=tuple((low / random.choice(FACTORS), high) for low, high in one.viscous)
+    ),
+    "more friction": lambda random, one: replace(
+        one, viscous=tuple((low, high * random.choice(FACTORS)) for low, high in one.viscous)
+    ),
+    "more damping": lambda random, one: replace(one, kv=_stretched(one.kv, random.choice(FACTORS))),
+    "less damping": lambda random, one: replace(one, kv=_stretched(one.kv, 1 / random.choice(FACTORS))),
+    "wider ranges": lambda random, one: replace(
+        one, parameters=_wider(one.parameters, random.choice(FACTORS))
+    ),
+    "another function": lambda random, one: replace(
+        one, **dict(zip(("family", "m"), random.choice(FAMILIES), strict=True))
+    ),
+}
+
+
+def _changed(random: Random, one: Decreasing) -> tuple[Decreasing, str]:
+    name = random.choice(list(CHANGES))
+    return CHANGES[name](random, one), name
+
+
+def _ranged(random: Random, mass: Rows) -> tuple[Rows, Ranges]:
+    """M times a parameter, which now and then is squared."""
+    power = 2 if random.random() < 0.1 else 1
+    low = F(random.choice((1, 2, 3)), 2)
+    rows = tuple(tuple(tuple(((*p, power), c) for p, c in entry) for entry in row) for row in mass)
+    return rows, ((low, low * random.choice((F(1), F(5, 4), F(2)))),)
+
+
+def _about(random: Random, mass: Rows, parameters: Ranges) -> Decreasing:
+    """Gains and friction of an arm, at an ε₀ of natural size."""
+    n = len(mass)
+    viscous, kp, kv = friction(random, n), gains(random, n), gains(random, n)
+    heaviest = max(sum((size(entry, parameters) for entry in row), F(0)) for row in mass)
+    eps0 = min(b for b, _ in viscous) / (heaviest + max(b for _, b in viscous) + max(kv))
+    family, m = random.choice(FAMILIES)
+    return Decreasing(mass, viscous, parameters, family, m, kp, kv, eps0, ())
+
+
+def _highest(one: Decreasing, found: Callable[[Decreasing], Any]) -> tuple[Decreasing, Any]:
+    """With a proof at the largest share of its ε₀ at which there is one, if there is one."""
+    for share in SHARES:
+        tried = replace(one, eps0=one.eps0 * share)
+        proof = found(tried)
+        if proof is not None:
+            return tried, proof
+    return one, None
+
+
+def _tree(loop: ClosedLoop) -> BoxTree | None:
+    outcome = certify(Problem(loop), MAX_BOXES) if loop.admissible else None
+    return BoxTree(outcome.tree) if outcome is not None and outcome.proved else None
+
+
+def _boxes(one: Decreasing) -> BoxTree | None:
+    return _tree(closed_loop_of(one))
+
+
+def _corners(one: Decreasing) -> RateAtCorners | None:
+    trees = [_tree(corner) for corner in at_corners(closed_loop_of(one))]
+    each = tuple(tree for tree in trees if tree is not None)
+    return RateAtCorners(each) if len(each) == len(trees) else None
+
+
+@generates("ByCorners", 0.03)
+def by_corners(random: Random) -> Made:
+    """dV/dt < 0 over a range of M, by trees at its ends."""
+    mass, parameters = _ranged(random, robot(random, 1, True, plain=True).mass)
+    affine = tuple(tuple(tuple(((*p[:-1], 1), c) for p, c in entry) for entry in row) for row in mass)
+    one, rate = _highest(_about(random, affine, parameters), _corners)
+    changed, what = _changed(random, replace(one, mass=mass))
+    ends = sum(1 + (low < high) for low, high in parameters)
+    positive = MassAtCorners((Bisection(),) * ends)
+    return Made(ByCorners(changed, PositiveAndDecreasing(positive, rate or RateAtCorners(()))), what)
+
+
+@generates("ByMassAtCorners", 0.005)
+def by_mass_at_corners(random: Random) -> Made:
+    """M ≻ low·I over a range, by boxes at its ends."""
+    mass, parameters = _ranged(random, robot(random, 1, plain=True).mass)
+    if random.random() < 0.5:
+        low, high = parameters[0]
+        parameters = ((low - random.choice((1, 2)), high),)
+    shift = (powers(len(mass), 1), -F(random.choice((1, 1, 2)), random.choice((1, 4, 10))))
+    rows = tuple(
+        tuple((*entry, shift) if i == j and random.random() < 0.4 else entry for j, entry in enumerate(row))
+        for i, row in enumerate(mass)
+    )
+    low = F(random.choice((0, 0, 1)), random.choice((1, 10, 100)))
+    count = 2 if random.random() < 0.9 else 1
+    proof = MassAtCorners((Bisection(),) * (count if parameters[0][0] < parameters[0][1] else 1))
+    return Made(ByMassAtCorners(MassAbove(rows, parameters, low), proof), "a range of M")
+
+
+@generates("ByLargerKv", 0.03)
+def by_larger_kv(random: Random) -> Made:
+    """dV/dt < 0 by a proof for another K_v, of which no entry need be larger."""
+    one = _about(random, robot(random, 1, True, plain=True).mass, ())
+    one, rate = _highest(one, _boxes)
+    of = PositiveAndDecreasing(Bisection(), rate or NO_PROOF)
+    proof = LargerKv(one.kv, of)
+    changed, what = _changed(random, one)
+    if random.random() < 0.2:
+        changed, what = replace(changed, kv=_stretched(changed.kv, F(-1))), "damping that drives"
+    return Made(ByLargerKv(changed, proof), what)
+
+
+def _link(random: Random) -> RigidLink:
+    def some() -> Fraction:
+        return F(random.choice((-2, -1, 0, 0, 1, 3)), random.choice((2, 5, 10)))
+
+    moments = [F(random.choice((1, 2, 5)), 20) for _ in range(3)]
+    inertia = tuple(tuple(moments[i] if i == j else F(0) for j in range(3)) for i in range(3))
+    place, com = ((some(), some(), some()) for _ in range(2))
+    return RigidLink(
+        random.choice(AXES), place, F(random.choice((1, 2, 3)), 2), com, inertia, random.choice(TURNS)
+    )
+
+
+def _mass_of(links: tuple[RigidLink, ...]) -> Rows:
+    chain = Chain(links, (F(0), F(0), F(0)))
+    return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in chain.polynomials.mass)
+
+
+@generates("ByLinks", 0.005)
+def by_links(random: Random) -> Made:
+    """dV/dt < 0 of two links, the last of which may have a range of masses."""
+    links = (_link(random), _link(random))
+    loaded = (links[0], replace(links[1], mass=links[1].mass * random.choice((1, 2))))
+    arms = (links,) if loaded == links else (links, loaded)
+    light, heavy = _mass_of(links), _mass_of(loaded)
+    mass, parameters = light, ()
+    if len(arms) == 2:
+        parameters = ((F(0), F(1)),)
+        mass = tuple(
+            tuple(
+                (*(((*p, 0), c) for p, c in a), *(((*p, 1), -c) for p, c in a), *(((*p, 1), c) for p, c in b))
+                for a, b in zip(*rows, strict=True)
+            )
+            for rows in zip(light, heavy, strict=True)
+        )
+    one = _about(random, mass, parameters)
+    low = tuple(b for b, _ in one.viscous)
+    bounds = bounds_along(tuple(Chain(arm, (F(0), F(0), F(1))) for arm in arms), low)
+
+    def linked(tried: Decreasing) -> Any:
+        loop = closed_loop_of(tried)
+        if bounds is None or not loop.admissible:
+            return None
+        covered = ErrorBoxes(loop, bounds).covered(MAX_BOXES)
+        return replace(bounds, tree=covered.tree, scales=covered.scales) if covered.proved else None
+
+    one, rate = _highest(replace(one, eps0=4 * one.eps0), linked)
+    changed, what = _changed(random, one)
+    return Made(ByLinks(changed, PositiveAndDecreasing(LinksAtCorners(arms), rate or NO_PROOF)), what)
+
+
+@generates("ByLimits", 0.03)
+def by_limits(random: Random) -> Made:
+    """dV/dt < 0 within limits of speed, of error or of both, and of motions that keep within."""
+    whole = _about(random, robot(random, 1, True, plain=True).mass, ())
+    limits = tuple(F(random.choice((1, 2, 6)), random.choice((1, 2, 8))) for _ in range(2))
+    kinds = random.choice(((True, False), (False, True), (True, True)))
+    speeds, errors = ((x,) if asked else () for x, asked in zip(limits, kinds, strict=True))
+    steepest = member(whole.family, whole.m).L
+    floors = (random.choice((F(0), F(1, 10), F(1, 2), F(9, 10))) * steepest if speeds else F(0),)
+    energy = F(random.choice((1, 1, 4)), random.choice((1, 20, 400))) if random.random() < 0.5 else None
+    statement = DecreasingNearby(replace(whole, eps0=8 * whole.eps0), speeds, errors, energy)
+
+    def near(tried: Decreasing) -> BoxTree | None:
+        return _tree(nearby_loop(replace(statement, everywhere=tried), floors))
+
+    one, rate = _highest(statement.everywhere, near)
+    changed, what = _changed(random, one)
+    if random.random() < 0.3:
+        by, what = random.choice(FACTORS), "farther limits"
+        speeds, errors = _stretched(speeds, by), _stretched(errors, by)
+    told = DecreasingNearby(changed, speeds, errors, energy)
+    lightest = (F(1, random.choice((4, 40, 400))),) if energy and speeds else ()
+    shown = (Bisection(),) * len(lightest)
+    return Made(ByLimits(told, SlowerAndNearer(Bisection(), floors, rate or NO_PROOF, lightest, shown)), what)
