@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 
+from lyapcheck.check.codec import members
+from lyapcheck.check.statement import Statement
+from tests.statement_fuzz.generators import names
 from tests.statement_fuzz.judge import VERDICTS, Judged
+from tests.statement_fuzz.proposed import Proposed
 from tests.statement_fuzz.run import Recorded, Tally
 
 INTRODUCTION = """\
@@ -26,6 +30,7 @@ def markdown(tally: Tally, seed: int) -> str:
         *INTRODUCTION.splitlines(),
         "",
         *_checkers(tally),
+        *_gone(tally),
     ]
     lines += ["## By kind of statement", "", *_table(tally), "", "## By family", "", *_families(tally), ""]
     if tally.faults:
@@ -44,6 +49,18 @@ def _checkers(tally: Tally) -> list[str]:
         return []
     parts = ", ".join(f"{count} by {digest}" for digest, count in tally.checkers.items())
     return [f"The checker changed in between (SHA-256 of its sources): {parts}.", ""]
+
+
+def _gone(tally: Tally) -> list[str]:
+    """Which kinds were deleted since, and which statements were judged by none but earlier checkers."""
+    kinds = {kind for kind, _ in tally.verdicts}
+    today = {*members(Statement), *(cls.__name__ for cls in Proposed.__subclasses__())}
+    parts = []
+    if kinds - today:
+        parts.append(f"No kinds of today, counted by earlier checkers: {', '.join(sorted(kinds - today))}.")
+    if len(tally.checkers) > 1 and (missing := sorted({*names()} - kinds)):
+        parts.append(f"Written today, and not at all in this run: {', '.join(missing)}.")
+    return [*parts, ""] if parts else []
 
 
 def summary(tally: Tally) -> str:
