@@ -18,9 +18,8 @@ from lyapcheck.check.kinds.decreasing import (
     Decreasing,
     LargerKv,
     PositiveAndDecreasing,
-    closed_loop_of,
 )
-from lyapcheck.check.kinds.inertia import Bisection, LinksAtCorners, MassAbove
+from lyapcheck.check.kinds.inertia import Bisection, Links, MassAbove
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
@@ -120,11 +119,11 @@ def _tree(loop: ClosedLoop) -> BoxTree | None:
 
 
 def _boxes(one: Decreasing) -> BoxTree | None:
-    return _tree(closed_loop_of(one))
+    return _tree(one.closed_loop)
 
 
 def _corners(one: Decreasing) -> RateAtCorners | None:
-    trees = [_tree(corner) for corner in at_corners(closed_loop_of(one))]
+    trees = [_tree(corner) for corner in at_corners(one.closed_loop)]
     each = tuple(tree for tree in trees if tree is not None)
     return RateAtCorners(each) if len(each) == len(trees) else None
 
@@ -211,7 +210,7 @@ def by_links(random: Random) -> Made:
     bounds = bounds_along(tuple(Chain(arm, (F(0), F(0), F(1))) for arm in arms), low)
 
     def linked(tried: Decreasing) -> Any:
-        loop = closed_loop_of(tried)
+        loop = tried.closed_loop
         if bounds is None or not loop.admissible:
             return None
         covered = ErrorBoxes(loop, bounds).covered(MAX_BOXES)
@@ -219,7 +218,8 @@ def by_links(random: Random) -> Made:
 
     one, rate = _highest(replace(one, eps0=4 * one.eps0), linked)
     changed, what = _changed(random, one)
-    return Made(ByLinks(changed, PositiveAndDecreasing(LinksAtCorners(arms), rate or NO_PROOF)), what)
+    positive = Links(links) if len(arms) == 1 else MassAtCorners(tuple(map(Links, arms)))
+    return Made(ByLinks(changed, PositiveAndDecreasing(positive, rate or NO_PROOF)), what)
 
 
 @generates("ByLimits", 0.03)
