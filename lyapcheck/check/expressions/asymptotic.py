@@ -16,18 +16,18 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from flint import arb
+from flint import arb, fmpq
 
 from lyapcheck.check.expressions.expression import Unsupported, family_constant
 from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import rational_root
+from lyapcheck.check.numbers.polynomials import rational, rational_root
 
-Key = tuple[Fraction, Fraction, int]
+Key = tuple[Fraction | int, Fraction | int, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
 
-ONE: Key = (Fraction(0), Fraction(0), 0)
-X: Key = (Fraction(0), Fraction(1), 0)
-LOG_X: Key = (Fraction(0), Fraction(0), 1)
+ONE: Key = (0, 0, 0)
+X: Key = (0, 1, 0)
+LOG_X: Key = (0, 0, 1)
 ORDER = 12
 """The order of Taylor polynomials."""
 TERMS = 16
@@ -49,7 +49,7 @@ class Coefficient:
     """A number that lies in a ball; ``exact`` has its monomials if it is the same known one for all x."""
 
     ball: arb
-    exact: tuple[tuple[Monomial, Fraction], ...] | None = None
+    exact: tuple[tuple[Monomial, fmpq], ...] | None = None
 
     def __add__(self, other: Coefficient) -> Coefficient:
         if self.exact is None or other.exact is None:
@@ -79,17 +79,19 @@ class Coefficient:
             ((p, c),) = self.exact
             if c > 0 and all(e % 2 == 0 for _, e in p):
                 halves = [(symbol, e // 2) for symbol, e in p]
-                return _collected([_monomial([*halves, (("sqrt", c), 1)], Fraction(1))])
+                root = ("sqrt", Fraction(int(c.p), int(c.q)))
+                return _collected([_monomial([*halves, (root, 1)], fmpq(1))])
         return Coefficient(self.ball.sqrt())
 
-    def as_rational(self) -> Fraction | None:
-        """The value, if it is known to be rational."""
+    def as_rational(self) -> Fraction | int | None:
+        """The value, if it is known to be rational; whole numbers as such, which make keys that hash fast."""
         if self.exact is None or any(p for p, _ in self.exact):
             return None
-        return sum((c for _, c in self.exact), Fraction(0))
+        value = sum((c for _, c in self.exact), fmpq(0))
+        return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))
 
 
-def _monomial(powers: Iterable[tuple[Symbol, int]], factor: Fraction) -> tuple[Monomial, Fraction]:
+def _monomial(powers: Iterable[tuple[Symbol, int]], factor: fmpq) -> tuple[Monomial, fmpq]:
     """A product of powers of symbols, with squares of roots and roots of squares as numbers."""
     exponents: dict[Symbol, int] = {}
     for symbol, e in powers:
@@ -97,23 +99,23 @@ def _monomial(powers: Iterable[tuple[Symbol, int]], factor: Fraction) -> tuple[M
     for symbol, e in exponents.items():
         name, c = symbol
         if name == "sqrt":
-            factor *= c ** (e // 2)
+            factor *= rational(c) ** (e // 2)
             exponents[symbol] = e % 2
             root = rational_root(c)
             if e % 2 and root is not None:
-                factor, exponents[symbol] = factor * root, 0
+                factor, exponents[symbol] = factor * rational(root), 0
     return tuple(sorted((symbol, e) for symbol, e in exponents.items() if e)), factor
 
 
-def _collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Coefficient:
+def _collected(terms: Iterable[tuple[Monomial, fmpq]]) -> Coefficient:
     """A sum of multiples of monomials."""
-    result: dict[Monomial, Fraction] = {}
+    result: dict[Monomial, fmpq] = {}
     for p, c in terms:
-        result[p] = result.get(p, Fraction(0)) + c
+        result[p] = result[p] + c if p in result else c
     kept = tuple(sorted((p, c) for p, c in result.items() if c))
     ball = arb(0)
     for p, c in kept:
-        ball += prod((_value(*symbol) ** e for symbol, e in p), start=ball_of(c))
+        ball += prod((_value(*symbol) ** e for symbol, e in p), start=arb(c))
     return Coefficient(ball, kept)
 
 
@@ -125,12 +127,12 @@ def _value(name: str, c: Fraction) -> arb:
 
 def exactly(c: Fraction | int) -> Coefficient:
     """A rational number."""
-    return _collected([((), Fraction(c))])
+    return _collected([((), rational(c))])
 
 
 def named(name: str, c: int = 0) -> Coefficient:
     """The number of a symbol."""
-    return _collected([((((name, Fraction(c)), 1),), Fraction(1))])
+    return _collected([((((name, Fraction(c)), 1),), fmpq(1))])
 
 
 @dataclass(frozen=True)
@@ -210,10 +212,10 @@ def power_of(key: Key, exponent: Fraction) -> Key:
     Raises:
         Unsupported: ln x would get an exponent that is not an integer.
     """
-    logs = key[2] * exponent
-    if logs.denominator != 1:
+    a, b, logs = (x.numerator if x.denominator == 1 else x for x in (part * exponent for part in key))
+    if not isinstance(logs, int):
         raise Unsupported("a fractional power of a logarithm")
-    return key[0] * exponent, key[1] * exponent, int(logs)
+    return a, b, logs
 
 
 def _bounded(key: Key, start: Fraction) -> arb:
@@ -232,14 +234,16 @@ def _bounded(key: Key, start: Fraction) -> arb:
     log = x.log()
     rise = j / log if j > 0 else arb(0)
     if a < 0:
-        slope = ball_of(a) + (ball_of(max(b, Fraction(0))) + rise) / x
+        slope = ball_of(a) + (ball_of(max(b, 0)) + rise) / x
+    elif b < 0:
+        slope = ball_of(b) + rise
     else:
-        slope = ball_of(b) + rise if b < 0 else arb(j)
+        slope = arb(j)
     if slope <= 0:
         return arb(0).union((ball_of(a) * x + ball_of(b) * log).exp() * log**j)
     if a < 0:
         raise Open("a term that does not fall yet")
-    return arb(0).union((ball_of(j / -b) / arb(1).exp()) ** j)
+    return arb(0).union((ball_of(Fraction(-j) / b) / arb(1).exp()) ** j)
 
 
 def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:

@@ -130,7 +130,7 @@ class ScaleAlgebra(Algebra):
     def _exp(self, value: Asymptotic) -> Asymptotic:
         """exp of a x + b ln x + c + u."""
         large, limit, small = value.parts()
-        result = {X: Fraction(0), LOG_X: Fraction(0)}
+        result: dict[Key, Fraction | int] = {X: 0, LOG_X: 0}
         for key, c in large:
             exact = c.as_rational()
             if key not in result or exact is None:
