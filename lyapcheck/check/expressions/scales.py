@@ -142,7 +142,7 @@ class ScaleAlgebra(Algebra):
 
 def sign_from(tree: Tree, name: str, start: Fraction) -> int:
     """The sign that f keeps on [start, ∞), start >= 1; 0 where that is not shown."""
-    return _sign(tree, name, _term(X, start))
+    return _sign(tree, name, None, start, ctx.prec)
 
 
 def sign_beside(tree: Tree, name: str, point: Fraction, width: Fraction) -> int:
@@ -150,22 +150,23 @@ def sign_beside(tree: Tree, name: str, point: Fraction, width: Fraction) -> int:
 
     With x = p ± 1/t this is the sign for t >= 1/|width| >= 1. Nothing is said of f(p).
     """
-    start = 1 / abs(width)
-    step = _term(power_of(X, Fraction(-1)), start)
-    here = constant(exactly(point), start)
-    return _sign(tree, name, here + step if width > 0 else here - step)
+    return _sign(tree, name, point, width, ctx.prec)
 
 
-def _term(key: Key, start: Fraction) -> Asymptotic:
-    return Asymptotic(((key, exactly(1)),), start)
-
-
-def _sign(tree: Tree, name: str, x: Asymptotic) -> int:
-    """The sign of f(x(t)) for all t >= start."""
-    if x.start < 1:
+@lru_cache(maxsize=64)
+def _sign(tree: Tree, name: str, point: Fraction | None, reach: Fraction, bits: int) -> int:
+    """The sign of f(x(t)) for all t from some start on; kept, since a rule asks what its search did."""
+    start = reach if point is None else 1 / abs(reach)
+    if start < 1:
         return 0
+    t = Asymptotic(((X, exactly(1)),), start)
     try:
-        function: Asymptotic = evaluate(tree, {name: x}, ScaleAlgebra(x.start))
+        if point is None:
+            x = t
+        else:
+            step = constant(exactly(1 if reach > 0 else -1), start) / t
+            x = constant(exactly(point), start) + step
+        function: Asymptotic = evaluate(tree, {name: x}, ScaleAlgebra(start))
         return function.sign()
     except (Open, Unsupported, ValueError, ZeroDivisionError):
         return 0
