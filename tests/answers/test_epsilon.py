@@ -225,3 +225,27 @@ def test_a_spent_budget_is_undecided() -> None:
     code, text = run(path, "--m", "2", "--starts", "3", "--max-boxes", "1")
     assert code in (0, 3)
     assert "scalar certificate" in text or "certified" in text
+
+
+@pytest.mark.parametrize(("share", "said"), [(F(1, 2), "cost nothing"), (F(2), "cost 50 %")])
+def test_words_about_what_ranges_cost(
+    case: tuple[GainSet, EpsilonResult], share: Fraction, said: str
+) -> None:
+    _, result = case
+    assert result.certified is not None
+    assert "the ranges" not in str(result)
+    assert f"the ranges {said}" in str(replace(result, unvaried=result.certified * share))
+
+
+@pytest.mark.slow
+def test_ranges_are_set_beside_nominal_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "gains.toml"
+    path.write_text(
+        'robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n', encoding="utf-8"
+    )
+    words = ("epsilon", str(path), "--starts", "2", "--max-boxes", "100", "--no-store", "--format", "json")
+    (varied,) = json.loads(invoke(*words, "--vary", "viscous=-20%..+20%").stdout)["results"]
+    (nominal,) = json.loads(invoke(*words).stdout)["results"]
+    assert nominal["unvaried"] is None
+    assert varied["unvaried"] == nominal["certified"]
+    assert F(varied["certified"]) < F(varied["unvaried"])

@@ -30,6 +30,7 @@ def result_data(result: EpsilonResult) -> dict[str, Any]:
         "weighted": None if result.weighted is None else _weighted(result.weighted),
         "nearby": None if result.nearby is None else _nearby(result.nearby),
         "ranges": result.ranges,
+        "unvaried": exact(result.unvaried),
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
         "findings": list(result.findings),

@@ -71,6 +71,7 @@ class EpsilonResult(Answer):
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
         nearby: the ε₀ of states within limits of speed and of error, where they were asked for.
+        unvaried: what is certified at nominal numbers, where that was asked for beside ranges.
     """
 
     schema = "lyapcheck/epsilon/1"
@@ -95,6 +96,7 @@ class EpsilonResult(Answer):
     assumptions: tuple[str, ...] = ()
     seed: int = 0
     nearby: NearbyResult | None = None
+    unvaried: Fraction | None = None
 
     @property
     def name(self) -> str:

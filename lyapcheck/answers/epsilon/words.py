@@ -85,6 +85,8 @@ NEARBY = (
 def remarks(result: EpsilonResult) -> list[str]:
     """How the certified number was proved, findings, reasons for missing numbers and the witness."""
     said = [_way(result)] if result.certified is not None or result.boxes else []
+    if result.certified is not None and result.unvaried is not None:
+        said.append(_cost_text(result.certified, result.unvaried))
     said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
     if result.weighted is not None:
@@ -169,6 +171,14 @@ def _way(result: EpsilonResult) -> str:
     if result.boxes:
         parts.append(f"{boxes_text(result.boxes)} looked at by the search")
     return f"{', '.join(parts)}."
+
+
+def _cost_text(certified: Fraction, nominal: Fraction) -> str:
+    """What the ranges cost."""
+    if certified >= nominal:
+        return f"the ranges cost nothing: at nominal numbers ε₀ = {exact(nominal)} is certified."
+    share = 100 * float(1 - certified / nominal)
+    return f"the ranges cost {share:.2g} %: at nominal numbers ε₀ = {exact(nominal)} is certified."
 
 
 def reasons(result: EpsilonResult) -> list[str]:

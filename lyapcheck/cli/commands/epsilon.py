@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 TICKS = 10**6
 """Limits are multiples of 1/TICKS rad."""
+WITH_RANGES = 0.7
+"""The share of the work that is about ranges, beside nominal numbers."""
 
 
 @dataclass(frozen=True)
@@ -217,12 +219,21 @@ def _each(
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []
+    nominal = replace(budget, ranges=False, weights=False, limits=None)
     for done, gain_set in enumerate(gains):
 
-        def tell(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
-            advance((done + fraction) / len(gains), f"{name}: {note}")
+        def ask(
+            asked: Budget, low: float, high: float, done: int = done, own: GainSet = gain_set
+        ) -> EpsilonResult:
+            def tell(fraction: float, note: str) -> None:
+                advance((done + low + (high - low) * fraction) / len(gains), f"{own.name}: {note}")
+
+            return kept_epsilon(own, model, **vars(asked), on_progress=tell)
 
         began = perf_counter()
-        results.append(kept_epsilon(gain_set, model, **vars(budget), on_progress=tell))
+        result = ask(budget, 0.0, WITH_RANGES if budget.ranges else 1.0)
+        if result.corner:  # something ranges: what that costs is asked too
+            result = replace(result, unvaried=ask(nominal, WITH_RANGES, 1.0).certified)
+        results.append(result)
         seconds.append(perf_counter() - began)
     return results, seconds
