@@ -315,14 +315,16 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Pa
     script.write_text(
         "from fractions import Fraction\n"
         "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
-        "from lyapcheck.search import processes\n"
+        "from lyapcheck.check.loop import proof\n"
+        "from lyapcheck.check.loop.processes import shared_between\n"
         "from lyapcheck.search.branch_and_bound import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
         "from lyapcheck.search.schur import Problem\n"
         "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
         "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
-        "processes.WORTH_SHARING = 0\n"
-        "print(processes.proves_in_processes(2, loop, certify(Problem(loop), 10_000).tree))\n"
+        "proof.WORTH_SHARING = 0\n"
+        "with shared_between(2):\n"
+        "    print(proof.proves(loop, certify(Problem(loop), 10_000).tree))\n"
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
     assert (run.stdout, run.stderr) == ("True\n", "")
