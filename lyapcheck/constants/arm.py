@@ -12,7 +12,6 @@ References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 
 from lyapcheck._types import Progress
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
@@ -80,7 +79,7 @@ def arm_constants(
             boxes = SHARE * task.cost * max_boxes
             result.append(task.solve(boxes, enough, progress, from_distances(fixed, name)))
         elif arm is None:
-            result.append(chain_constant(fixed, name, thorough, Fraction(enough)))
+            result.append(chain_constant(fixed, name, thorough))
         else:
             result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))
     return tuple(result)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import Constant
 from lyapcheck.constants.extreme import extreme
@@ -15,14 +13,13 @@ from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
 
-def chain_constant(plant: Plant, name: str, thorough: bool, enough: Fraction) -> Constant:
+def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Args:
         plant: the arm.
         name: of the constant.
         thorough: whether k_c may take a minute; else masses and distances alone bound it.
-        enough: relative width of an enclosure of k_c that is good enough.
 
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, and
         for k_c see `lyapcheck.constants.storage.coriolis`.
@@ -35,7 +32,7 @@ def chain_constant(plant: Plant, name: str, thorough: bool, enough: Fraction) ->
         shown = storage_proof(chain, name)
     outer = from_distances(plant, name) if shown is None else shown.bound
     if name == "k_c" and (thorough or outer is None):
-        forms = coriolis_bound(hinges(chain)[0], inner.value * (1 + enough))
+        forms = coriolis_bound(hinges(chain)[0])
         outer = min((x for x in (outer, forms) if x is not None), default=None)
     if outer is None:
         raise argument_error(

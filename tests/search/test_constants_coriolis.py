@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -93,38 +92,9 @@ def holds(bodies: list[Hinge], basis: coriolis.Basis, x: np.ndarray, sector: tup
 def test_the_bound_of_three_joints_beside_boxes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(coriolis, "_SECTORS", 4)
     arm = arm_of("leaning", tmp_path)
-    bound = coriolis.coriolis_bound(hinges(arm.chain)[0], Fraction(10**6))
+    bound = coriolis.coriolis_bound(hinges(arm.chain)[0])
     (boxes,) = arm_constants(arm, 3000, names=("k_c",))
     assert boxes.enclosure.lower <= bound <= 1.3 * boxes.enclosure.upper
-
-
-def test_the_worst_sectors_are_cut(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With a bound 2 + sin q + half the width for each sector the halves near the top of the sine matter."""
-    bodies, asked = hinges(arm_of("leaning", tmp_path).chain)[0], []
-
-    def bound(_: object, __: object, sector: tuple[float, float], known: list[tuple[float, object]]) -> float:
-        middle, half = sector
-        asked.append(sector)
-        top = (0.5 * np.pi - middle + np.pi) % (2 * np.pi) - np.pi
-        known.append((3 - (1 - np.cos(max(abs(top) - half, 0.0))) + half, None))
-        return known[-1][0]
-
-    monkeypatch.setattr(coriolis, "_sector", bound)
-    plain = coriolis.coriolis_bound(bodies, Fraction(4))
-    assert float(plain) == pytest.approx(3 + np.pi / 6)
-    assert sum(2 * half for _, half in asked) == pytest.approx(2 * np.pi)
-    monkeypatch.setattr(coriolis, "_CUTS", 6)
-    monkeypatch.setattr(coriolis, "_WORTH", 1)
-    assert 3 < coriolis.coriolis_bound(bodies) < 3 + 0.6 * np.pi / 6
-    # what is cut is covered by its halves
-    cut = asked[6 + 6 :]
-    for (left, half), (right, other) in zip(cut[::2], cut[1::2], strict=True):
-        assert half == other
-        assert any(
-            abs(middle - (left + right) / 2) < 1e-12 and abs(whole - 2 * half) < 1e-12
-            for middle, whole in asked
-        )
-        assert right - left == pytest.approx(2 * half)
 
 
 @pytest.mark.slow

@@ -5,8 +5,8 @@
 and both sides are quadratic in the states of `lyapcheck.constants.storage.lift`: the cost of a joint is the
 power of its link, its price κ z², and at the end −κ N² with N = ‖x‖². Forms that vanish because products of
 the same numbers are products help (`relations`), and so does N ≥ 0 (`positive_products`). The angle of the
-second joint is kept and its circle parted into sectors, see `lyapcheck.constants.storage.first_joints`; the
-sector that decides is cut, again and again. From the third joint on turns leave the forms alone.
+second joint is kept and its circle parted into sectors, see `lyapcheck.constants.storage.first_joints`; from
+the third joint on the forms are those that turns leave alone.
 """
 
 from __future__ import annotations
@@ -30,13 +30,6 @@ from lyapcheck.constants.torus import PI_ABOVE
 _MARGIN = 1e-5
 _ANGLES = 17
 _SECTORS = 6
-"""To begin with."""
-_CUTS = 4
-"""Of sectors; half of them cost nothing where opposite sectors are alike."""
-_WORTH = 0.99
-"""Where the halves of a sector have more of its κ, cuts end."""
-_LESS = 0.998
-"""What forms must have of the κ of a sector to be tried on its halves."""
 _HEAD = 30.0
 _TOLERANCE = 1e-5
 _BITS = 256
@@ -56,12 +49,8 @@ class Basis:
         return len(self.own) + len(self.relations) + len(self.positive)
 
 
-def coriolis_bound(hinges: Sequence[Hinge], enough: Fraction = Fraction(0)) -> Fraction | None:
+def coriolis_bound(hinges: Sequence[Hinge]) -> Fraction | None:
     """An upper bound of k_c; ``None`` where none was certified, and for fewer than three joints.
-
-    Args:
-        hinges: base first.
-        enough: a bound that need not be bettered.
 
     Soundness: as for the other storage forms; the condition of the first two joints by bounds over intervals
         of one angle.
@@ -70,29 +59,9 @@ def coriolis_bound(hinges: Sequence[Hinge], enough: Fraction = Fraction(0)) -> F
         return None
     basis = Basis(lift.invariant_forms(), lift.relations(), lift.positive_products())
     known: list[tuple[float, Exact]] = []
-
-    def bound(middle: float, half: float, most: float) -> tuple[float, float, float]:
-        better = [forms for forms in known if forms[0] < _LESS * most]
-        count = len(better)
-        kappa = _sector(hinges, basis, (middle, half), better)
-        known.extend(better[count:])
-        return min(kappa, most), middle, half
-
     half = PI_ABOVE / _SECTORS
-    parts = [bound((2 * k + 1) * half, half, inf) for k in range(_SECTORS)]
-    for _ in range(_CUTS):
-        worst = max(parts)
-        kappa, middle, half = worst
-        if kappa <= enough:
-            break
-        parts.remove(worst)
-        # the second half may use what the first one found
-        halves = [bound(middle + side * half / 2, half / 2, kappa) for side in (-1, 1)]
-        parts += halves
-        if max(halves)[0] > _WORTH * kappa:
-            break
-    result = max(parts)[0]
-    return Fraction(result) if isfinite(result) else None
+    result = [_sector(hinges, basis, ((2 * k + 1) * half, half), known) for k in range(_SECTORS)]
+    return Fraction(max(result)) if isfinite(max(result)) else None
 
 
 def _sector(
