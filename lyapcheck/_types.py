@@ -1,4 +1,4 @@
-"""Names of types and of the seed that the whole house shares; importing it costs nothing."""
+"""Types, silent progress and the seed that the whole house shares; importing it costs nothing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,12 @@ else:
     Array = Any
 
 Progress = Callable[[float, str], None]
-"""Told the fraction done (0 to 1) and a note of a few words."""
+"""Takes the fraction done (0 to 1) and a note of a few words."""
+
+
+def silent(fraction: float, note: str) -> None:
+    """Progress that nobody looks at."""
+
 
 SEED = 20190301
 """Where random choices begin, unless the user says otherwise: the month of the paper."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck import store
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import from_json, to_json
@@ -73,7 +73,7 @@ def run_proof(
     sets = _gain_sets(gains, joints)
     asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
     handover = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
-    proposals = _proposals(handover, asked, script.name, on_progress or _silent)
+    proposals = _proposals(handover, asked, script.name, on_progress or silent)
     made = certificates(proposals, handover.name)
     judged = judge_afresh(made)
     _keep(proposals, judged)
@@ -102,10 +102,6 @@ def paper_given(m: int) -> Given:
     """What the case of the paper is made of."""
     model = _robot(None, None)
     return m, model.n, model, next((s for s in _gain_sets(None, model.n) if s.m == m), None)
-
-
-def _silent(fraction: float, note: str) -> None:
-    """No progress."""
 
 
 def _others(asked: Sequence[Given]) -> tuple[Given, ...]:

@@ -87,8 +87,9 @@ def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:
     problems = []
     for wanted in ids:
         if wanted not in known:
-            near = _near(wanted, known)
-            repair = f"did you mean {', '.join(near)}?" if near else "run lyapcheck check to see all ids"
+            near = _near(wanted, dict.fromkeys(known))
+            hint = f"did you mean {', '.join(near)}? " if near else ""
+            repair = f"{hint}lyapcheck explain lists the ids, with --proof those of one script"
             problems.append(Problem(file, None, "id", wanted, "no claim has this id", repair))
     if problems:
         raise InputError(problems)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import argument_error
 
 if TYPE_CHECKING:
-    from lyapcheck.cli.progress import Advance
+    from lyapcheck._types import Progress
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
@@ -26,7 +26,7 @@ class Eps0:
     """None where nothing was asked for, and where it is to be certified."""
     certified: bool = False
 
-    def of(self, gain_set: GainSet, model: RobotModel, advance: Advance) -> float | None:
+    def of(self, gain_set: GainSet, model: RobotModel, advance: Progress) -> float | None:
         """The ε₀ of one gain set, rounded down; 0 if nothing was asked for, ``None`` if none is certified."""
         if not self.certified:
             return self.number or 0.0

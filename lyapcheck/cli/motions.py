@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck._types import Progress
 from lyapcheck.cli.eps0 import Eps0
 from lyapcheck.cli.output import write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
-from lyapcheck.cli.progress import Advance
 from lyapcheck.cli.show import show
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
@@ -62,7 +62,7 @@ class Job:
     file: GainFile
     model: RobotModel
     output: Output
-    advance: Advance
+    advance: Progress
     unfinished: list[Unfinished] = field(default_factory=list)
     varied: tuple[tuple[str, RobotModel], ...] = ()
     """The arm at other values of its numbers, each with what was changed."""
@@ -76,7 +76,7 @@ class Job:
             result += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
         return result
 
-    def each(self) -> list[tuple[GainSet, Advance]]:
+    def each(self) -> list[tuple[GainSet, Progress]]:
         """Each gain set with what tells its share of the progress of all."""
         gains = self.file.gains
         return [(one, _telling(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
@@ -87,7 +87,7 @@ class Job:
 
         self.unfinished.append(Unfinished(gain_set.name, reason))
 
-    def watching(self, eps0: Eps0, gain_set: GainSet, tell: Advance) -> float:
+    def watching(self, eps0: Eps0, gain_set: GainSet, tell: Progress) -> float:
         """The ε₀ to watch V with; 0 where none is certified, which is noted."""
         number = eps0.of(gain_set, self.model, tell)
         if number is None:
@@ -96,7 +96,7 @@ class Job:
         return number or 0.0
 
 
-def _telling(advance: Advance, done: int, cases: int, name: str) -> Advance:
+def _telling(advance: Progress, done: int, cases: int, name: str) -> Progress:
     return lambda fraction, note: advance((done + fraction) / cases, note or name)
 
 

@@ -29,7 +29,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-h", "--help", action="help", help="Show this help and leave.")
 
     def add_argument(self, *names: str, help: str = "", **settings: Any) -> argparse.Action:  # type: ignore[override]  # noqa: A002
-        """Add an argument or an option; its default is told at the end of its help."""
+        """Add an argument or an option; its default stands at the end of its help."""
         default = settings.get("default")
         # argparse hides the defaults of arguments without a name while it reads them among options
         shown = default is not None and default is not False and default != []
@@ -38,7 +38,8 @@ class Parser(argparse.ArgumentParser):
         action = super().add_argument(*names, help=help, **settings)
         self.actions.append(action)
         if not action.option_strings:
-            self.usage = f"{self.usage} {action.metavar}"
+            name = f"[{action.metavar}]" if action.nargs == "?" else action.metavar
+            self.usage = f"{self.usage} {name}"
         return action
 
     def add_choice(

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from time import monotonic
+
+from lyapcheck._types import Progress, silent
 
 SILENCE = 1.0
 """Seconds between two lines where there is no terminal."""
 
-Advance = Callable[[float, str], None]
-"""Called with the fraction done (0 to 1) and a note of a few words."""
-
 
 @contextmanager
-def progress(label: str, quiet: bool = False) -> Iterator[Advance]:
+def progress(label: str, quiet: bool = False) -> Iterator[Progress]:
     """Show how far a piece of work has come; yields the function that the work calls to say so."""
     if quiet:
-        yield lambda fraction, note: None
+        yield silent
     elif sys.stderr.isatty():
         with _bar(label) as advance:
             yield advance
@@ -28,7 +27,7 @@ def progress(label: str, quiet: bool = False) -> Iterator[Advance]:
 
 
 @contextmanager
-def _bar(label: str) -> Iterator[Advance]:
+def _bar(label: str) -> Iterator[Progress]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -40,7 +39,7 @@ def _bar(label: str) -> Iterator[Advance]:
 
 
 @contextmanager
-def _lines(label: str) -> Iterator[Advance]:
+def _lines(label: str) -> Iterator[Progress]:
     last, shown_at = "", -SILENCE
 
     def advance(fraction: float, note: str) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck._types import SEED, Progress
+from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.report.compute import compute
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Data, Report
@@ -75,7 +75,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
     model, notes = load(subject.robot), published_notes()
     gate = tuple(_gate(subject))
-    result = compute(subject, notes, gate, on_progress or (lambda fraction, note: None))
+    result = compute(subject, notes, gate, on_progress or silent)
     if subject.own:
         weighed = own_findings(gate, result.epsilon, result.claims)
     else:

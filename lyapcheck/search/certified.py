@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from time import monotonic
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -73,7 +73,7 @@ def certified_epsilon(
     """
     if not controlled.family.bounded:
         return Certified(None, 0, _UNBOUNDED)
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     if controlled.n > FEW_JOINTS:
         deadline = monotonic() + (math.inf if seconds is None else seconds)
         return Certified(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))

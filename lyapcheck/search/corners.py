@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import Witness
@@ -37,7 +37,7 @@ def falsify_corners(
 
     Soundness: the witness is proved for the arm that is handed back, which is one of those meant.
     """
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     best, witness = replace(controlled, ranges=False), None
     trial = best
     for turn in range(ROUNDS):

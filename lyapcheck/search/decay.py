@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
@@ -73,7 +73,7 @@ def settling_bound(
     """
     start = start_of(controlled, e0, w0, delta)
     wanted = _Wanted(controlled, Disturbance.none(controlled.n), start, short_below(as_written(delta)))
-    progress = on_progress or _silent
+    progress = on_progress or silent
     progress(0.0, "bounds of the inertia")
     shown, reason = None, not_positive(controlled)
     if not reason and in_phases:
@@ -119,7 +119,7 @@ def disturbance_bound(
     wanted = _Wanted(controlled, acting, start, None)
     shown, reason, at_rest = None, not_positive(controlled), None
     if not reason:
-        shown, reason = wanted.shown(max_boxes, jobs, on_progress or _silent)
+        shown, reason = wanted.shown(max_boxes, jobs, on_progress or silent)
         at_rest = resting(controlled, acting.torque, acting.dry)
     return DisturbanceBound.of(controlled, shown, reason, acting.torque, acting.dry, at_rest)
 
@@ -204,7 +204,3 @@ class _Wanted:
 
 def _short(angles: Sequence[float]) -> tuple[Fraction, ...]:
     return tuple(short_above(Fraction(x)) for x in angles)
-
-
-def _silent(fraction: float, note: str) -> None:
-    pass

@@ -13,7 +13,7 @@ from itertools import islice
 
 import numpy as np
 
-from lyapcheck._types import SEED, Array, Progress
+from lyapcheck._types import SEED, Array, Progress, silent
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -105,7 +105,7 @@ def smallest_refuted(
         on_progress: told how far the search is.
         held: moves states to where the witness has to be; they keep there when rounded to `DIGITS` digits.
     """
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     result: list[tuple[float, str, State]] = []
     for share, (kind, states) in enumerate(candidates, start=1):
         progress(min(share / steps, 1.0), f"{kind} states")

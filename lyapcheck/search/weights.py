@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
@@ -95,7 +95,7 @@ def weighted_epsilon(
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     result, states = _proposal(controlled, float(eps0), seed, lambda f, note: progress(0.5 * f, note))
     looked_at = 0
     for index, share in enumerate(SHARES):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.registry import arm_of
@@ -92,7 +92,7 @@ def simulate(
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
     loop = closed_loop(setup.gains, model)
     rough, fine = _twice(
-        loop, setup, points, tolerance, max_steps=max_steps, on_progress=on_progress or _silent
+        loop, setup, points, tolerance, max_steps=max_steps, on_progress=on_progress or silent
     )
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else _difference(rough, fine, model.n)
@@ -178,7 +178,3 @@ def _imbalance(energy: Array, dissipated: Array) -> float:
     """The largest |E(t) + D(t) − E(0)|, relative to the largest energy of the run."""
     scale = max(float(np.max(np.abs(energy))), float(np.max(np.abs(dissipated))), LEAST_ENERGY)
     return float(np.max(np.abs(energy + dissipated - energy[0]))) / scale
-
-
-def _silent(fraction: float, note: str) -> None:
-    pass

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.registry import arm_of
@@ -88,7 +88,7 @@ def experiment(
     periods = math.floor(T / bench.period * (1 + 1e-12))
     if periods < 1:
         raise argument_error("T", T, f"is shorter than one period of {bench.period} s", "give a longer time")
-    progress = on_progress or _silent
+    progress = on_progress or silent
     substeps = enough_substeps(model, bench)
     if substeps > MOST_SUBSTEPS:
         moved = partial(stiff_periods, setup, bench, periods)
@@ -157,7 +157,3 @@ def _notes(setup: Setup, bench: Bench) -> tuple[str, ...]:
     hold = f"torque held for {1000 * bench.period:g} ms, velocity by the backward difference of the readings"
     dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
     return hold, dry
-
-
-def _silent(fraction: float, note: str) -> None:
-    pass

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.extremes import with_extremes
@@ -113,7 +113,7 @@ def track_as_asked(
 ) -> TrackingRun:
     """The same for a request that is known to be possible; see `track`."""
     task = Prepared(gain_set, model, reference, asked)
-    rough, fine = task.twice(tolerance, max_steps, on_progress or (lambda fraction, note: None))
+    rough, fine = task.twice(tolerance, max_steps, on_progress or silent)
     failure = fine.failure or rough.failure
     accuracy = math.nan if failure else float(np.max(np.abs(fine.y - rough.y)[:, : 2 * model.n]))
     with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, silent
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.printed import printed_entry
 from lyapcheck.simulate.task import PAPER_TASK
@@ -75,7 +75,7 @@ def study(
         result = result.searched(seed) if search else result
         sets.append(_set_study(gain_set, entry, result, plan, seed if search else None))
         trials.append(result)
-        (on_progress or _silent)(len(sets) / (len(chosen) + 1), gain_set.name)
+        (on_progress or silent)(len(sets) / (len(chosen) + 1), gain_set.name)
     one_arm = all_sets(trials, len(plan.points), seed if search else None)
     return Study(
         robot=model.name,
@@ -111,7 +111,3 @@ def _figure_gains(gain_set: GainSet, entry: Printed, result: Trials, plan: Desig
     outcome = replace(runs, kp=kp)(values(runs.assumed, plan.nominal[None]))
     scale = np.array(gains.written[0]) / np.array(gains.kp)
     return FigureGains(tuple(float(x) for x in np.array(kp) * scale), float(outcome.L2[0]))
-
-
-def _silent(fraction: float, note: str) -> None:
-    pass

@@ -69,7 +69,7 @@ def test_an_id_may_be_written_loosely(written, meant):
     [
         ("16_6", "did you mean 16.6"),
         ("T1", "did you mean T1.torque.m1.base"),
-        ("nonsense", "run lyapcheck check to see all ids"),
+        ("nonsense", "id = nonsense: no claim has this id; lyapcheck explain lists the ids"),
         ("", "no claim has this id"),
     ],
 )

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from lyapcheck import store
+from lyapcheck._types import silent
 from lyapcheck.answers.bounds import kept as kept_motion
 from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
@@ -118,7 +119,7 @@ DRY = (0.01,)
 def bounds(angle: float = 0.5, delta: float = 0.1, dry: tuple[float, ...] = DRY) -> kept_motion.Bounds:
     """Bounds of a motion of the pendulum, from the store where they are there."""
     controlled = ControlledArm(GAINS, load("pendulum1"))
-    budget: dict[str, Any] = {"max_boxes": 300, "jobs": 1, "on_progress": lambda fraction, note: None}
+    budget: dict[str, Any] = {"max_boxes": 300, "jobs": 1, "on_progress": silent}
     return kept_motion.kept_bounds(controlled, (angle,), None, delta, (), dry, **budget)
 
 

@@ -59,7 +59,7 @@ SAID = {
     "report.model": (2, SORTING),
     "report.page.claims": (2, SORTING),
     "report.verdict": (2, GATHERED),
-    "simulate.batch_numpy": (1, "steps of an integrator"),
+    "simulate.batch.numpy_integrator": (1, "steps of an integrator"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
 """Modules in which verdicts are written down: how often, and what for."""

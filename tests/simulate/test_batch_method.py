@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lyapcheck.simulate import dop853
+from lyapcheck.simulate.batch import dop853
 
 
 def row(weights: dict[int, float], size: int = 16) -> np.ndarray:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.bounds.kept import kept_bounds
 from lyapcheck.robots.vary import corners, only_varied
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -99,7 +99,7 @@ def compare(
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
         on_progress: told the share done.
     """
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     unvaried, controlled, arms = None, ControlledArm(gain_set, model), [model]
     controlled.require_friction()
     if varied is not None:

@@ -15,7 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck._types import SEED, Progress
+from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
 from lyapcheck.answers.epsilon.nearby import StateLimits, nearby
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
@@ -84,7 +84,7 @@ def epsilon(
         the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
-    progress = on_progress or (lambda fraction, note: None)
+    progress = on_progress or silent
     controlled = ControlledArm(gain_set, model, ranges)
     controlled.require_friction()
     progress(0.0, "scalar form")

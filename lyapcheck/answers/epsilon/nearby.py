@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import SEED, Progress
+from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.answers.epsilon.consistency import require_consistent
 from lyapcheck.check.kinds.nearby import DecreasingNearby
 from lyapcheck.check.numbers.balls import precision, to_arb
@@ -131,7 +131,7 @@ def nearby(
         return falsify_nearby(arm, seed=seed, on_progress=progress)
 
     def part(low: float, high: float) -> Progress:
-        tell = on_progress or (lambda fraction, note: None)
+        tell = on_progress or silent
         return lambda share, note: tell(low + (high - low) * share, f"within limits: {note}")
 
     at, witness = falsify_corners(near, look, part(0, 0.4)) if ranges else (near, look(near, part(0, 0.4)))

@@ -6,10 +6,11 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lyapcheck._types import Progress
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder, write_whole
-from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.verdicts import Exit
@@ -164,7 +165,7 @@ def _compare(
     max_boxes: int,
     jobs: int,
     varied: tuple[RobotModel, tuple[Vary, ...]] | None,
-    advance: Advance,
+    advance: Progress,
 ) -> list[Comparison]:
     """The bounds of every gain set."""
     from lyapcheck.answers.bounds.compare import compare

@@ -7,6 +7,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from lyapcheck._types import Progress
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.options import (
     add_certificates,
@@ -18,7 +19,7 @@ from lyapcheck.cli.options import (
     varies,
 )
 from lyapcheck.cli.output import open_folder, write_whole
-from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
@@ -212,7 +213,7 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 
 def _each(
-    gains: list[GainSet], model: RobotModel, budget: Budget, advance: Advance
+    gains: list[GainSet], model: RobotModel, budget: Budget, advance: Progress
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
     from lyapcheck.answers.epsilon.kept import kept_epsilon

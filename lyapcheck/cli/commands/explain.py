@@ -31,6 +31,8 @@ def run(
 ) -> Exit:
     """Say what a claim states, what came of it, where the paper makes it, what it uses and how it is decided.
 
+    Without an ID, list the claims that can be explained.
+
     Examples:
       lyapcheck explain
       lyapcheck explain 16.6

@@ -7,8 +7,9 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
+from lyapcheck._types import Progress
 from lyapcheck.cli.options import add_format, add_no_store
-from lyapcheck.cli.progress import Advance, progress
+from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
@@ -83,7 +84,7 @@ def run(
     return answer.exit_code
 
 
-def _count(found: Iterator[Answered], total: int, tally: Tally, advance: Advance) -> None:
+def _count(found: Iterator[Answered], total: int, tally: Tally, advance: Progress) -> None:
     """Take all answers, and say how far they have come and how long the rest will take at that pace."""
     begun = monotonic()
     advance(0.0, f"{total} questions")

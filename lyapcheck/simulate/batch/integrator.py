@@ -1,4 +1,4 @@
-"""What an integrator of many runs hands back."""
+"""What an integrator of many runs takes, and what it returns."""
 
 from __future__ import annotations
 
@@ -24,6 +24,29 @@ FAILURES = (
 
 
 @dataclass(frozen=True, eq=False)
+class InitialValueProblems:
+    """R runs of (11) on one arm with one family; arrays without gaps.
+
+    Args:
+        y0: (R, 2n + 2) q, w, dissipated energy, ∫‖e‖².
+        parameters: (R, p) in the order of `Loop`.
+        bands: (R, n) rad, of the settling times.
+        T: s.
+        points: samples at even times from 0 to T, at least 2.
+        tolerance: relative error allowed per step; the absolute one is a hundredth of it.
+        max_steps: a budget for each run.
+    """
+
+    y0: Array
+    parameters: Array
+    bands: Array
+    T: float
+    points: int
+    tolerance: float
+    max_steps: int
+
+
+@dataclass(frozen=True, eq=False)
 class Paths:
     """The samples of many runs: ``y`` (R, points, 2n + 2), NaN from where a run failed."""
 
@@ -41,12 +64,12 @@ class Paths:
     """(R,) steps tried."""
 
 
-def empty_paths(y0: Array, points: int) -> Paths:
-    """Room for the paths from ``y0`` (R, 2n + 2)."""
-    runs, size = y0.shape
+def empty_paths(problems: InitialValueProblems) -> Paths:
+    """Arrays of the right size, not yet filled."""
+    runs, size = problems.y0.shape
     n = size // 2 - 1
     return Paths(
-        np.empty((runs, points, size)),
+        np.empty((runs, problems.points, size)),
         np.empty((runs, 3 * n + 4)),
         np.empty(runs, np.int32),
         np.empty(runs, np.int32),
@@ -59,26 +82,8 @@ class Integrator(Protocol):
     name: str
     """``compiled`` or ``numpy``."""
 
-    def __call__(
-        self,
-        y0: Array,
-        parameters: Array,
-        bands: Array,
-        T: float,
-        points: int,
-        tolerance: float,
-        max_steps: int,
-    ) -> Paths:
-        """The samples at ``points`` even times from 0 to T.
-
-        Args:
-            y0: (R, 2n + 2) q, w, dissipated energy, ∫‖e‖²; without gaps.
-            parameters: (R, p) in the order of `Loop`; without gaps.
-            bands: (R, n) rad, of the settling times; without gaps.
-            T: s.
-            points: at least 2.
-            tolerance: relative error allowed per step; the absolute one is a hundredth of it.
-            max_steps: a budget for each run.
+    def __call__(self, problems: InitialValueProblems) -> Paths:
+        """Integrate every run to T.
 
         Soundness: an error estimate per step is not a bound: compare with a smaller tolerance.
         """

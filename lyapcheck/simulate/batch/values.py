@@ -13,8 +13,8 @@ from lyapcheck.compiled.state_map import StateMap, state_map
 from lyapcheck.compiled.straight_line import Code, Term
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
-from lyapcheck.simulate.batch_numpy import array_forms
-from lyapcheck.simulate.batch_rates import Loop, parameter_count
+from lyapcheck.simulate.batch.loop import Loop, parameter_count
+from lyapcheck.simulate.batch.numpy_integrator import array_forms
 
 
 def values_of(model: RobotModel, family: Family, q: Array, e: Array, w: Array, parameters: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.batch_paths import FAILURES, Paths
+from lyapcheck.simulate.batch.integrator import FAILURES, Paths
 from lyapcheck.simulate.indices import LEAST_STEP
 from lyapcheck.simulate.results import LEAST_ENERGY
 

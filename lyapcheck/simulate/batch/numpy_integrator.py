@@ -12,17 +12,18 @@ from lyapcheck.compiled.plain_arrays import PlainArrays
 from lyapcheck.family import Family
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
-from lyapcheck.simulate import dop853
-from lyapcheck.simulate.batch_extremes import Seen, StepPart
-from lyapcheck.simulate.batch_paths import (
+from lyapcheck.simulate.batch import dop853
+from lyapcheck.simulate.batch.dop853 import Weights
+from lyapcheck.simulate.batch.extremes import Seen, StepPart
+from lyapcheck.simulate.batch.integrator import (
     OUT_OF_RANGE,
     STEP_TOO_SMALL,
     TOO_MANY_STEPS,
+    InitialValueProblems,
     Paths,
     empty_paths,
 )
-from lyapcheck.simulate.batch_rates import Loop
-from lyapcheck.simulate.dop853 import Weights
+from lyapcheck.simulate.batch.loop import Loop
 
 Whole = NDArray[np.int64]
 
@@ -42,25 +43,16 @@ class NumpyRuns:
     def __init__(self, model: RobotModel, family: Family) -> None:
         self._model, self._forms = model, array_forms(family)
 
-    def __call__(
-        self,
-        y0: Array,
-        parameters: Array,
-        bands: Array,
-        T: float,
-        points: int,
-        tolerance: float,
-        max_steps: int,
-    ) -> Paths:
-        """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
-        paths = empty_paths(y0, points)
+    def __call__(self, problems: InitialValueProblems) -> Paths:
+        """Integrate every run to T."""
+        paths = empty_paths(problems)
         paths.y.fill(np.nan)
-        paths.y[:, 0] = y0
+        paths.y[:, 0] = problems.y0
         paths.steps.fill(0)
         with np.errstate(all="ignore"):
-            march = _March(self, parameters, bands, paths, T, tolerance)
+            march = _March(self, problems, paths)
             while march.who.size:
-                march.step(max_steps)
+                march.step()
         return paths
 
     def rate(self, y: Array, parameters: Array) -> Array:
@@ -79,20 +71,19 @@ class NumpyRuns:
 class _March:
     """The runs that are still under way, as columns."""
 
-    def __init__(
-        self, engine: NumpyRuns, parameters: Array, bands: Array, paths: Paths, T: float, tolerance: float
-    ) -> None:
-        self.engine, self.paths, self.T, self.tolerance = engine, paths, T, tolerance
-        runs, points, _ = paths.y.shape
-        self.times = T * np.arange(points) / (points - 1)
+    def __init__(self, engine: NumpyRuns, problems: InitialValueProblems, paths: Paths) -> None:
+        self.engine, self.paths = engine, paths
+        self.T, self.tolerance, self.max_steps = problems.T, problems.tolerance, problems.max_steps
+        runs, points = len(problems.y0), problems.points
+        self.times = self.T * np.arange(points) / (points - 1)
         self.who: Whole = np.arange(runs)
-        self.p, self.y = parameters.T.copy(), paths.y[:, 0].T.copy()
+        self.p, self.y = problems.parameters.T.copy(), problems.y0.T.copy()
         self.rate = engine.rate(self.y, self.p)
         self.t, self.sample, self.rejected = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
         self.h = self._first_step()
-        self.seen = Seen(engine.watched, self.y, self.p, bands.T)
+        self.seen = Seen(engine.watched, self.y, self.p, problems.bands.T)
 
-    def step(self, max_steps: int) -> None:
+    def step(self) -> None:
         """One step of every run, with the size each of them wants."""
         k, new = self._stages()
         error = self._error(k, new)
@@ -110,7 +101,7 @@ class _March:
         self.h = np.where(left - following < 1e-12 * self.T, left, np.minimum(following, left))
         self.rejected = ~good
         self.paths.steps[self.who] += 1
-        self._settle(following, max_steps)
+        self._settle(following)
 
     def _stages(self) -> tuple[list[Array], Array]:
         k = [self.rate]
@@ -152,11 +143,11 @@ class _March:
         low = [rise, self.h * k[0] - rise, 2.0 * rise - self.h * (k[12] + k[0])]
         return np.stack([*low, *(self.h * _sum(row, k) for row in dop853.DENSE)])
 
-    def _settle(self, following: Array, max_steps: int) -> None:
+    def _settle(self, following: Array) -> None:
         """Let go of the runs that are done, and of those that cannot go on."""
         bad = ~np.all(np.abs(self.y) <= _LARGEST, axis=0)
         status = np.select(
-            [bad, self.paths.steps[self.who] >= max_steps, ~(following > 1e-15 * self.T)],
+            [bad, self.paths.steps[self.who] >= self.max_steps, ~(following > 1e-15 * self.T)],
             [OUT_OF_RANGE, TOO_MANY_STEPS, STEP_TOO_SMALL],
         )
         done = self.sample == self.times.size

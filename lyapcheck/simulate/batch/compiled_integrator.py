@@ -7,17 +7,16 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
 from lyapcheck.compiled.straight_line import Code, TooLong
 from lyapcheck.compiled.threads import over_shares
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
-from lyapcheck.simulate import dop853
-from lyapcheck.simulate.batch_paths import Paths, empty_paths
-from lyapcheck.simulate.batch_rates import Loop, parameter_count
-from lyapcheck.simulate.dop853 import Weights
+from lyapcheck.simulate.batch import dop853
+from lyapcheck.simulate.batch.dop853 import Weights
+from lyapcheck.simulate.batch.integrator import InitialValueProblems, Paths, empty_paths
+from lyapcheck.simulate.batch.loop import Loop, parameter_count
 
 LANES = 8
 """Runs that advance together in one thread."""
@@ -31,29 +30,19 @@ class CompiledRuns:
     def __init__(self, call: Any) -> None:
         self._call = call
 
-    def __call__(
-        self,
-        y0: Array,
-        parameters: Array,
-        bands: Array,
-        T: float,
-        points: int,
-        tolerance: float,
-        max_steps: int,
-    ) -> Paths:
-        """Integrate from ``y0`` (R, 2n + 2) with ``parameters`` (R, p) over T seconds."""
-        runs = len(y0)
-        paths = empty_paths(y0, points)
+    def __call__(self, problems: InitialValueProblems) -> Paths:
+        """Integrate every run to T, in threads."""
+        paths, of = empty_paths(problems), problems
 
         def share(start: int, stop: int) -> int:
-            given = (x[start:stop].ctypes.data for x in (y0, parameters, bands))
-            numbers = (T, tolerance, tolerance / 100, max_steps)
+            inputs = (x[start:stop].ctypes.data for x in (of.y0, of.parameters, of.bands))
+            numbers = (of.T, of.tolerance, of.tolerance / 100, of.max_steps)
             arrays = (paths.y, paths.seen, paths.status, paths.steps)
-            filled = (x[start:stop].ctypes.data for x in arrays)
-            self._call(stop - start, points, *given, *numbers, *filled)
+            outputs = (x[start:stop].ctypes.data for x in arrays)
+            self._call(stop - start, of.points, *inputs, *numbers, *outputs)
             return 0
 
-        over_shares(share, runs, LANES)
+        over_shares(share, len(of.y0), LANES)
         return paths
 
 
@@ -102,7 +91,7 @@ BODY
 
 
 def _resource(name: str) -> str:
-    return files("lyapcheck.simulate").joinpath(name).read_text(encoding="utf-8")
+    return files("lyapcheck.simulate.batch").joinpath(name).read_text(encoding="utf-8")
 
 
 def _table() -> dict[str, str]:

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.family import Family
-from lyapcheck.simulate.batch_compiled import compiled_runs
-from lyapcheck.simulate.batch_numpy import NumpyRuns
-from lyapcheck.simulate.batch_paths import Integrator
-from lyapcheck.simulate.batch_runs import Part, Runs, runs_of
-from lyapcheck.simulate.batch_task import BatchTask, batch_task, grouped
-from lyapcheck.simulate.batch_values import values_of
+from lyapcheck.simulate.batch.compiled_integrator import compiled_runs
+from lyapcheck.simulate.batch.integrator import InitialValueProblems
+from lyapcheck.simulate.batch.numpy_integrator import NumpyRuns
+from lyapcheck.simulate.batch.runs import Part, Runs, runs_of
+from lyapcheck.simulate.batch.task import BatchTask, batch_task, grouped
+from lyapcheck.simulate.batch.values import values_of
 from lyapcheck.simulate.indices import bands
 from lyapcheck.simulate.integrate import MAX_STEPS
 
@@ -95,13 +95,16 @@ def simulate_many(
     done = 0
     for family, chosen in _shares(task, points):
         integrator = compiled_runs(model, family) or NumpyRuns(model, family)
-        part = _part(integrator, task, chosen, T, points, (tolerance, max_steps), not eps0)
-        columns = part.rows() | (_motions(model, family, part, task.parameters[chosen]) if motions else {})
+        q_d, y0, own = (np.ascontiguousarray(x[chosen]) for x in (task.q_d, task.y0, task.parameters))
+        settling = bands(q_d - y0[:, : model.n])
+        paths = integrator(InitialValueProblems(y0, own, settling, T, points, tolerance, max_steps))
+        part = Part(T, q_d, paths, energy=not eps0)
+        columns = part.rows() | (_motions(model, family, part, own) if motions else {})
         for name, column in columns.items():
             rows.setdefault(name, np.empty((runs, *column.shape[1:]), column.dtype))[chosen] = column
         engines.append(integrator.name)
         done += chosen.size
-        (on_progress or _silent)(done / runs, "")
+        (on_progress or silent)(done / runs, "")
     return runs_of(np.linspace(0.0, T, points), rows, " and ".join(dict.fromkeys(engines)))
 
 
@@ -113,27 +116,8 @@ def _shares(task: BatchTask, points: int) -> Iterator[tuple[Family, NDArray[np.i
             yield family, chosen[start : start + size]
 
 
-def _part(
-    integrator: Integrator,
-    task: BatchTask,
-    chosen: NDArray[np.intp],
-    T: float,
-    points: int,
-    limits: tuple[float, int],
-    energy: bool,
-) -> Part:
-    q_d, y0 = task.q_d[chosen], np.ascontiguousarray(task.y0[chosen])
-    step = q_d - y0[:, : q_d.shape[1]]
-    parameters = np.ascontiguousarray(task.parameters[chosen])
-    return Part(T, q_d, integrator(y0, parameters, bands(step), T, points, *limits), energy)
-
-
 def _motions(model: RobotModel, family: Family, part: Part, parameters: Array) -> dict[str, Array]:
     """q, w and V at all samples; NaN where a run failed."""
     n, y = model.n, part.paths.y
     q, w = y[:, :, :n], y[:, :, n : 2 * n]
     return {"q": q, "w": w, "V": values_of(model, family, q, part.q_d[:, None] - q, w, parameters)}
-
-
-def _silent(fraction: float, note: str) -> None:
-    pass
