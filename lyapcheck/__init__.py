@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from lyapcheck.answers.check import ClaimResult, ProofResult
+    from lyapcheck.answers.check.run import run_proof
     from lyapcheck.answers.epsilon import EpsilonResult, epsilon
     from lyapcheck.answers.explain import explain
     from lyapcheck.answers.gate import GateResult, gate
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
-    from lyapcheck.claims.run import run_proof
     from lyapcheck.constants.bounds import RobotConstants, robot_constants
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
     from lyapcheck.control.limits import Limits, limits_for
@@ -163,7 +163,7 @@ _HOMES = {
     "robot_constants": "constants.bounds",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",
-    "run_proof": "claims.run",
+    "run_proof": "answers.check.run",
     "run_simulation": "simulate.closed_loop:simulate",
     "run_tracking": "tracking.simulation:track",
     "sweep": "answers.sweep",

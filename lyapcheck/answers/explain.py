@@ -8,10 +8,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.check.run import paper_given
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import ClaimData, Given, Request
 from lyapcheck.claims.registry import procedure_of
-from lyapcheck.claims.run import paper_given
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
 from lyapcheck.claims.statements import AllOf, Missing, Statement
 from lyapcheck.output.answer import Answer
@@ -204,7 +204,7 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
 
 def _found(script: Path, claim: str) -> tuple[str, ...]:
     """The verdict for each m, with its witness or reason."""
-    from lyapcheck.claims.run import run_proof
+    from lyapcheck.answers.check.run import run_proof
 
     rows = run_proof(script, only=(claim,)).claims
     return tuple(

@@ -241,7 +241,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name == "run_proof":
-        from lyapcheck.claims.run import run_proof
+        from lyapcheck.answers.check.run import run_proof
 
         return run_proof
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -72,8 +72,8 @@ class GainData:
 
 def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequence[str] = ()) -> ProofData:
     """The claims of a proof, with what their verdicts rest on."""
+    from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.certificates import file_name
-    from lyapcheck.claims.run import run_proof
 
     result = run_proof(proof, ms, robot, None, gains, only)
     rows = []

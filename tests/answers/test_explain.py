@@ -13,12 +13,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.answers.explain import explain
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
 from lyapcheck.claims.case import Lacking
-from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.errors import InputError

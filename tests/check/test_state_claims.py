@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.check.certificate import About, Certificate, judge, parse, read
 from lyapcheck.check.kinds.damping import DampingAbove
 from lyapcheck.check.refusal import Refused
@@ -15,7 +16,6 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.procedures import propose
-from lyapcheck.claims.run import paper_case
 from lyapcheck.control.gains import GainSet
 from lyapcheck.family import hyperbolic
 from lyapcheck.lyapunov.numeric import LyapunovNumeric

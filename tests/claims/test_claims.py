@@ -7,6 +7,7 @@ from flint import arb, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.check.expressions.expression import ball, derivative, taylor
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
@@ -63,7 +64,6 @@ from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.procedures.search import broken_sides
-from lyapcheck.claims.run import paper_case
 from lyapcheck.verdicts import Grade, Verdict
 
 x, y, a, b, c = map(var, "xyabc")

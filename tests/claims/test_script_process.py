@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import lyapcheck.claims.fresh_check
-import lyapcheck.claims.run
+from lyapcheck.answers.check import run as runner
 from lyapcheck.answers.explain import explain
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
@@ -264,14 +264,14 @@ def test_a_claim_that_cannot_be_stated_for_more_joints_is_decided_for_those_at_h
 
 def test_a_rule_that_is_wrong_in_this_process_alone_proves_nothing(write, monkeypatch):
     """As if the search and the judge beside it were both in error: the files are judged elsewhere."""
-    finding = lyapcheck.claims.run.propose
+    finding = runner.propose
 
     def boast(statement):
         honest = finding(statement)
         outcome = type(honest)(Verdict.PROVED, honest.method, honest.proof, grade=Grade.EXACT)
         return outcome
 
-    monkeypatch.setattr(lyapcheck.claims.run, "propose", boast)
+    monkeypatch.setattr(runner, "propose", boast)
     path = write(FALSE + "proof.add('above', '1 ≤ 2', Constant(expr(1) <= 2), uses=['false'])\n")
     result = run_proof(path, ms=(1,), n=1)
     false, above = result.claims
@@ -295,7 +295,9 @@ def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkey
             return self.certificate.text().replace('"num","2"', '"num","3"')
 
     monkeypatch.setattr(
-        lyapcheck.claims.run, "judge_afresh", lambda made: judge({k: Altered(c) for k, c in made.items()})
+        runner,
+        "judge_afresh",
+        lambda made: judge({k: Altered(c) for k, c in made.items()}),
     )
     row = rows(write(TRUE))["true", None]
     assert row.verdict is Verdict.UNDECIDED

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lyapcheck.answers.check import ProofResult
-from lyapcheck.claims.run import run_proof
+from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.paper import paper_gain_file
 from tests.helpers.once import once
 from tests.helpers.one_process import one_process

@@ -19,6 +19,7 @@ from lyapcheck.answers.bounds import kept as kept_motion
 from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
+from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.check.judging import certificate_of
@@ -75,17 +76,17 @@ def asked(request: pytest.FixtureRequest) -> tuple[RobotModel, bool, EpsilonResu
 
 def test_epsilon_is_found_again(monkeypatch: pytest.MonkeyPatch, asked: Any) -> None:
     model, ranges, first = asked
-    monkeypatch.setattr(kept, "epsilon", lambda *gains, **budget: first)
-    assert kept_epsilon(GAINS, model, ranges=ranges, **BUDGET) is first
-    monkeypatch.setattr(kept, "epsilon", never)
-    again = kept_epsilon(GAINS, model, ranges=ranges, **BUDGET)
+    monkeypatch.setattr(kept, "four", lambda *asked: first)
+    assert kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET)) is first
+    monkeypatch.setattr(kept, "four", never)
+    again = kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET))
     assert again.data() == first.data()
     texts = [{name: one.text() for name, one in certificates(result).items()} for result in (first, again)]
     assert texts[0] == texts[1]
     with pytest.raises(AssertionError, match="computed again"):
-        kept_epsilon(GAINS, model, ranges=ranges, max_boxes=301, starts=2)
+        kept_epsilon(GAINS, model, Options(ranges=ranges, max_boxes=301, starts=2))
     with pytest.raises(AssertionError, match="computed again"):
-        kept_epsilon(GAINS, load("pendulum1"), ranges=not ranges, **BUDGET)
+        kept_epsilon(GAINS, load("pendulum1"), Options(ranges=not ranges, **BUDGET))
 
 
 @pytest.mark.parametrize(
@@ -105,11 +106,11 @@ def test_an_epsilon_that_was_exchanged_is_asked_again(
     monkeypatch: pytest.MonkeyPatch, place: Path, asked: Any, change: Callable[[Any], None]
 ) -> None:
     model, ranges, first = asked
-    store.put(kept.question(GAINS, model, ranges=ranges, **BUDGET), kept.written(first))
-    monkeypatch.setattr(kept, "epsilon", lambda *gains, **budget: first)
-    assert kept_epsilon(GAINS, model, ranges=ranges, **BUDGET) is not first
+    store.put(kept.question(GAINS, model, Options(ranges=ranges, **BUDGET)), kept.written(first))
+    monkeypatch.setattr(kept, "four", lambda *asked: first)
+    assert kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET)) is not first
     rewritten(place, change)
-    result = kept_epsilon(GAINS, model, ranges=ranges, **BUDGET)
+    result = kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET))
     assert result.data() == first.data()
 
 

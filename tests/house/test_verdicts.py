@@ -41,7 +41,7 @@ SAID = {
     "answers.sweep.result": (2, SORTING),
     "claims.decision": (1, "what a fresh process of the checker said"),
     "claims.search_result": (3, "what a search proposes, which the rules are asked about before it is shown"),
-    "claims.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
+    "answers.check.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
     "claims.smallest": (1, CERTIFICATE),
     "cli.commands.simulate": (1, "the word of an option"),
     "cli.eps0": (4, "the word of an option"),

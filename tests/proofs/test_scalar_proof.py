@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.claims import expr, run_proof
-from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import find_script
 from lyapcheck.family import hyperbolic
 from lyapcheck.lyapunov.numeric import LyapunovNumeric

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import find_script
 from lyapcheck.errors import InputError
 from lyapcheck.family import hyperbolic

@@ -8,8 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.check.run import paper_case
 from lyapcheck.claims.case import Lacking
-from lyapcheck.claims.run import paper_case
 from lyapcheck.claims.script import load_proof
 from lyapcheck.claims.statements import AllOf, Missing, Statement
 

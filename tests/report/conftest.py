@@ -10,9 +10,8 @@ from typing import Any
 
 import pytest
 
-from lyapcheck.answers.check import ProofResult
-from lyapcheck.claims import run
-from lyapcheck.claims.run import run_proof
+from lyapcheck.answers.check import ProofResult, run
+from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import compute

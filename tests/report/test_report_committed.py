@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
+from lyapcheck.answers.check.run import paper_given
 from lyapcheck.check.codec import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import Request
-from lyapcheck.claims.run import paper_given
 from lyapcheck.claims.script import find_script
 from lyapcheck.cli.commands.report import _subject
 from lyapcheck.report.build import _gate, _table

@@ -183,7 +183,7 @@ def test_what_is_kept_is_not_asked_again(tmp_path: Path, monkeypatch: pytest.Mon
     def never(*gains: Any, **budget: Any) -> None:
         raise AssertionError("it was searched for again")
 
-    monkeypatch.setattr(kept, "epsilon", never)
+    monkeypatch.setattr(kept, "four", never)
     list(lyapcheck.sweep(path, workers=1, out=tmp_path / "out", resume=True))
     monkeypatch.undo()
     list(lyapcheck.sweep(path, workers=1, out=tmp_path / "alone"))

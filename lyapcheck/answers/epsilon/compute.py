@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
-from lyapcheck.answers.epsilon.nearby import StateLimits, nearby
+from lyapcheck.answers.epsilon.nearby import nearby
+from lyapcheck.answers.epsilon.options import Options, StateLimits
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
@@ -83,9 +84,13 @@ def epsilon(
     Soundness: ``certified`` rests on ``proof``, which ``lyapcheck.check.verify`` accepted, ``falsified`` on
         the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
-    gain_set, model = one_gain_set(gain_set), arm_of(model)
-    progress = on_progress or silent
-    controlled = ControlledArm(gain_set, model, ranges)
+    options = Options(max_boxes, jobs, ranges, weights, seconds, starts, seed, limits)
+    return four(one_gain_set(gain_set), arm_of(model), options, on_progress or silent)
+
+
+def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progress) -> EpsilonResult:
+    """As :func:`epsilon`."""
+    controlled = ControlledArm(gain_set, model, options.ranges)
     controlled.require_friction()
     progress(0.0, "scalar form")
     published, scalar, reasons = by_forms(controlled)
@@ -93,15 +98,12 @@ def epsilon(
     proof: Proof | None = None
     scalar_proof: Proof | None = None
     reasons["certified"] = unphysical(controlled)
+    main = 0.9 if options.weights else 1.0
     search = _Search(
         controlled,
         10 * (scalar.eps0 or Fraction(1)),
-        0 if reasons["certified"] else max_boxes,
-        jobs,
-        seconds,
-        starts,
-        seed,
-        lambda f, note: progress((0.9 if weights else 1.0) * f, note),
+        replace(options, max_boxes=0) if reasons["certified"] else options,
+        lambda f, note: progress(main * f, note),
     )
     at, witness, result = search.run()
     if witness is None:
@@ -111,11 +113,13 @@ def epsilon(
         scalar_proof = proof_of(controlled, scalar.eps0)
     certified = None if proof is None else proof.loop.eps0
     weighted = None
-    if weights and certified is not None and controlled.family.bounded:
+    if options.weights and certified is not None and controlled.family.bounded:
+        budget = options.max_boxes, options.jobs
         weighted = weighted_epsilon(
-            controlled, certified, max_boxes, jobs, on_progress=lambda f, note: progress(0.9 + 0.1 * f, note)
+            controlled, certified, *budget, on_progress=lambda f, note: progress(main + (1 - main) * f, note)
         )
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
+    limits = options.limits
     return put_together(
         controlled,
         at,
@@ -129,21 +133,8 @@ def epsilon(
         certified_by=by,
         reasons={name: reason for name, reason in reasons.items() if reason},
         assumptions=model.assumptions,
-        seed=seed,
-        nearby=None
-        if limits is None
-        else nearby(
-            gain_set,
-            model,
-            limits,
-            certified,
-            max_boxes=max_boxes,
-            jobs=jobs,
-            ranges=ranges,
-            seconds=seconds,
-            seed=seed,
-            on_progress=on_progress,
-        ),
+        seed=options.seed,
+        nearby=None if limits is None else nearby(gain_set, model, limits, certified, options, progress),
     )
 
 
@@ -194,16 +185,12 @@ class _Search:
 
     Args:
         guess: the ceiling where nothing is falsified.
-        max_boxes: 0 where nothing can be proved.
+        options: with no boxes where nothing can be proved.
     """
 
     controlled: ControlledArm
     guess: Fraction
-    max_boxes: int
-    jobs: int
-    seconds: float | None
-    starts: int
-    seed: int
+    options: Options
     progress: Progress
 
     def run(self) -> tuple[ControlledArm, Witness | None, Certified]:
@@ -212,37 +199,35 @@ class _Search:
         Fast states are looked at first: where nearly all of the ε₀ that they refute is proved, slow states
         refute hardly less, and are left alone.
         """
-        before, first = None, Certified(None, 0, "")
-        if self.max_boxes and not self.controlled.ranges and self.controlled.n <= FEW_JOINTS:
-            before = falsify(
-                self.controlled, self.starts, seed=self.seed, on_progress=self._part(0.0, 0.1), quick=True
-            )
+        before, first, max_boxes = None, Certified(None, 0, ""), self.options.max_boxes
+        if max_boxes and not self.controlled.ranges and self.controlled.n <= FEW_JOINTS:
+            before = self._falsify(self.controlled, self._part(0.0, 0.1), quick=True)
         if before is not None:
-            first = self._certified(before, self.max_boxes, 0.1, 0.5)
+            first = self._certified(before, max_boxes, 0.1, 0.5)
             if first.eps0 is not None and first.eps0 >= NEARLY * before.eps0:
                 return self.controlled, before, first
         at, witness = self._falsified(self._part(0.5, 0.7))
         if before is not None and (witness is None or before.eps0 <= witness.eps0):
             return self.controlled, before, first
-        if not self.max_boxes:
+        if not max_boxes:
             return at, witness, first
-        result = self._certified(witness, max(0, self.max_boxes - first.looked_at), 0.7, 1.0)
+        result = self._certified(witness, max(0, max_boxes - first.looked_at), 0.7, 1.0)
         better = max((result, first), key=lambda one: one.eps0 or 0)
         return at, witness, replace(better, looked_at=first.looked_at + result.looked_at)
 
     def _falsified(self, progress: Progress) -> tuple[ControlledArm, Witness | None]:
         if self.controlled.ranges:
-            return falsify_corners(
-                self.controlled,
-                lambda arm, on_progress: falsify(arm, self.starts, seed=self.seed, on_progress=on_progress),
-                progress,
-            )
-        return self.controlled, falsify(self.controlled, self.starts, seed=self.seed, on_progress=progress)
+            return falsify_corners(self.controlled, self._falsify, progress)
+        return self.controlled, self._falsify(self.controlled, progress)
+
+    def _falsify(self, arm: ControlledArm, progress: Progress, quick: bool = False) -> Witness | None:
+        starts, seed = self.options.starts, self.options.seed
+        return falsify(arm, starts, seed=seed, on_progress=progress, quick=quick)
 
     def _certified(self, witness: Witness | None, max_boxes: int, low: float, high: float) -> Certified:
         ceiling = self.guess if witness is None else witness.eps0
-        progress = self._part(low, high)
-        return certified_epsilon(self.controlled, ceiling, max_boxes, self.jobs, self.seconds, progress)
+        jobs, seconds, progress = self.options.jobs, self.options.seconds, self._part(low, high)
+        return certified_epsilon(self.controlled, ceiling, max_boxes, jobs, seconds, progress)
 
     def _part(self, low: float, high: float) -> Progress:
         return lambda fraction, note: self.progress(low + (high - low) * fraction, note)

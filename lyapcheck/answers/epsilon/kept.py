@@ -12,10 +12,11 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
-from lyapcheck._types import SEED, Progress
-from lyapcheck.answers.epsilon.compute import by_forms, epsilon, proof_of, put_together
+from lyapcheck._types import Progress, silent
+from lyapcheck.answers.epsilon.compute import by_forms, four, proof_of, put_together
 from lyapcheck.answers.epsilon.consistency import Contradiction
-from lyapcheck.answers.epsilon.nearby import StateLimits, nearby
+from lyapcheck.answers.epsilon.nearby import nearby
+from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
 from lyapcheck.check.codec import from_json, to_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
@@ -25,7 +26,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof as Shown
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import at_corner
-from lyapcheck.search.falsify import STARTS, confirmed
+from lyapcheck.search.falsify import confirmed
 from lyapcheck.search.proof import Proof
 from lyapcheck.search.weights import Weighted
 
@@ -36,61 +37,29 @@ if TYPE_CHECKING:
 
 
 def kept_epsilon(
-    gain_set: GainSet,
-    model: RobotModel,
-    *,
-    max_boxes: int,
-    jobs: int = 1,
-    ranges: bool = False,
-    weights: bool = False,
-    seconds: float | None = None,
-    starts: int = STARTS,
-    seed: int = SEED,
-    limits: StateLimits | None = None,
-    on_progress: Progress | None = None,
+    gain_set: GainSet, model: RobotModel, options: Options, on_progress: Progress = silent
 ) -> EpsilonResult:
-    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds; same arguments.
+    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds.
 
     What is asked within limits is not kept.
     """
-    budget: dict[str, Any] = {
-        "max_boxes": max_boxes,
-        "ranges": ranges,
-        "weights": weights,
-        "starts": starts,
-        "seed": seed,
-    }
-    if seconds is not None:  # what was found in so many seconds, another run of so many may better
-        return epsilon(
-            gain_set, model, jobs=jobs, seconds=seconds, limits=limits, on_progress=on_progress, **budget
-        )
-    asked = question(gain_set, model, **budget)
-    result = read(store.take(asked), gain_set, model, ranges, jobs)
+    if options.seconds is not None:  # another run of so many seconds may find a larger one
+        return four(gain_set, model, options, on_progress)
+    asked, limits = question(gain_set, model, options), options.limits
+    result = read(store.take(asked), gain_set, model, options)
     if result is None:
-        result = epsilon(gain_set, model, jobs=jobs, on_progress=on_progress, **budget)
+        result = four(gain_set, model, replace(options, limits=None), on_progress)
         store.put(asked, written(result))
     if limits is None:
         return result
-    more: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs, "ranges": ranges, "seed": seed}
-    return replace(
-        result,
-        nearby=nearby(gain_set, model, limits, result.certified, on_progress=on_progress, **more),
-    )
+    near = nearby(gain_set, model, limits, result.certified, options, on_progress)
+    return replace(result, nearby=near)
 
 
-def question(
-    gain_set: GainSet,
-    model: RobotModel,
-    *,
-    max_boxes: int,
-    ranges: bool = False,
-    weights: bool = False,
-    starts: int = STARTS,
-    seed: int = SEED,
-) -> dict[str, Any]:
+def question(gain_set: GainSet, model: RobotModel, options: Options) -> dict[str, Any]:
     """All that the four ε₀ depend on; not the name of the gain set."""
     gains = (gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit)
-    budget = {"max_boxes": max_boxes, "ranges": ranges, "weights": weights, "starts": starts, "seed": seed}
+    budget = {name: getattr(options, name) for name in ("max_boxes", "ranges", "weights", "starts", "seed")}
     return {"epsilon": store.exact(gains, model), **budget}
 
 
@@ -118,11 +87,11 @@ def written(result: EpsilonResult) -> dict[str, Any]:
     }
 
 
-def read(kept: Any, gain_set: GainSet, model: RobotModel, ranges: bool, jobs: int) -> EpsilonResult | None:
+def read(kept: Any, gain_set: GainSet, model: RobotModel, options: Options) -> EpsilonResult | None:
     """What was written, if the checker accepts all of it for these gains and this arm."""
     try:
-        controlled = ControlledArm(gain_set, model, ranges)
-        return None if kept is None else _read(kept, controlled, model.assumptions, jobs)
+        controlled = ControlledArm(gain_set, model, options.ranges)
+        return None if kept is None else _read(kept, controlled, model.assumptions, options.jobs)
     except (Refused, Contradiction, KeyError, TypeError, ValueError, ZeroDivisionError, AttributeError):
         return None
 
@@ -130,8 +99,8 @@ def read(kept: Any, gain_set: GainSet, model: RobotModel, ranges: bool, jobs: in
 def _read(
     kept: Mapping[str, Any], controlled: ControlledArm, assumptions: tuple[str, ...], jobs: int
 ) -> EpsilonResult | None:
-    proof, told = _proof(kept["proof"], controlled), kept["weighted"]
-    weighted, (published, scalar, reasons) = _proof(told, controlled), by_forms(controlled)
+    proof, heavier = _proof(kept["proof"], controlled), kept["weighted"]
+    weighted, (published, scalar, reasons) = _proof(heavier, controlled), by_forms(controlled)
     scalar_proof = proof_of(controlled, scalar.eps0) if kept["scalar_proof"] else None
     at, seen = controlled, kept["witness"]
     witness = None
@@ -154,7 +123,7 @@ def _read(
         scalar_proof=scalar_proof,
         weighted=None
         if weighted is None
-        else Weighted(weighted, int(told["states"]), int(told["looked_at"])),
+        else Weighted(weighted, int(heavier["states"]), int(heavier["looked_at"])),
         boxes=int(kept["boxes"]),
         certified_by=str(kept["certified_by"]),
         reasons={name: str(text) for name, text in (kept["reasons"] | reasons).items() if text},
@@ -167,7 +136,7 @@ def _written_arm(against: Refutation) -> dict[str, Any]:
     return {"viscous": to_json(against.viscous), "parameters": to_json(against.parameters)}
 
 
-def _arm(told: Any, controlled: ControlledArm) -> Plant:
+def _arm(arm: Any, controlled: ControlledArm) -> Plant:
     """The arm at the values that a witness is about.
 
     Raises:
@@ -176,7 +145,7 @@ def _arm(told: Any, controlled: ControlledArm) -> Plant:
     plant = controlled.model
     viscous = {f"viscous {i}": number for i, number in enumerate(plant.viscous)}
     numbers = {**viscous, **plant.parameters}
-    values = dict(zip(numbers, map(Fraction, (*told["viscous"], *told["parameters"])), strict=True))
+    values = dict(zip(numbers, map(Fraction, (*arm["viscous"], *arm["parameters"])), strict=True))
     for name, number in numbers.items():
         low, high = number.bounds
         if not low <= values[name] <= high:
@@ -193,12 +162,12 @@ def _written(proof: Proof) -> dict[str, Any]:
     }
 
 
-def _proof(told: Any, controlled: ControlledArm) -> Proof | None:
+def _proof(kept: Any, controlled: ControlledArm) -> Proof | None:
     """A proof as it was written, of what is asked now; not yet judged."""
-    if told is None:
+    if kept is None:
         return None
-    result = from_json(Shown, told["proof"], "proof")
+    result = from_json(Shown, kept["proof"], "proof")
     if not isinstance(result, PositiveAndDecreasing) or not isinstance(result.rate, BoxTree | LinkBounds):
         raise TypeError(f"{type(result).__name__} proves no ε₀")
-    coupling = from_json(tuple[Fraction, ...], told["coupling"], "coupling")
-    return Proof(controlled.loop(Fraction(told["eps0"]), coupling), result.rate, controlled.inertia_proof)
+    coupling = from_json(tuple[Fraction, ...], kept["coupling"], "coupling")
+    return Proof(controlled.loop(Fraction(kept["eps0"]), coupling), result.rate, controlled.inertia_proof)

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import SEED, Progress, silent
+from lyapcheck._types import Progress
 from lyapcheck.answers.epsilon.consistency import require_consistent
+from lyapcheck.answers.epsilon.options import Options, StateLimits
 from lyapcheck.check.kinds.nearby import DecreasingNearby
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.members import member
 from lyapcheck.errors import argument_error
-from lyapcheck.search.certified import MAX_BOXES, certified_epsilon
+from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.nearby import SHARES, NearbyArm, NearbyProof, falsify_nearby, with_motions
@@ -27,31 +28,8 @@ if TYPE_CHECKING:
     from lyapcheck.search.falsify import Witness
 
 BITS = 64
-LARGEST = 10**6
-"""rad and rad/s: limits beyond it limit nothing."""
 GUESS = 100
 """The ceiling where nothing is falsified."""
-
-
-@dataclass(frozen=True)
-class StateLimits:
-    """Of |w_i|, rad/s, and of |e_i|, rad, one a joint each; none where there is no limit.
-
-    Raises:
-        InputError: there are none at all, or one is not above 0, or not finite.
-    """
-
-    speeds: tuple[Fraction, ...] = ()
-    errors: tuple[Fraction, ...] = ()
-
-    def __post_init__(self) -> None:
-        if not self.speeds and not self.errors:
-            raise argument_error("limits", "", "must be of speed, of error or of both", "give one of them")
-        for name in ("speeds", "errors"):
-            for value in getattr(self, name):
-                if not 0 < value <= LARGEST:
-                    rule = f"must be above 0 and at most {LARGEST}"
-                    raise argument_error(name, value, rule, "give a limit that a motion can reach")
 
 
 @dataclass(frozen=True)
@@ -101,16 +79,11 @@ def nearby(
     gain_set: GainSet,
     model: RobotModel,
     limits: StateLimits,
-    everywhere: Fraction | None = None,
-    *,
-    max_boxes: int = MAX_BOXES,
-    jobs: int = 1,
-    ranges: bool = False,
-    seconds: float | None = None,
-    seed: int = SEED,
-    on_progress: Progress | None = None,
+    everywhere: Fraction | None,
+    options: Options,
+    on_progress: Progress,
 ) -> NearbyResult:
-    """ε₀ within limits; arguments as for ``epsilon``, and the ε₀ certified at all states.
+    """ε₀ within limits; ``everywhere`` is the ε₀ certified at all states.
 
     Raises:
         InputError: the limits are for another number of joints.
@@ -118,6 +91,7 @@ def nearby(
 
     Soundness: as for ``epsilon``: ``proof`` was accepted by the checker, and the witness is proved.
     """
+    ranges = options.ranges
     controlled = ControlledArm(gain_set, model, ranges)
     for name in ("speeds", "errors"):
         count = len(getattr(limits, name))
@@ -128,36 +102,33 @@ def nearby(
     near = NearbyArm.of(controlled, limits.speeds, limits.errors)
 
     def look(arm: NearbyArm, progress: Progress) -> Witness | None:
-        return falsify_nearby(arm, seed=seed, on_progress=progress)
+        return falsify_nearby(arm, seed=options.seed, on_progress=progress)
 
     def part(low: float, high: float) -> Progress:
-        tell = on_progress or silent
-        return lambda share, note: tell(low + (high - low) * share, f"within limits: {note}")
+        return lambda share, note: on_progress(low + (high - low) * share, f"within limits: {note}")
 
     at, witness = falsify_corners(near, look, part(0, 0.4)) if ranges else (near, look(near, part(0, 0.4)))
     reason = unphysical(controlled)
     ceiling = Fraction(GUESS) if witness is None else witness.eps0
     shares = sorted({*SHARES, *([] if everywhere is None else [everywhere / ceiling])})
-    budget = 0 if reason else max_boxes
-    found = certified_epsilon(
-        near, ceiling, budget, jobs, seconds, part(0.4, 1), [share for share in shares if share < 1]
-    )
-    proof = found.proof
+    budget, below = 0 if reason else options.max_boxes, [share for share in shares if share < 1]
+    largest = certified_epsilon(near, ceiling, budget, options.jobs, options.seconds, part(0.4, 1), below)
+    proof = largest.proof
     if isinstance(proof, NearbyProof):
-        proof = with_motions(near, proof, jobs)
-    require_consistent(at, witness, {"certified": found.eps0})
+        proof = with_motions(near, proof, options.jobs)
+    require_consistent(at, witness, {"certified": largest.eps0})
     energy = proof.stated.energy if isinstance(proof, NearbyProof) else None
     return NearbyResult(
         limits=limits,
-        certified=found.eps0,
+        certified=largest.eps0,
         falsified=None if witness is None else witness.eps0,
         proof=proof if isinstance(proof, NearbyProof) else None,
         witness=witness,
         against=None if witness is None else near.statement(witness.eps0),
         viscous=at.arm.viscous,
         parameters=tuple(number.value for number in at.model.parameters.values()) if ranges else (),
-        boxes=found.looked_at,
-        reason=reason or found.reason,
+        boxes=largest.looked_at,
+        reason=reason or largest.reason,
         from_rest=None if energy is None else _from_rest(gain_set, energy),
     )
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.epsilon.nearby import NearbyResult, StateLimits
+    from lyapcheck.answers.epsilon.nearby import NearbyResult
+    from lyapcheck.answers.epsilon.options import StateLimits
     from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import Witness
     from lyapcheck.search.weights import Weighted

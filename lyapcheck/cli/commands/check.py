@@ -56,8 +56,8 @@ def run(
     from dataclasses import replace
 
     from lyapcheck import store
+    from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.fresh_check import Alarm
-    from lyapcheck.claims.run import run_proof
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.cli.progress import progress

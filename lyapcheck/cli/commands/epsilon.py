@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -27,7 +27,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.answers.epsilon import EpsilonResult, StateLimits
+    from lyapcheck.answers.epsilon import EpsilonResult, Options, StateLimits
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
@@ -36,20 +36,6 @@ TICKS = 10**6
 """Limits are multiples of 1/TICKS rad."""
 WITH_RANGES = 0.7
 """The share of the work that is about ranges, beside nominal numbers."""
-
-
-@dataclass(frozen=True)
-class Budget:
-    """How hard to search, and for which arms."""
-
-    max_boxes: int
-    jobs: int
-    ranges: bool
-    weights: bool
-    seconds: float | None
-    starts: int
-    seed: int
-    limits: StateLimits | None
 
 
 def arguments(parser: Parser) -> None:
@@ -132,15 +118,15 @@ def run(
     require_joints([gain_file], model)
     limits = _limits(max_speed, max_error, model.joints)
     folder = None if certificates is None else open_folder("--certificates", certificates)
-    budget = Budget(
+    from lyapcheck.answers.epsilon import EpsilonResults, Options
+
+    options = Options(
         max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed, limits
     )
     with progress("epsilon") as advance:
-        results, times = _each(chosen, model, budget, advance)
+        results, times = _each(chosen, model, options, advance)
     if folder is not None:
         _write_certificates(folder, results)
-    from lyapcheck.answers.epsilon import EpsilonResults
-
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
     missing = any(
         result.certified is None or (result.nearby is not None and result.nearby.certified is None)
@@ -213,26 +199,26 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 
 def _each(
-    gains: list[GainSet], model: RobotModel, budget: Budget, advance: Progress
+    gains: list[GainSet], model: RobotModel, options: Options, advance: Progress
 ) -> tuple[list[EpsilonResult], list[float]]:
     """The result of every gain set and the seconds it took."""
     from lyapcheck.answers.epsilon.kept import kept_epsilon
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []
-    nominal = replace(budget, ranges=False, weights=False, limits=None)
+    nominal = replace(options, ranges=False, weights=False, limits=None)
     for done, gain_set in enumerate(gains):
 
         def ask(
-            asked: Budget, low: float, high: float, done: int = done, own: GainSet = gain_set
+            asked: Options, low: float, high: float, done: int = done, own: GainSet = gain_set
         ) -> EpsilonResult:
-            def tell(fraction: float, note: str) -> None:
+            def report(fraction: float, note: str) -> None:
                 advance((done + low + (high - low) * fraction) / len(gains), f"{own.name}: {note}")
 
-            return kept_epsilon(own, model, **vars(asked), on_progress=tell)
+            return kept_epsilon(own, model, asked, report)
 
         began = perf_counter()
-        result = ask(budget, 0.0, WITH_RANGES if budget.ranges else 1.0)
+        result = ask(options, 0.0, WITH_RANGES if options.ranges else 1.0)
         if result.corner:  # something ranges: what that costs is asked too
             result = replace(result, unvaried=ask(nominal, WITH_RANGES, 1.0).certified)
         results.append(result)

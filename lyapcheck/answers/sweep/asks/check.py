@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from lyapcheck.answers.check.run import run_proof
 from lyapcheck.answers.sweep.arms import arm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
-from lyapcheck.claims.run import run_proof
 from lyapcheck.control.gains import GainFile
 from lyapcheck.verdicts import Exit
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.data import result_data
 from lyapcheck.answers.epsilon.kept import kept_epsilon
+from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.words import exact
 from lyapcheck.answers.sweep.arms import arm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
@@ -23,7 +24,8 @@ def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
 def _asked(question: Question, jobs: int) -> Answered:
     known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
     assert question.gains is not None
-    result = kept_epsilon(question.gains, known.model, jobs=jobs, ranges=bool(known.ranges), **options)
+    asked = Options(jobs=jobs, ranges=bool(known.ranges), **options)
+    result = kept_epsilon(question.gains, known.model, asked)
     return answered(
         question,
         VERDICTS[Exit.UNDECIDED if result.certified is None else Exit.PROVED],

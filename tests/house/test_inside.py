@@ -1,0 +1,66 @@
+"""``docs/inside.md``: its map has every folder, and its ways lead through functions that there are."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "inside.md").read_text(encoding="utf-8")
+
+
+def rows(head: str) -> list[list[str]]:
+    """The rows of all tables whose first head is this."""
+    tables = re.findall(rf"^\| {re.escape(head)} \|.*\n\|[-|]+\n((?:\|.*\n)+)", PAGE, re.MULTILINE)
+    lines = [line for table in tables for line in table.splitlines()]
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
+
+
+def folders(top: Path) -> set[str]:
+    """The names of the folders in one; those that hold nothing but leftovers of Python do not count."""
+    inner = [path for path in top.iterdir() if path.is_dir() and path.name != "__pycache__"]
+    return {path.name for path in inner if any("__pycache__" not in file.parts for file in path.rglob("*.*"))}
+
+
+@pytest.mark.parametrize("top", ["lyapcheck", "studies", "tests"])
+def test_the_map_has_the_folders_that_there_are(top: str) -> None:
+    """What is inside a folder stands in its row as ``inner/``: its folders, and all with modules in them."""
+    mapped: set[str] = set()
+    for names, words in rows(f"folder of `{top}/`"):
+        here = [ROOT / top / name for name in re.findall(r"`(\w+)`", names)]
+        inside = set().union(*map(folders, here))
+        inside |= {module.parent.name for path in here for module in path.glob("*/**/*.py")}
+        assert inside == set(re.findall(r"`(?:\w+/)*(\w+)/`", words)), names
+        mapped |= {path.name for path in here}
+    assert mapped == folders(ROOT / top)
+
+
+WAYS = rows("function")
+
+
+def test_there_are_five_ways() -> None:
+    assert len(re.findall(r"^### From ", PAGE, re.MULTILINE)) == 5
+    assert len(WAYS) > 30
+
+
+@pytest.mark.parametrize(("name", "kind"), [row[:2] for row in WAYS])
+def test_each_step_is_a_function_that_hands_on_what_is_said(name: str, kind: str) -> None:
+    module, _, path = name.strip("`").partition(":")
+    step = import_module(f"lyapcheck.{module}")
+    for part in path.split("."):
+        step = getattr(step, part)
+    returned = str(inspect.signature(step).return_annotation)
+    assert kind.strip("`").replace("\\", "") in returned
+
+
+def test_what_is_named_in_between_is_there() -> None:
+    for path in re.findall(r"`((?:\w+\.)+\w+)`(?! \|)", PAGE.partition("## Five ways")[2]):
+        if not path.endswith(("md", "json")):
+            module, _, name = path.rpartition(".")
+            home = import_module(f"lyapcheck.{module}")
+            assert hasattr(home, name) or find_spec(f"lyapcheck.{path}"), path
