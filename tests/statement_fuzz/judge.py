@@ -23,7 +23,8 @@ SECONDS = 30
 
 PROVED, REFUTED, UNDECIDED, NONE = "proved", "refuted", "undecided", "no verdict"
 DISAGREEMENT = "undecided: the checker refuses what the search found"
-VERDICTS = (PROVED, REFUTED, UNDECIDED, DISAGREEMENT, NONE)
+FALSE_REFUSED = "undecided, and not true"
+VERDICTS = (PROVED, REFUTED, UNDECIDED, FALSE_REFUSED, DISAGREEMENT, NONE)
 
 
 class TooSlow(BaseException):
@@ -79,6 +80,8 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
             fault = _fault(made, verdict, decision, seed)
         except Exception as error:
             fault = f"the oracle itself fails: {_place(error)}"
+    if verdict == UNDECIDED and fault:
+        verdict, fault = FALSE_REFUSED, ""
     return Judged(made, verdict, fault, str(decision.method))
 
 
@@ -92,7 +95,7 @@ def _place(error: Exception) -> str:
 
 
 def _fault(made: Made, verdict: str, decision: Any, seed: int) -> str:
-    if verdict == PROVED:
+    if verdict in (PROVED, UNDECIDED):
         result = objection(made.statement, seed)
         if result is not None:
             return str(result)

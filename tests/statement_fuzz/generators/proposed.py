@@ -1,16 +1,18 @@
 """Proofs by corners, by links, by a larger K_v and within limits: of statements, and of what became of them.
 
-A statement that a proof was made for is changed at random, and the proof left as it is: mostly it then is
-false, or no longer shown, sometimes it is weaker and still shown.
+A statement is made at the largest ε₀ for which a proof is found, or within limits that are just right, so
+that what is a little more is false. Then statement, proof or both are changed at random.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
 from random import Random
 from typing import Any
+
+from flint import arb
 
 from lyapcheck.check.kinds.at_corners import MassAtCorners, RateAtCorners
 from lyapcheck.check.kinds.decreasing import (
@@ -24,7 +26,7 @@ from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, near
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.corners import at_corners
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.branch_and_bound import certify
@@ -35,17 +37,21 @@ from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.controlled import FAMILIES, friction, gains
 from tests.statement_fuzz.generators.robots import Ranges, powers, robot, size
 from tests.statement_fuzz.oracle.arm import Rows
+from tests.statement_fuzz.oracle.arms import least_eigenvalue, start
+from tests.statement_fuzz.oracle.climb import climbed
 from tests.statement_fuzz.proposed import ByCorners, ByLargerKv, ByLimits, ByLinks, ByMassAtCorners
 
 F = Fraction
 MAX_BOXES = 300
-SHARES = (F(1), F(1, 2), F(1, 5), F(1, 20))
-FACTORS = (F(11, 10), F(3, 2), F(4), F(100))
+SHARES = (F(4), F(1), F(1, 4), F(1, 20))
+HALVINGS = 4
+FACTORS = (F(1001, 1000), F(101, 100), F(101, 100), F(21, 20), F(21, 20), F(6, 5), F(3, 2), F(4), F(100))
 AXES = ((F(0), F(0), F(1)), (F(1), F(0), F(0)), (F(3, 5), F(0), F(4, 5)))
 TURNS = (
     ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1))),
     ((F(1), F(0), F(0)), (F(0), F(0), F(-1)), (F(0), F(1), F(0))),
 )
+NEAR = (F(9, 10), F(99, 100), F(999, 1000), F(1), F(1001, 1000), F(101, 100), F(11, 10))
 NO_PROOF = BoxTree(".")
 Change = Callable[[Random, Decreasing], Decreasing]
 
@@ -85,6 +91,11 @@ def _changed(random: Random, one: Decreasing) -> tuple[Decreasing, str]:
     return CHANGES[name](random, one), name
 
 
+def _arm(random: Random) -> Rows:
+    """M ≻ 0 of one joint, now and then of two."""
+    return robot(random, 1 if random.random() < 0.9 else 2, True, plain=True).mass
+
+
 def _ranged(random: Random, mass: Rows) -> tuple[Rows, Ranges]:
     """M times a parameter, which now and then is squared."""
     power = 2 if random.random() < 0.1 else 1
@@ -104,13 +115,55 @@ def _about(random: Random, mass: Rows, parameters: Ranges) -> Decreasing:
 
 
 def _highest(one: Decreasing, found: Callable[[Decreasing], Any]) -> tuple[Decreasing, Any]:
-    """With a proof at the largest share of its ε₀ at which there is one, if there is one."""
+    """With a proof near the largest ε₀ at which there is one, if there is one."""
+    high, best, proof = F(8) * one.eps0, one, None
     for share in SHARES:
         tried = replace(one, eps0=one.eps0 * share)
         proof = found(tried)
         if proof is not None:
-            return tried, proof
-    return one, None
+            best = tried
+            break
+        high = tried.eps0
+    for _ in range(HALVINGS if proof is not None else 0):
+        tried = replace(one, eps0=(best.eps0 + high) / 2)
+        higher = found(tried)
+        if higher is None:
+            high = tried.eps0
+        else:
+            best, proof = tried, higher
+    return best, proof
+
+
+def bent(random: Random, proof: Any) -> Any:
+    """The proof, now and then with one of its numbers a little or far from what it was, or 0."""
+    places = list(_numbers(proof))
+    if not places or random.random() < 0.5:
+        return proof
+    place = random.choice(places)
+    by = random.choice((*FACTORS, *(1 / x for x in FACTORS), F(0), F(-1)))
+    return _with_number(proof, place, by)
+
+
+def _numbers(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Where in a proof there are fractions."""
+    if isinstance(value, Fraction):
+        yield path
+    elif is_dataclass(value):
+        for field in fields(value):
+            yield from _numbers(getattr(value, field.name), (*path, field.name))
+    elif isinstance(value, tuple):
+        for k, part in enumerate(value):
+            yield from _numbers(part, (*path, k))
+
+
+def _with_number(value: Any, path: tuple[Any, ...], by: Fraction) -> Any:
+    """The value with the number at a place times a factor."""
+    if not path:
+        return value * by
+    head, *rest = path
+    if isinstance(value, tuple):
+        return (*value[:head], _with_number(value[head], tuple(rest), by), *value[head + 1 :])
+    return replace(value, **{head: _with_number(getattr(value, head), tuple(rest), by)})
 
 
 def _tree(loop: ClosedLoop) -> BoxTree | None:
@@ -131,13 +184,14 @@ def _corners(one: Decreasing) -> RateAtCorners | None:
 @generates("ByCorners", 0.03)
 def by_corners(random: Random) -> Made:
     """dV/dt < 0 over a range of M, by trees at its ends."""
-    mass, parameters = _ranged(random, robot(random, 1, True, plain=True).mass)
+    mass, parameters = _ranged(random, _arm(random))
     affine = tuple(tuple(tuple(((*p[:-1], 1), c) for p, c in entry) for entry in row) for row in mass)
     one, rate = _highest(_about(random, affine, parameters), _corners)
     changed, what = _changed(random, replace(one, mass=mass))
     ends = sum(1 + (low < high) for low, high in parameters)
     positive = MassAtCorners((Bisection(),) * ends)
-    return Made(ByCorners(changed, PositiveAndDecreasing(positive, rate or RateAtCorners(()))), what)
+    proof = PositiveAndDecreasing(positive, rate or RateAtCorners(()))
+    return Made(ByCorners(changed, bent(random, proof)), what)
 
 
 @generates("ByMassAtCorners", 0.005)
@@ -152,7 +206,7 @@ def by_mass_at_corners(random: Random) -> Made:
         tuple((*entry, shift) if i == j and random.random() < 0.4 else entry for j, entry in enumerate(row))
         for i, row in enumerate(mass)
     )
-    low = F(random.choice((0, 0, 1)), random.choice((1, 10, 100)))
+    low = _least(rows, parameters) * random.choice(NEAR) if random.random() < 0.7 else F(0)
     count = 2 if random.random() < 0.9 else 1
     proof = MassAtCorners((Bisection(),) * (count if parameters[0][0] < parameters[0][1] else 1))
     return Made(ByMassAtCorners(MassAbove(rows, parameters, low), proof), "a range of M")
@@ -161,14 +215,14 @@ def by_mass_at_corners(random: Random) -> Made:
 @generates("ByLargerKv", 0.03)
 def by_larger_kv(random: Random) -> Made:
     """dV/dt < 0 by a proof for another K_v, of which no entry need be larger."""
-    one = _about(random, robot(random, 1, True, plain=True).mass, ())
+    one = _about(random, _arm(random), ())
     one, rate = _highest(one, _boxes)
     of = PositiveAndDecreasing(Bisection(), rate or NO_PROOF)
     proof = LargerKv(one.kv, of)
     changed, what = _changed(random, one)
     if random.random() < 0.2:
         changed, what = replace(changed, kv=_stretched(changed.kv, F(-1))), "damping that drives"
-    return Made(ByLargerKv(changed, proof), what)
+    return Made(ByLargerKv(changed, bent(random, proof)), what)
 
 
 def _link(random: Random) -> RigidLink:
@@ -219,30 +273,54 @@ def by_links(random: Random) -> Made:
     one, rate = _highest(replace(one, eps0=4 * one.eps0), linked)
     changed, what = _changed(random, one)
     positive = Links(links) if len(arms) == 1 else MassAtCorners(tuple(map(Links, arms)))
-    return Made(ByLinks(changed, PositiveAndDecreasing(positive, rate or NO_PROOF)), what)
+    proof = PositiveAndDecreasing(positive, rate or NO_PROOF)
+    return Made(ByLinks(changed, bent(random, proof)), what)
 
 
 @generates("ByLimits", 0.03)
 def by_limits(random: Random) -> Made:
     """dV/dt < 0 within limits of speed, of error or of both, and of motions that keep within."""
-    whole = _about(random, robot(random, 1, True, plain=True).mass, ())
-    limits = tuple(F(random.choice((1, 2, 6)), random.choice((1, 2, 8))) for _ in range(2))
+    whole = _about(random, _arm(random), ())
+    n = len(whole.mass)
+    limits = tuple((F(random.choice((1, 2, 6)), random.choice((1, 2, 8))),) * n for _ in range(2))
     kinds = random.choice(((True, False), (False, True), (True, True)))
-    speeds, errors = ((x,) if asked else () for x, asked in zip(limits, kinds, strict=True))
-    steepest = member(whole.family, whole.m).L
-    floors = (random.choice((F(0), F(1, 10), F(1, 2), F(9, 10))) * steepest if speeds else F(0),)
-    energy = F(random.choice((1, 1, 4)), random.choice((1, 20, 400))) if random.random() < 0.5 else None
+    speeds, errors = (x if asked else () for x, asked in zip(limits, kinds, strict=True))
+    known = member(whole.family, whole.m)
+    floors, lightest = (F(0),) * n, ()
+    if speeds and random.random() < 0.7:
+        floors = (_floor(known, speeds[0]) * random.choice(NEAR),) * n
+    least = _least(whole.mass, ())
+    energies = [v * v * least / 2 for v in speeds[:1]] + [
+        k * F(float(known.potential(arb(float(x))))) for k, x in zip(whole.kp, errors, strict=bool(errors))
+    ]
+    energy = min(energies) * random.choice(NEAR) if random.random() < 0.7 else None
+    if energy is not None and speeds:
+        lightest = (least * random.choice(NEAR[:3]),) * n
     statement = DecreasingNearby(replace(whole, eps0=8 * whole.eps0), speeds, errors, energy)
 
     def near(tried: Decreasing) -> BoxTree | None:
-        return _tree(nearby_loop(replace(statement, everywhere=tried), floors))
+        told = replace(statement, everywhere=tried)
+        return _tree(nearby_loop(told, floors)) if max(floors) < known.L else None
 
     one, rate = _highest(statement.everywhere, near)
     changed, what = _changed(random, one)
     if random.random() < 0.3:
         by, what = random.choice(FACTORS), "farther limits"
-        speeds, errors = _stretched(speeds, by), _stretched(errors, by)
+        changed, speeds, errors = one, _stretched(speeds, by), _stretched(errors, by)
     told = DecreasingNearby(changed, speeds, errors, energy)
-    lightest = (F(1, random.choice((4, 40, 400))),) if energy and speeds else ()
     shown = (Bisection(),) * len(lightest)
-    return Made(ByLimits(told, SlowerAndNearer(Bisection(), floors, rate or NO_PROOF, lightest, shown)), what)
+    proof = SlowerAndNearer(Bisection(), floors, rate or NO_PROOF, lightest, shown)
+    return Made(ByLimits(told, bent(random, proof)), what)
+
+
+def _floor(known: Member, speed: Fraction) -> Fraction:
+    """h(x)/x at a speed, which is the least up to there where h is steepest at 0."""
+    return F(float(known.h(arb(float(speed))))) / speed
+
+
+def _least(mass: Rows, parameters: Ranges) -> Fraction:
+    """The least eigenvalue of M that a search meets, from above."""
+    best, _ = climbed(
+        lambda z: -least_eigenvalue(mass, parameters, z), start(len(mass), len(parameters)), Random(0)
+    )
+    return F(-best).limit_denominator(10**6)
