@@ -77,7 +77,10 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            fault = _fault(made, verdict, decision, seed)
+            with limit(SECONDS):
+                fault = _fault(made, verdict, decision, seed)
+        except TooSlow:
+            fault = ""
         except Exception as error:
             fault = f"the oracle itself fails: {_place(error)}"
     if verdict == UNDECIDED and fault:

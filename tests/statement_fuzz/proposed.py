@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
-from lyapcheck.check.kinds.decreasing import Decreasing
-from lyapcheck.check.kinds.inertia import MassAbove
-from lyapcheck.check.kinds.nearby import DecreasingNearby
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.check.verify import verify
 from lyapcheck.verdicts import Verdict
 
@@ -22,7 +19,7 @@ from lyapcheck.verdicts import Verdict
 class Proposed:
     """A statement, and a proof of it or of another one like it."""
 
-    statement: Decreasing | DecreasingNearby | MassAbove
+    statement: Statement
     proof: Proof
 
 
@@ -46,13 +43,19 @@ class ByLimits(Proposed):
     """dV/dt < 0 within limits of speed and of error."""
 
 
+class Altered(Proposed):
+    """A certificate of the arena, in which something was changed."""
+
+
 def decide_proposed(proposed: Proposed) -> Any:
-    """Proved, if the checker takes the proof for the statement."""
-    verdict, reason = Verdict.PROVED, ""
+    """What the checker takes the proof to show of the statement; whatever goes wrong shows nothing."""
+    proof, reason = proposed.proof, ""
     try:
         proposed.statement.require_well_formed()
-        verify(proposed.statement, proposed.proof)
-    except Refused as refusal:
+        verdict = Verdict(verify(proposed.statement, proof).verdict)
+    except (Refused, ValueError, ArithmeticError) as refusal:
         verdict, reason = Verdict.UNDECIDED, str(refusal)
-    rule = type(proposed.proof).rule
-    return SimpleNamespace(verdict=verdict, method=rule, reason=reason, witness=None)
+    point = {name: str(value) for name, value in proof.point} if isinstance(proof, Witness) else None
+    return SimpleNamespace(
+        verdict=verdict, method=type(proof).rule, reason=reason, witness=point and {"point": point}
+    )

@@ -61,6 +61,7 @@ def names() -> tuple[str, ...]:
 
 def _load() -> None:
     from tests.statement_fuzz.generators import (  # noqa: F401
+        altered,
         arms,
         constants,
         controlled,

@@ -1,0 +1,103 @@
+"""Certificates of the arena with something of the statement, or of the proof, put otherwise.
+
+Numbers become a little or far larger, change their sign or vanish; entries of lists are left out, doubled,
+exchanged or replaced by others. What is still accepted should be as true as what it was made from.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from lyapcheck.check.codec import from_json
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Statement
+from tests.statement_fuzz.generators import Made, generates
+from tests.statement_fuzz.proposed import Altered
+
+GOOD = Path(__file__).parents[2] / "arena" / "good"
+FACTORS = ("1001/1000", "999/1000", "101/100", "99/100", "2", "1/2", "-1", "0", f"{10**30}", f"1/{10**30}")
+MOST_CHANGES = 3
+LARGEST = 200_000
+"""Bytes: larger certificates take too long for their part."""
+Place = tuple[Any, ...]
+
+
+@lru_cache(maxsize=1)
+def _texts() -> tuple[str, ...]:
+    files = sorted(GOOD.glob("*.json"))
+    return tuple(path.read_text(encoding="utf-8") for path in files if path.stat().st_size <= LARGEST)
+
+
+@generates("Altered", 0.1)
+def altered(random: Random) -> Made:
+    """The first of some alterations that still reads as a statement with a proof."""
+    while True:
+        data = json.loads(random.choice(_texts()))
+        for _ in range(random.randint(1, MOST_CHANGES)):
+            _change(random, data[random.choice(("statement", "statement", "proof"))])
+        try:
+            statement = from_json(Statement, data["statement"], "statement")
+            return Made(
+                Altered(statement, from_json(Proof, data["proof"], "proof")), data["statement"]["kind"]
+            )
+        except (Refused, ValueError, TypeError):
+            continue
+
+
+def _change(random: Random, data: Any) -> None:
+    """One value or one list, in place."""
+    values, lists = [], []
+    for place, value in _places(data):
+        (lists if isinstance(value, list) and value else values).append((place, value))
+    if lists and random.random() < 0.3:
+        _rearrange(random, random.choice(lists)[1], [entry for _, entry in lists])
+        return
+    place, value = random.choice(values)
+    if place:
+        whole = data
+        for step in place[:-1]:
+            whole = whole[step]
+        whole[place[-1]] = _other(random, value, [text for _, text in values if isinstance(text, str)])
+
+
+def _places(value: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
+    """All lists and values but objects."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from _places(part, (*place, key))
+        return
+    yield place, value
+    for k, part in enumerate(value if isinstance(value, list) else ()):
+        yield from _places(part, (*place, k))
+
+
+def _other(random: Random, value: Any, texts: list[str]) -> Any:
+    if isinstance(value, bool) or value is None:
+        return random.choice((not value, "0", "1", None))
+    if isinstance(value, int):
+        return random.choice((value + 1, value - 1, 2 * value, 0, 1, -1, 3))
+    try:
+        number = Fraction(value)
+    except (TypeError, ValueError, ZeroDivisionError):
+        return random.choice((*texts, "<", "<=", "0")) if isinstance(value, str) else value
+    return str(random.choice((number * Fraction(random.choice(FACTORS)), number + 1, number - 1)))
+
+
+def _rearrange(random: Random, entries: list[Any], others: list[Any]) -> None:
+    k, kind = random.randrange(len(entries)), random.random()
+    if kind < 0.3:
+        del entries[k]
+    elif kind < 0.55:
+        entries.insert(k, copy.deepcopy(entries[k]))
+    elif kind < 0.8:
+        other = random.randrange(len(entries))
+        entries[k], entries[other] = entries[other], entries[k]
+    else:
+        entries[k] = copy.deepcopy(random.choice(others))
