@@ -63,11 +63,14 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
     A statement that is ``proved`` must not be false or undefined anywhere; one that is ``refuted`` must not
     be true, and the oracle must confirm the point; an exception, or no decision in time, is a fault as well.
     """
+    patience = getattr(made.statement, "patience", SECONDS)
     try:
-        with limit(SECONDS), np.errstate(all="ignore"), warnings.catch_warnings():
+        with limit(patience), np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             decision = by(made.statement)
     except TooSlow:
+        if patience < SECONDS:
+            return Judged(made, UNDECIDED)
         return Judged(made, NONE, f"no decision within {SECONDS} s")
     except Exception as error:
         return Judged(made, NONE, _place(error))
@@ -77,7 +80,7 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            with limit(SECONDS):
+            with limit(patience):
                 fault = _fault(made, verdict, decision, seed)
         except TooSlow:
             fault = ""
