@@ -1,4 +1,4 @@
-"""The one way lyapcheck tells a user that an input cannot be used."""
+"""How lyapcheck says that an input cannot be used."""
 
 from __future__ import annotations
 

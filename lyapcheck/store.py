@@ -44,7 +44,7 @@ def home() -> Path:
 
 
 def kept(kind: str, name: str) -> bytes | None:
-    """The content kept in a room under a name, if it is there, ours alone to write, and whole."""
+    """The content of a kind kept under a name, if it is there, ours alone to write, and whole."""
     path = home() / kind / name
     try:
         if not _private(path.parent) or not _private(path) or not path.is_file():
@@ -127,7 +127,7 @@ def source_digest() -> str:
 
 @dataclass(frozen=True)
 class Held:
-    """How much one room holds."""
+    """How much is kept of one kind."""
 
     kind: str
     files: int
@@ -135,7 +135,7 @@ class Held:
 
 
 def held() -> list[Held]:
-    """What is kept, room by room."""
+    """What is kept, kind by kind."""
     return [
         Held(kind.name, len(files), sum(path.stat().st_size for path in files))
         for kind in _rooms()

@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.answers.check.run import paper_given
+from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.claims.ask import ask
-from lyapcheck.claims.handover import ClaimData, Given, Request
+from lyapcheck.claims.handover import CaseData, ClaimData, Request
 from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
 from lyapcheck.claims.statements import AllOf, Missing, Statement
@@ -178,8 +178,8 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
         150 = 15
     """
     script_path, meant = _making(claim_id, script)
-    given = paper_given(SHOWN_MEMBER)
-    handover = ask(Request(str(script_path), script_path.name, (given,), only=(meant,)))
+    case = paper_case_data(SHOWN_MEMBER)
+    handover = ask(Request(str(script_path), script_path.name, (case,), only=(meant,)))
     claims = {claim.id: claim for claim in handover.claims}
     claim = claims[meant]
     answer = claim.answers[0]
@@ -194,7 +194,7 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
         reference=handover.reference,
         uses=tuple(_named(claims[used]) for used in claim.uses),
         used_by=tuple(_named(other) for other in handover.claims if claim.id in other.uses),
-        case=_shown_case(given, answer.read),
+        case=_shown_case(case, answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
@@ -266,8 +266,8 @@ def _named(claim: ClaimData) -> tuple[str, str]:
     return claim.id, claim.says
 
 
-def _shown_case(given: Given, read: Collection[str]) -> str:
-    m, n, robot, _ = given
+def _shown_case(case: CaseData, read: Collection[str]) -> str:
+    m, n, robot, _ = case
     values = {"m": f"m = {m}", "n": f"n = {n}", "robot": robot.name}
     return ", ".join(value for name, value in values.items() if name in read)
 

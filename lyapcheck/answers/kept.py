@@ -17,10 +17,10 @@ WHAT = {
 
 @dataclass(frozen=True)
 class Kept(Answer):
-    """The rooms of the store.
+    """What is in the store.
 
     Args:
-        kinds: what each holds.
+        kinds: how much there is of each.
         cleared: whether all of it was just removed.
     """
 
@@ -30,7 +30,7 @@ class Kept(Answer):
     cleared: bool = False
 
     def document(self) -> Document:
-        """A row a room."""
+        """A row a kind."""
         total = sum(kind.bytes for kind in self.kinds)
         title = "The store is empty" if not total else f"{total} bytes are kept"
         if self.cleared:
@@ -38,7 +38,7 @@ class Kept(Answer):
         rows = tuple(
             (kind.kind, str(kind.files), str(kind.bytes), WHAT.get(kind.kind, "")) for kind in self.kinds
         )
-        table = Table(("room", "files", "bytes", "what"), rows, align="lrrl")
+        table = Table(("kind", "files", "bytes", "what"), rows, align="lrrl")
         return Document(title, (table,) if rows else (Paragraph("Nothing is kept yet."),))
 
     def data(self) -> dict[str, Any]:

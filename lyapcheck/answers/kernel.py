@@ -33,7 +33,7 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
         seconds: the most that one theorem may take.
         folder: where the files for Coq are copied to in the end; ``None``: nowhere. Nothing is read there: a
             compiled file may be of other definitions than its source.
-        progress: is told what is going on.
+        progress: receives a note on what is going on.
 
     Raises:
         InputError: there is no Coq, or the folder cannot take the files.

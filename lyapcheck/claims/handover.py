@@ -20,7 +20,7 @@ from lyapcheck.check.refusal import Refused, require
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.statements import Missing, Statement
 
-Given = tuple[int, int, Any, Any]
+CaseData = tuple[int, int, Any, Any]
 """m, n, a robot or none, and a gain set or none."""
 TOO_DEEP = f"is nested deeper than {MAX_DEPTH} levels"
 """The rule of the checker that a statement of many joints may break: it is then undecided."""
@@ -43,8 +43,8 @@ class Request:
 
     path: str
     shown: str
-    asked: tuple[Given, ...] = ()
-    others: tuple[Given, ...] = ()
+    asked: tuple[CaseData, ...] = ()
+    others: tuple[CaseData, ...] = ()
     only: tuple[str, ...] = ()
     answer: str = ""
 
@@ -60,7 +60,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class ClaimData:
-    """A claim as the script tells it, with an answer for each case; none if nobody asked for the claim."""
+    """A claim as the script states it, with an answer for each case; none if nobody asked for the claim."""
 
     id: str
     says: str
@@ -72,7 +72,7 @@ class ClaimData:
 
 @dataclass(frozen=True)
 class Handover:
-    """A proof as its script tells it, or what is wrong with the script."""
+    """A proof as its script states it, or what is wrong with the script."""
 
     name: str = ""
     title: str = ""

@@ -26,14 +26,14 @@ def find_script(name: str) -> Path:
     Raises:
         InputError: there is no such file.
     """
-    given = Path(name)
-    if given.suffix.lower() != ".py" and (given.exists() or given.suffix):
+    path = Path(name)
+    if path.suffix.lower() != ".py" and (path.exists() or path.suffix):
         rule = "a proof script is a Python file (.py)"
         raise InputError(Problem(name, None, "PROOF", name, rule, "give the path of a .py file"))
-    if given.is_file():
-        return given
-    shipped = proofs_folder() / given.name
-    if given.parent in (Path(), Path("proofs")) and shipped.is_file():
+    if path.is_file():
+        return path
+    shipped = proofs_folder() / path.name
+    if path.parent in (Path(), Path("proofs")) and shipped.is_file():
         return shipped
     repair = "give the path of a proof script, or published.py for the paper's own proof"
     raise InputError(Problem(name, None, "PROOF", name, "no such proof script", repair))

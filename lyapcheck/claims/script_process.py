@@ -22,8 +22,8 @@ from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.handover import (
     TOO_DEEP,
     Answer,
+    CaseData,
     ClaimData,
-    Given,
     Handover,
     Request,
     statement_json,
@@ -97,17 +97,17 @@ def _handover(request: Request) -> str:
 
 
 def _answers(claim: Claim, request: Request, statements: Lines) -> Iterator[Answer]:
-    for given in request.asked:
-        yield _answer(claim, given, statements, request.shown)
-    for given in request.others:
+    for case_data in request.asked:
+        yield _answer(claim, case_data, statements, request.shown)
+    for case_data in request.others:
         try:
-            yield _answer(claim, given, statements, request.shown)
+            yield _answer(claim, case_data, statements, request.shown)
         except InputError as error:
             yield Answer(None, str(error), ())
 
 
-def _answer(claim: Claim, given: Given, statements: Lines, shown: str) -> Answer:
-    case = Case(*given)
+def _answer(claim: Claim, case_data: CaseData, statements: Lines, shown: str) -> Answer:
+    case = Case(*case_data)
     try:
         statement = _statement(claim, case, shown)
         if statement not in statements:

@@ -26,7 +26,7 @@ from lyapcheck.check.statement import Proof, Relation, Statement, Variable
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.certificates import versions
 from lyapcheck.claims.fresh_check import judge_afresh
-from lyapcheck.claims.handover import Given, Key, Request
+from lyapcheck.claims.handover import CaseData, Key, Request
 from lyapcheck.claims.procedures.implication import bound_of
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 from lyapcheck.claims.script import find_script
@@ -87,7 +87,7 @@ def smallest_witnesses(
     if not wanted or not gain_sets:
         return {}
     path, joints = find_script(script), model.n
-    cases: list[Given] = [
+    cases: list[CaseData] = [
         (m, n, model if n == joints else None, gains)
         for n in range(1, joints + 1)
         for m, gains in sorted(gain_sets.items())
@@ -157,8 +157,8 @@ def rounded_up(bound: Fraction) -> Fraction:
 
 def _smallest(statement: Statement, hand: Hand, about: About) -> SmallWitness | None:
     for inner, wrap in _parts(statement):
-        for relation, given, points in _tries(inner, hand):
-            failure = first_refutation(relation.comparison, points, given)
+        for relation, known, points in _tries(inner, hand):
+            failure = first_refutation(relation.comparison, points, known)
             if failure is not None:
                 proof: Proof = witness_of(failure)
                 for part in reversed(wrap):
@@ -194,9 +194,9 @@ def _tries(statement: Statement, hand: Hand) -> Iterator[Try]:
     """What may fail, under which conditions, and where to look for that."""
     match statement:
         case Implies(variables, hypotheses, conclusion):
-            given = [one.comparison for one in hypotheses]
-            given += [bound_of(v) for v in variables if v.low is not None]
-            yield conclusion, given, _points(variables, hand)
+            known = [one.comparison for one in hypotheses]
+            known += [bound_of(v) for v in variables if v.low is not None]
+            yield conclusion, known, _points(variables, hand)
         case NormBound():
             first, *others = entries_of(statement)
             rest = dict.fromkeys(others, Fraction(0))

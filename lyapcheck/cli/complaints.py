@@ -1,4 +1,4 @@
-"""All that is wrong with a command line, told at once."""
+"""All that is wrong with a command line, at once."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Complaints:
             self.problems += error.problems
             return None
 
-    def tell(self) -> None:
+    def raise_all(self) -> None:
         """Raise what was gathered.
 
         Raises:

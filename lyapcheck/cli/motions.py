@@ -57,7 +57,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Job:
-    """The gain sets of a file on an arm, and whom to tell how far they have come."""
+    """The gain sets of a file on an arm, and the progress of them all."""
 
     file: GainFile
     model: RobotModel
@@ -77,9 +77,9 @@ class Job:
         return result
 
     def each(self) -> list[tuple[GainSet, Progress]]:
-        """Each gain set with what tells its share of the progress of all."""
+        """Each gain set with its share of the progress of all."""
         gains = self.file.gains
-        return [(one, _telling(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
+        return [(one, _share_of(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
 
     def fail(self, gain_set: GainSet, reason: str) -> None:
         """Keep why not all that was asked of a gain set could be found out."""
@@ -87,16 +87,16 @@ class Job:
 
         self.unfinished.append(Unfinished(gain_set.name, reason))
 
-    def watching(self, eps0: Eps0, gain_set: GainSet, tell: Progress) -> float:
+    def watching(self, eps0: Eps0, gain_set: GainSet, progress: Progress) -> float:
         """The ε₀ to watch V with; 0 where none is certified, which is noted."""
-        number = eps0.of(gain_set, self.model, tell)
+        number = eps0.of(gain_set, self.model, progress)
         if number is None:
             name = f"{gain_set.name} on {self.model.name}"
             self.fail(gain_set, f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
         return number or 0.0
 
 
-def _telling(advance: Progress, done: int, cases: int, name: str) -> Progress:
+def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
     return lambda fraction, note: advance((done + fraction) / cases, note or name)
 
 
@@ -114,11 +114,11 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
     broken: dict[str, str] = {}
     mover = experiment if bench else partial(simulate, stop=stop)
     for done, (gain_set, arm) in enumerate(job.cases):
-        tell = _telling(job.advance, done, len(job.cases), gain_set.name)
-        number = job.watching(eps0, gain_set, tell)
+        progress = _share_of(job.advance, done, len(job.cases), gain_set.name)
+        number = job.watching(eps0, gain_set, progress)
         way = (task.q_d, task.q0, task.w0, task.T)
         try:
-            runs.append(mover(gain_set, arm, *way, eps0=number, on_progress=tell))
+            runs.append(mover(gain_set, arm, *way, eps0=number, on_progress=progress))
         except SimulationFailed as failure:
             if not isinstance(failure, PromiseBroken):
                 job.fail(gain_set, failure.reason)
@@ -145,9 +145,9 @@ def follow(job: Job, reference: Reference, request: Request, *, stop: bool) -> E
     from lyapcheck.tracking.simulation import track_as_asked
 
     runs: list[TrackingRun] = []
-    for gain_set, tell in job.each():
+    for gain_set, progress in job.each():
         try:
-            run = track_as_asked(gain_set, job.model, reference, request, stop=stop, on_progress=tell)
+            run = track_as_asked(gain_set, job.model, reference, request, stop=stop, on_progress=progress)
         except TrackingFailed as failure:
             run = failure.partial
             if run.breach is None:
@@ -167,9 +167,9 @@ def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
     from lyapcheck.simulate.starts import sweep
 
     result: list[Sweep] = []
-    for gain_set, tell in job.each():
-        number = job.watching(eps0, gain_set, tell)
-        result.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=tell))
+    for gain_set, progress in job.each():
+        number = job.watching(eps0, gain_set, progress)
+        result.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=progress))
         left = starts.count - result[-1].finished
         if left:
             job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")

@@ -58,7 +58,7 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
 
     wrong = Complaints()
     result = [wrong.reading(Vary.parsed, text) for text in texts]
-    wrong.tell()
+    wrong.raise_all()
     return tuple(one for one in result if one is not None)
 
 

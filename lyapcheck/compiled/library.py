@@ -27,7 +27,7 @@ def library(source: str) -> ctypes.CDLL | None:
 
 
 def resource(name: str) -> str:
-    """The text of a C file of this room."""
+    """The text of a C file of this folder."""
     return files("lyapcheck.compiled").joinpath(name).read_text(encoding="utf-8")
 
 

@@ -50,7 +50,7 @@ def arm_constants(
             that.
         gap: relative width of an enclosure that is good enough; by default a thousandth, and two
             hundredths for more than three joints.
-        on_progress: told the share of the work done.
+        on_progress: receives the share of the work done.
         names: of the constants wanted; by default all.
 
     Returns:

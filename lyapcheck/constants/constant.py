@@ -98,7 +98,7 @@ class Task:
         Args:
             max_boxes: budget in boxes of cost 1.
             gap: relative width that is good enough.
-            on_progress: told the share of the budget used.
+            on_progress: receives the share of the budget used.
             known: a bound of the constant from outside.
         """
         half = np.zeros(self.torus.n)

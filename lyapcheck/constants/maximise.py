@@ -47,7 +47,7 @@ def maximise(
         max_boxes: how many boxes may be looked at.
         gap: relative distance of the two bounds that is good enough.
         most: an upper bound of the supremum that is known beforehand.
-        on_progress: told the share of the budget used.
+        on_progress: receives the share of the budget used.
 
     Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
         ``bounds`` is taken at its word.

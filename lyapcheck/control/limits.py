@@ -47,7 +47,7 @@ class Limits:
         return len(self.joints)
 
     def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
-        """The same limits with other assumptions told."""
+        """The same limits with other assumptions."""
         return replace(self, assumptions=assumptions)
 
 

@@ -1,1 +1,1 @@
-"""Reading what users write: exact decimals, the place of every key, every problem told at once."""
+"""Reading what users write: exact decimals, the place of every key, every problem at once."""

@@ -17,7 +17,7 @@ _NUMBER = re.compile(r"[+-]?[0-9._]+([eE][+-]?[0-9]+)?")
 
 
 class Notes:
-    """Collects the problems of one file, so that all of them are told at once."""
+    """Collects the problems of one file, so that all of them are reported at once."""
 
     def __init__(self, file: str, line: Callable[[KeyPath], int | None]) -> None:
         self.file = file

@@ -12,7 +12,7 @@ LONGEST = 100
 def file_stem(name: str) -> str:
     """A name as the start of a file's name, with what some file system refuses escaped as in an address.
 
-    A long name is cut, and told from others by the start of its SHA-256.
+    A long name is cut, and set apart from others by the start of its SHA-256.
     """
     stem = quote(name, safe="")
     if stem.startswith("."):

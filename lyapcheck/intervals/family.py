@@ -26,25 +26,25 @@ class Extreme:
 
 def h_range(family: Family, x: Interval) -> Interval:
     """All values of h over the intervals: h is odd and monotone between its extremes."""
-    turning = _turning_points(family)[0]
+    extrema = _turning_points(family)[0]
     mirrored = [
-        Extreme((-p.where[1], -p.where[0]), (-p.value[1], -p.value[0])) for p in turning if p.where[1] > 0
+        Extreme((-p.where[1], -p.where[0]), (-p.value[1], -p.value[0])) for p in extrema if p.where[1] > 0
     ]
-    return _range(family.h, [*turning, *mirrored], x)
+    return _range(family.h, [*extrema, *mirrored], x)
 
 
 def dh_range(family: Family, x: Interval) -> Interval:
     """All values of h' over the intervals: h' is even and monotone between its extremes."""
-    turning = _turning_points(family)[1]
-    mirrored = [Extreme((-p.where[1], -p.where[0]), p.value) for p in turning if p.where[1] > 0]
-    return _range(family.dh, [*turning, *mirrored], x)
+    extrema = _turning_points(family)[1]
+    mirrored = [Extreme((-p.where[1], -p.where[0]), p.value) for p in extrema if p.where[1] > 0]
+    return _range(family.dh, [*extrema, *mirrored], x)
 
 
-def _range(function: Callable[[Array], Array], turning: list[Extreme], x: Interval) -> Interval:
+def _range(function: Callable[[Array], Array], extrema: list[Extreme], x: Interval) -> Interval:
     a, b = _at_ends(function, x)
     result = widened(np.minimum(a, b), np.maximum(a, b))
     low, high = result.lo, result.hi
-    for point in turning:
+    for point in extrema:
         inside = (x.lo <= point.where[1]) & (x.hi >= point.where[0])
         low = np.where(inside, np.minimum(low, point.value[0]), low)
         high = np.where(inside, np.maximum(high, point.value[1]), high)

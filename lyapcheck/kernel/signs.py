@@ -95,7 +95,7 @@ def for_small(statement: ForSmall, proof: LeadingTerm) -> str:
 
 
 class _Identity:
-    """What Coq is told of the polynomials of an implication."""
+    """What Coq is given of the polynomials of an implication."""
 
     def __init__(self, variables: Sequence[Variable], hypotheses: Sequence[Relation], signs: Signs) -> None:
         self.signs, self.hypotheses = signs, hypotheses

@@ -64,7 +64,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
     Args:
         subject: arm, members and gains.
-        on_progress: told the fraction done and a few words.
+        on_progress: receives the fraction done and a few words.
 
     Raises:
         InputError: the arm cannot be read, or gains do not fit it.

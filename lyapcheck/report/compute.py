@@ -50,7 +50,7 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         subject: arm, members and gains.
         notes: on the paper.
         gate: the gate's results, for a figure.
-        progress: told the fraction done and a few words.
+        progress: receives the fraction done and a few words.
     """
     asked = question(subject)
     result = read(store.take(asked), subject)

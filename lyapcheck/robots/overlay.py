@@ -1,4 +1,4 @@
-"""Arm files that name a URDF file: its links, with friction, limits and encoders told here."""
+"""Arm files that name a URDF file: its links, with friction, limits and encoders given here."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmField
     """The arm of the URDF file that ``urdf`` names, with the numbers of ``[[joints]]`` in place of its own.
 
     Raises:
-        InputError: either file has a problem; those of the arm file are told first.
+        InputError: either file has a problem; those of the arm file come first.
     """
     file, tip = top.text("urdf", required=True), top.text("tip") or None
     gravity = top.vector("gravity", "m/s²") if "gravity" in top.data else None
@@ -53,7 +53,7 @@ def _read_motors(top: ArmFields) -> list[Joint]:
     for i, (table, motor) in enumerate(zip(tables, motors, strict=True)):
         table.close()
         if motor.name in [other.name for other in motors[:i]]:
-            table.fail("name", "is told twice", "give each joint one table")
+            table.fail("name", "is given twice", "give each joint one table")
     return motors
 
 

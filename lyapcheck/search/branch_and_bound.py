@@ -36,7 +36,7 @@ def certify(
     Args:
         problem: what must be positive definite.
         max_boxes: how many boxes may be looked at.
-        on_progress: told the share of the volume decided.
+        on_progress: receives the share of the volume decided.
         deadline: by the monotonic clock, s.
 
     Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.loop.proves``.

@@ -63,7 +63,7 @@ def certified_epsilon(
         max_boxes: the budget of all attempts together.
         jobs: processes that share the boxes, of the search and of the checker; they change no answer.
         seconds: no new boxes are looked at after that time; the answer then depends on the machine.
-        on_progress: told the share of the attempts done.
+        on_progress: receives the share of the attempts done.
         shares: of the ceiling, rising, that are tried where `HOPED` is not proved.
 
     Returns:

@@ -143,7 +143,7 @@ def cover(
         prove: for each box whether the property holds on all of it, proved.
         choose: the side of each box that should be halved.
         max_boxes: how many boxes may be looked at.
-        on_progress: told the share of the volume decided.
+        on_progress: receives the share of the volume decided.
         deadline: by the monotonic clock, s; the search gives up after it.
         share: has others look at what lies below the boxes of a level.
         worth: how many boxes of a level are left to them, more than ``FEW``.
@@ -226,7 +226,7 @@ def explored(
         choose: the sides.
         most: a level that would make them more boxes than that is left waiting.
         deadline: by the monotonic clock, s.
-        on_progress: told the share of the volume decided.
+        on_progress: receives the share of the volume decided.
         few: whether no level so far had more than ``FEW`` boxes.
         worth: a level of so many boxes is left waiting as well.
     """
@@ -246,8 +246,8 @@ def explored(
         done += float(np.sum(_volumes(boxes[proved])))
         boxes, names = boxes[~proved], names[~proved]
         if on_progress is not None:
-            told = f"{sum(levels)} boxes, {2 * len(boxes)} open"
-            on_progress(min(done / volume, 1.0) if volume else 0.0, told)
+            note = f"{sum(levels)} boxes, {2 * len(boxes)} open"
+            on_progress(min(done / volume, 1.0) if volume else 0.0, note)
         if len(boxes):
             sides = choose(boxes)
             boxes, names = halve(boxes, sides), nodes.cut(names, sides)

@@ -62,7 +62,7 @@ def settling_bound(
         in_phases: look for ever larger ε₀ as V falls, where the arm has few enough joints.
         max_boxes: the budget of each attempt at a proof.
         jobs: processes for the checker.
-        on_progress: told the share done.
+        on_progress: receives the share done.
 
     Raises:
         InputError: an unbounded h, ranges, or values that are not finite or of the wrong number.
@@ -105,7 +105,7 @@ def disturbance_bound(
         dry: (n,) bounds of a torque that never helps the motion, as dry friction, N·m; none if empty.
         max_boxes: the budget of each attempt at a proof.
         jobs: processes for the checker.
-        on_progress: told the share done.
+        on_progress: receives the share done.
 
     Raises:
         InputError: as `settling_bound`, or bounds that are negative.

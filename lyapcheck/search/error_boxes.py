@@ -145,8 +145,8 @@ class FormAt:
         x = Interval(low, high)
         h, dh = h_range(of.family, x), dh_range(of.family, x)
         unit = _units(low, high)
-        pull = unit[0] / (1 + far[:, None]), unit[1] / (1 + near[:, None])
-        products = [h.lo[:, :, None] * pull[0][:, None, :], h.hi[:, :, None] * pull[1][:, None, :]]
+        scaled = unit[0] / (1 + far[:, None]), unit[1] / (1 + near[:, None])
+        products = [h.lo[:, :, None] * scaled[0][:, None, :], h.hi[:, :, None] * scaled[1][:, None, :]]
         diagonal = np.eye(n)
         lower = -products[1] + dh.lo[:, :, None] * diagonal
         upper = -products[0] + dh.hi[:, :, None] * diagonal
@@ -198,9 +198,9 @@ class FormAt:
             shown |= now
             if shown.all():
                 break
-            found = np.abs(vectors[:, :, 0])
-            found[:, n:] /= np.sqrt(eps)
-            w, p = np.split(found, 2, axis=1)
+            result = np.abs(vectors[:, :, 0])
+            result[:, n:] /= np.sqrt(eps)
+            w, p = np.split(result, 2, axis=1)
             w, p = w + 0.03 * w.max(axis=1, keepdims=True), p + 0.03 * p.max(axis=1, keepdims=True)
             wanted = 2 * np.log2(np.concatenate([w, p], axis=1))
             wanted -= wanted.mean(axis=1, keepdims=True) - sizes.mean(axis=1, keepdims=True)

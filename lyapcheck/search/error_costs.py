@@ -93,17 +93,17 @@ class ErrorCosts:
 def smallest_at(boxes: ErrorBoxes, errors: Array) -> Array:
     """The smallest eigenvalues at single errors, each at its best l."""
     at, some = FormAt(boxes, np.stack([errors, errors], axis=1)), np.arange(len(errors))
-    found = [np.linalg.eigvalsh(at.middle(some, np.sqrt(2.0) ** power))[:, 0] for power in MULTIPLIERS]
-    return np.asarray(np.max(found, axis=0))
+    result = [np.linalg.eigvalsh(at.middle(some, np.sqrt(2.0) ** power))[:, 0] for power in MULTIPLIERS]
+    return np.asarray(np.max(result, axis=0))
 
 
 def costs_at(boxes: ErrorBoxes, errors: Array) -> Array:
     """The mean cost of U_i/b_i, and below it of Q_ji/b_i, (n, n)."""
     n, b = boxes.n, boxes.b
     at, some = FormAt(boxes, np.stack([errors, errors], axis=1)), np.arange(len(errors))
-    found = [np.linalg.eigh(at.middle(some, np.sqrt(2.0) ** power)) for power in MULTIPLIERS]
-    best = np.argmax([values[:, 0] for values, _ in found], axis=0)
-    vectors = np.array([vectors[:, :, 0] for _, vectors in found])[best, some]
+    result = [np.linalg.eigh(at.middle(some, np.sqrt(2.0) ** power)) for power in MULTIPLIERS]
+    best = np.argmax([values[:, 0] for values, _ in result], axis=0)
+    vectors = np.array([vectors[:, :, 0] for _, vectors in result])[best, some]
     l = np.sqrt(2.0) ** np.array(MULTIPLIERS)[best][:, None]
     w, p, eps = vectors[:, :n], vectors[:, n:], at.eps
     costs = eps[:, :, None] * at.H[:, :, None] * w[:, None, :] ** 2

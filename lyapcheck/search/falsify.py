@@ -75,7 +75,7 @@ def falsify(
         starts: how many starts for each of the optimised programs.
         samples: how many random states they are chosen from.
         seed: of the random numbers.
-        on_progress: told how far the search is.
+        on_progress: receives how far the search is.
         quick: look at fast states alone, from a third of the starts; what slow states refute is then missed.
 
     Returns:
@@ -102,7 +102,7 @@ def smallest_refuted(
         controlled: gains and arm.
         candidates: a word for each kind of states, and the states.
         steps: about how many kinds there are.
-        on_progress: told how far the search is.
+        on_progress: receives how far the search is.
         held: moves states to where the witness has to be; they keep there when rounded to `DIGITS` digits.
     """
     progress = on_progress or silent

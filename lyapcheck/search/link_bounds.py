@@ -52,7 +52,7 @@ def linked_epsilon(
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: budget of all attempts together.
         deadline: by the monotonic clock, s; no attempt begins after it.
-        progress: told the share of the attempts done.
+        progress: receives the share of the attempts done.
 
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``.
     """
@@ -76,13 +76,13 @@ def linked_epsilon(
         if not loop.admissible:
             reason = f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
             break
-        found = ErrorBoxes(loop, bounds).covered(min(MAX_BOXES, max_boxes - looked_at))
-        looked_at += found.boxes
-        if found.proved:
-            result = controlled.proof(loop, replace(bounds, tree=found.tree, scales=found.scales))
+        outcome = ErrorBoxes(loop, bounds).covered(min(MAX_BOXES, max_boxes - looked_at))
+        looked_at += outcome.boxes
+        if outcome.proved:
+            result = controlled.proof(loop, replace(bounds, tree=outcome.tree, scales=outcome.scales))
             proved = share
         else:
-            reason = _not_proved(loop.eps0, found.reason)
+            reason = _not_proved(loop.eps0, outcome.reason)
             top, shares = share, []
     if result is not None and not result.accepted():
         return None, looked_at, "the checker refused the boxes"
@@ -164,13 +164,13 @@ def _shown(
 ) -> Shown | None:
     """Prices κ_k with a small Σ κ_k share_k/b_k, and forms for each problem that show them."""
     for margin in _MARGINS:
-        found = propose(problems, margin, np.diag(weight / share), most)
-        if found is None:
+        result = propose(problems, margin, np.diag(weight / share), most)
+        if result is None:
             continue
-        least = 1e-7 * np.max(np.abs(found.prices / weight)) * weight
-        prices = tuple(_rounded_up(x) for x in found.prices * (1 + 1e-7) + least)
+        least = 1e-7 * np.max(np.abs(result.prices / weight)) * weight
+        prices = tuple(_rounded_up(x) for x in result.prices * (1 + 1e-7) + least)
         forms = tuple(
-            tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in found.coefficients
+            tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in result.coefficients
         )
         shown = Shown(prices, forms)
         if shown.holds([problem.stages for problem in problems], problems[0].vectors):

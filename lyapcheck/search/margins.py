@@ -126,13 +126,13 @@ def _data(
             return BoxTree(".") if certifies(loop.tail, loop.eps0) else None
         covered = ErrorBoxes(loop, bounds).covered(max_boxes)
         return replace(bounds, tree=covered.tree, scales=covered.scales) if covered.proved else None
-    found: list[BoxTree] = []
+    result: list[BoxTree] = []
     for corner in at_corners(loop):
         outcome = certify(Problem(corner), max_boxes)
         if not outcome.proved:
             return None
-        found.append(BoxTree(outcome.tree))
-    return RateAtCorners(tuple(found)) if loop.parameters else found[0]
+        result.append(BoxTree(outcome.tree))
+    return RateAtCorners(tuple(result)) if loop.parameters else result[0]
 
 
 def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:

@@ -137,7 +137,7 @@ def falsify_nearby(
         near: gains, nominal arm and limits.
         starts: how many starts for each of the optimised programs.
         seed: of the random states.
-        on_progress: told how far the search is.
+        on_progress: receives how far the search is.
 
     Soundness: as for `lyapcheck.search.falsify`: the witness is proved, and nothing says that no smaller ε₀
         fails.

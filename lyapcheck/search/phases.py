@@ -101,14 +101,14 @@ class Phases:
         near = self._near()
         heavy, ranked = heaviest(near), []
         for margin in candidates(near, False, FRICTION):
-            found = self._descent(margin, last, COARSE)
-            if found is not None:
-                ranked.append((found.time, margin.friction, margin))
+            result = self._descent(margin, last, COARSE)
+            if result is not None:
+                ranked.append((result.time, margin.friction, margin))
         for _, _, margin in sorted(ranked, key=lambda row: row[:2]):
             for attempt in attempts(near, margin, self.max_boxes):
-                found = self._descent(attempt.margin, last, FINE)
-                if found is not None and heavy is not None:
-                    self._keep(near, heavy, attempt, found)
+                result = self._descent(attempt.margin, last, FINE)
+                if result is not None and heavy is not None:
+                    self._keep(near, heavy, attempt, result)
                     return True
         return False
 
@@ -136,12 +136,12 @@ class Phases:
             low = max(last, short_below(first * STEP))
             if low >= first or (not self.made and estimate.start_energy(*self.start) > self.largest):
                 return None
-            found = lowered(estimate, self.controlled.family, first, low, ratio, self.time)
+            result = lowered(estimate, self.controlled.family, first, low, ratio, self.time)
         except ValueError:  # a level of V that allows errors beyond all bounds
             return None
-        return found if found.level == low else None
+        return result if result.level == low else None
 
-    def _keep(self, near: ControlledArm, heavy: Heaviest, attempt: Attempt, found: Descent) -> None:
+    def _keep(self, near: ControlledArm, heavy: Heaviest, attempt: Attempt, result: Descent) -> None:
         margin = attempt.margin
         self.made.append(
             Phase(
@@ -154,12 +154,12 @@ class Phases:
                 heavy.diagonal,
                 heavy.proof,
                 attempt.by,
-                found.envelope,
-                found.slopes,
+                result.envelope,
+                result.slopes,
             )
         )
         self.last = self._estimate(margin)
-        self.time, self.level, self.eps0 = found.time, found.level, margin.loop.eps0
+        self.time, self.level, self.eps0 = result.time, result.level, margin.loop.eps0
         self.energy = min(self.energy, regraded(self.level, self.eps0, margin.loop, margin.heaviest))
 
     def _claim(self) -> Shown:
@@ -224,12 +224,12 @@ def lightest(controlled: ControlledArm) -> tuple[Fraction, ...]:
         [1.0 / np.diagonal(np.linalg.inv(M), axis1=1, axis2=2).max(axis=0) for M in masses(controlled, q)],
         axis=0,
     )
-    found = []
+    result = []
     for joint, inertia in enumerate(least.tolist()):
         tried = (short_below(Fraction(inertia) * share) for share in SHARES)
         shown = (x for x in tried if _shown(statement.mass_lightened(joint, x)))
-        found.append(next(shown, Fraction(0)))
-    return tuple(found)
+        result.append(next(shown, Fraction(0)))
+    return tuple(result)
 
 
 def light_proof(mass: Mass, parameters: tuple[Ends, ...]) -> Bisection | MassAtCorners:

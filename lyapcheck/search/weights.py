@@ -91,7 +91,7 @@ def weighted_epsilon(
         max_boxes: budget of all attempts together.
         jobs: processes for the checker.
         seed: of the sampled states.
-        on_progress: told the share done.
+        on_progress: receives the share done.
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """

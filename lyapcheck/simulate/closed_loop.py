@@ -76,7 +76,7 @@ def simulate(
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
         stop: end the run at the first state that breaks a promise: dV/dt ≤ 0, the bound (9), a motor's limit.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Raises:
         InputError: a task the arm cannot be given.

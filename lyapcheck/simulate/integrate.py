@@ -59,7 +59,7 @@ def integrate(
         t: (N,) increasing times; the values between steps come from the method's own dense output.
         tolerance: relative error allowed per step, for all components or (d,) for each; the absolute one is
             a hundredth of it.
-        on_time: told now and then how far the solution has come.
+        on_time: called now and then with the time reached, s.
         max_steps: a budget, after which the solution is cut short.
 
     Soundness: an error estimate per step is not a bound: compare with a run at a smaller tolerance.

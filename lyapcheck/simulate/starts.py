@@ -29,7 +29,7 @@ MOST_RUNS = 100_000
 """Runs of one gain set; so many of the paper's arm take about ten seconds."""
 
 SHARES = (0.0, 0.05, 0.5, 0.95, 1.0)
-"""The quantiles that are told."""
+"""The quantiles that are shown."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def sweep(
         task: goal, initial rates and duration; the starts lie about its q0.
         starts: how many, how far, and the seed.
         eps0: the ε₀ of V.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Soundness: floating point throughout; a finite number of runs says nothing of the others.
     """

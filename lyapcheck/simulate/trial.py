@@ -67,7 +67,7 @@ def experiment(
         T: seconds, cut to whole periods.
         eps0: the ε₀ of V; 0 if missing, and then V is the energy.
         bench: period and creep rate.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Returns:
         One sample a period, overshoots of what lies between; ``tau`` is the torque held from then on, ``dV``

@@ -64,7 +64,7 @@ def track(
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
         stop: end the run at the first state that breaks a promise.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Raises:
         InputError: a request the arm or the reference cannot meet.

@@ -55,7 +55,7 @@ def study(
         corners: points at ends of all ranges.
         search: whether to look for arms that do what is printed beyond the sample.
         seed: of all random choices.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Returns:
         None if the paper prints nothing of these gains on this arm.

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from lyapcheck import store
-from lyapcheck.claims import run as runs
+from lyapcheck.answers.check import run as runs
 from lyapcheck.claims import run_proof
 from lyapcheck.verdicts import Verdict
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from lyapcheck.answers.check.run import paper_given
+from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.check.codec import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.ask import ask
@@ -35,7 +35,7 @@ REPAIR = "make report, and commit reports/"
 def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
     ms = REPORT["m"]
     script = find_script(proof)
-    handover = ask(Request(str(script), script.name, tuple(paper_given(m) for m in ms)))
+    handover = ask(Request(str(script), script.name, tuple(paper_case_data(m) for m in ms)))
     claims = {claim.id: claim for claim in handover.claims}
     rows = [row for row in (*REPORT["claims"], *REPORT["others"]) if row["proof"] == handover.name]
     assert {row["id"] for row in rows} == set(OTHERS.get(proof, ()) or claims), REPAIR

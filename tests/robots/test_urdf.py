@@ -311,7 +311,7 @@ def test_an_arm_file_adds_what_the_urdf_lacks(tmp_path: Path) -> None:
         (
             "encoder = 4096",
             'encoder = 4096\n[[joints]]\nname = "elbow"',
-            "joints[2].name = elbow: is told twice",
+            "joints[2].name = elbow: is given twice",
         ),
     ],
 )

@@ -97,7 +97,7 @@ def compare(
         max_boxes: the budget of each attempt at a proof.
         jobs: processes for the checker.
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
-        on_progress: told the share done.
+        on_progress: receives the share done.
     """
     progress = on_progress or silent
     unvaried, controlled, arms = None, ControlledArm(gain_set, model), [model]

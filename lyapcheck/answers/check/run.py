@@ -20,7 +20,7 @@ from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.decision import decided, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
-from lyapcheck.claims.handover import Given, Handover, Key, Request
+from lyapcheck.claims.handover import CaseData, Handover, Key, Request
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
@@ -95,25 +95,25 @@ def run_proof(
 
 def paper_case(m: int) -> Case:
     """The case of the paper: its arm and its Table 2 gains."""
-    return Case(*paper_given(m))
+    return Case(*paper_case_data(m))
 
 
-def paper_given(m: int) -> Given:
+def paper_case_data(m: int) -> CaseData:
     """What the case of the paper is made of."""
     model = _robot(None, None)
     return m, model.n, model, next((s for s in _gain_sets(None, model.n) if s.m == m), None)
 
 
-def _others(asked: Sequence[Given]) -> tuple[Given, ...]:
+def _others(asked: Sequence[CaseData]) -> tuple[CaseData, ...]:
     """One case with another m and one with another n, to see what a claim depends on whatever it reads."""
     if not asked:
         return ()
     m, n, model, _ = asked[-1]
-    return (max(given[0] for given in asked) + 1, n, model, None), (m, n + 1, None, None)
+    return (max(m for m, *_ in asked) + 1, n, model, None), (m, n + 1, None, None)
 
 
 def _proposals(
-    handover: Handover, asked: Sequence[Given], file: str, on_progress: Progress
+    handover: Handover, asked: Sequence[CaseData], file: str, on_progress: Progress
 ) -> dict[Key, Proposal]:
     """What the searches propose, each row after those it uses."""
     result: dict[Key, Proposal] = {}

@@ -1,6 +1,6 @@
 """How large ε₀ may be: published, scalar, certified and falsified, with certificates.
 
-The searches propose, the checker disposes; this room asks them in turn and holds their answers together.
+The searches propose, the checker disposes; this folder asks them in turn and holds their answers together.
 """
 
 from lyapcheck.answers.epsilon.compute import epsilon

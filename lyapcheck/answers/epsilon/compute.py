@@ -75,7 +75,7 @@ def epsilon(
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         limits: of speed and of error, to ask for the ε₀ of the states within them as well.
-        on_progress: told the fraction done and a few words.
+        on_progress: receives the fraction done and a few words.
 
     Raises:
         InputError: the gains are for another number of joints.

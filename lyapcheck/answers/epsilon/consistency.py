@@ -1,4 +1,4 @@
-"""What the numbers say about each other: no proved one may be refuted, and what follows is told.
+"""What the numbers say about each other: no proved one may be refuted, and what follows is said.
 
 References: ``reyes2019family`` (18).
 """

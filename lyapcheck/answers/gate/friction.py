@@ -38,8 +38,8 @@ def held(gains: GainSet, model: RobotModel) -> dict[int, Judgement]:
     if gamma is None:
         return {}
     rows = enumerate(zip(gains.kp, dry_friction(model), strict=True))
-    found = {i: _limit(f, gamma).judged(kp) for i, (kp, f) in rows if f}
-    return {i: one for i, one in found.items() if one.verdict == ACCEPTED}
+    result = {i: _limit(f, gamma).judged(kp) for i, (kp, f) in rows if f}
+    return {i: one for i, one in result.items() if one.verdict == ACCEPTED}
 
 
 @lru_cache(maxsize=64)
@@ -77,9 +77,9 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
         f"{assumed}: the joint rests wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
         for i in stuck
     ]
-    found = resting(gains, model)
-    if found is not None and found.verdict == ACCEPTED:
-        errors = zip(model.joints, found.statement.errors, friction, strict=True)  # type: ignore[attr-defined]
+    result = resting(gains, model)
+    if result is not None and result.verdict == ACCEPTED:
+        errors = zip(model.joints, result.statement.errors, friction, strict=True)  # type: ignore[attr-defined]
         far = [f"{joint} {float(e / RADIANS):.1f}°" for joint, e, f in errors if f and e is not None]
         if far:
             lines.append(f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest")

@@ -72,7 +72,7 @@ class GateResult:
 
     @property
     def standing(self) -> str:
-        """The verdict in words: what breaks nothing but (19), and is proved stable, is told from the rest."""
+        """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
         if self.verdict != REJECTED or self.stable is None:
             return self.verdict

@@ -27,22 +27,22 @@ def whole(result: GateResult) -> tuple[Certificate, ...]:
     if result.verdict not in (ACCEPTED, REJECTED) or len(known) < len(checks):
         return ()  # without a limit there is no statement to certify
     names = [f"{check.id} {joint_name(result, check)}" for check in checks]
-    parts = AllOf(tuple((name, found.statement) for name, (_, found) in zip(names, known, strict=True)))
+    parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))
     about = About(
         result.name, f"{result.name}: {', '.join(result.deciding)}", result.m, result.limits.n, PROOF
     )
     if result.verdict == REJECTED:
         first = next(k for k, (check, _) in enumerate(known) if check.verdict == REJECTED)
-        found = known[first][1]
-        proof = OnePart(first, _proof(found))
-        return (Certificate(about, parts, "refuted", found.grade, proof, {}, versions()),)
+        outcome = known[first][1]
+        proof = OnePart(first, _proof(outcome))
+        return (Certificate(about, parts, "refuted", outcome.grade, proof, {}, versions()),)
     used = gravity_bounds_of(result) if {"10", "10p", "10i"} & set(result.deciding) else ()
-    every = EveryPart(tuple(_proof(found) for _, found in known))
-    grade = weakest(found.grade for _, found in known)
+    every = EveryPart(tuple(_proof(outcome) for _, outcome in known))
+    grade = weakest(outcome.grade for _, outcome in known)
     uses = {one.claim.id: one.digest for one in used}
     return (Certificate(about, parts, "proved", grade, every, uses, versions()), *used)
 
 
-def _proof(found: Judgement) -> Proof:
-    assert found.proof is not None
-    return found.proof
+def _proof(result: Judgement) -> Proof:
+    assert result.proof is not None
+    return result.proof

@@ -25,7 +25,7 @@ def build(
     Args:
         model: the arm.
         max_boxes: budget of each constant; by default fewer for more joints, whose boxes cost more.
-        on_progress: told the share of the work done.
+        on_progress: receives the share of the work done.
 
     Soundness: what is called proved, refuted or certified is what a fresh process of the checker accepts.
     """

@@ -55,9 +55,9 @@ def _constant(row: dict[str, Any], model: RobotModel) -> Constant:
     return Constant(row["name"], row["unit"], enclosure, tuple(map(float, state)), row["boxes"], shown)
 
 
-def _shown(name: str, told: Sequence[Any], model: RobotModel) -> Shown:
+def _shown(name: str, written: Sequence[Any], model: RobotModel) -> Shown:
     chain = model.fixed().chain
     if chain is None:
         raise ValueError("the arm has no chain of links")
-    bound, proof = told
+    bound, proof = written
     return Shown(bound_of(chain, name, Fraction(bound)), from_json(Proof, proof, "proof"))  # type: ignore[arg-type]

@@ -61,7 +61,7 @@ class RobotReport(Answer):
         return report_data(self)
 
     def records(self) -> list[dict[str, Any]]:
-        """A row a property, a claim about the print, and a constant; ``kind`` tells which."""
+        """A row a property, a claim about the print, and a constant; ``kind`` says which."""
         judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
         entries = [(kind, property_data(row)) for kind, row in judged]
         rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]

@@ -36,15 +36,15 @@ def asked(plan: Plan, workers: int, scheduler: str | None = None) -> Iterator[An
 
         fewer = min(workers, plan.count)  # cores that are left share the boxes of one question
         results = local.answers(work, fewer, jobs=workers // max(1, fewer))
-    for found in results:
-        yield from found
+    for result in results:
+        yield from result
 
 
 class Rows(Iterator[Row]):
     """The rows of a sweep as they come, in the order of the plan."""
 
-    def __init__(self, found: Iterator[Answered]) -> None:
-        self._found = found
+    def __init__(self, result: Iterator[Answered]) -> None:
+        self._found = result
 
     def __next__(self) -> Row:
         return next(self._found).row
@@ -91,9 +91,9 @@ def sweep(
         'accepted'
     """
     read: Any = plan if isinstance(plan, Plan) else read_plan(plan)
-    found = asked(read, cores() if workers is None else workers, scheduler)
+    result = asked(read, cores() if workers is None else workers, scheduler)
     if out is not None:
         from lyapcheck.answers.sweep.folder import Folder
 
-        found = Folder(Path(out), resume).written(found)
-    return Rows(found)
+        result = Folder(Path(out), resume).written(result)
+    return Rows(result)

@@ -44,17 +44,17 @@ def ask(batch: Sequence[Question], jobs: int = 1) -> list[Answered]:
         batch: the questions.
         jobs: processes that may share one of them; they change no answer.
     """
-    found: list[Answered] = []
+    result: list[Answered] = []
     for (name, _, _, _), group in groupby(
         batch, key=lambda one: (one.ask, one.robot, one.variation, one.options)
     ):
         asked = list(group)
         module = import_module(f"{PACKAGE}.{name}")
         try:
-            found += module.ask(asked, jobs)
+            result += module.ask(asked, jobs)
         except Exception:
-            found += [_alone(module, one, jobs) for one in asked]
-    return found
+            result += [_alone(module, one, jobs) for one in asked]
+    return result
 
 
 def _alone(module: object, question: Question, jobs: int) -> Answered:

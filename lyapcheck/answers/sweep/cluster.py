@@ -46,17 +46,17 @@ def answers(batches: Iterable[Batch], scheduler: str, count: int) -> Iterator[li
     with client:
         while True:
             threads = max(1, sum(client.nthreads().values()))
-            room, jobs = AHEAD * threads, threads // min(threads, max(1, count))
-            while len(under_way) < room and (batch := next(left, None)) is not None:
+            capacity, jobs = AHEAD * threads, threads // min(threads, max(1, count))
+            while len(under_way) < capacity and (batch := next(left, None)) is not None:
                 under_way.append(client.submit(_ask, batch, jobs, pure=False, retries=RETRIES))
             if not under_way:
                 return
-            made_with, found = under_way[0].result()
+            made_with, result = under_way[0].result()
             under_way.popleft()
             if made_with != own:
                 rule = "has a worker with another lyapcheck, or other packages behind it"
                 raise argument_error("--scheduler", scheduler, rule, "install the same versions everywhere")
-            yield found
+            yield result
 
 
 def _ask(batch: Batch, jobs: int) -> tuple[str, list[Answered]]:

@@ -43,12 +43,12 @@ class Folder:
         except OSError as error:
             raise full(path, error) from error
 
-    def written(self, found: Iterator[Answered]) -> Iterator[Answered]:
+    def written(self, result: Iterator[Answered]) -> Iterator[Answered]:
         """The same answers, each with its certificates in the folder; the rows are whole when all are."""
         part = self.path / PART
         try:
             with open(part, "w", encoding="utf-8", newline="\n") as rows:
-                for one in found:
+                for one in result:
                     self._put(one.certificates)
                     rows.write(line_of(one.row))
                     yield one

@@ -55,9 +55,9 @@ def answers(batches: Iterable[Batch], workers: int, jobs: int = 1) -> Iterator[l
                                 under_way.append((batch, _submitted(pool, batch, jobs)))
                         if not under_way:
                             break
-                        found = under_way[0][1].result()
+                        result = under_way[0][1].result()
                         under_way.popleft()
-                        yield found
+                        yield result
                 except BrokenProcessPool:
                     pool.shutdown(wait=False, cancel_futures=True)
             for batch, future in under_way:

@@ -101,13 +101,13 @@ def _options(top: Fields, name: str) -> tuple[tuple[str, Any], ...]:
     if table is None:
         return ()
     usual: dict[str, Any] = import_module(f"{PACKAGE}.{name}").OPTIONS
-    found = []
+    result = []
     for key, default in sorted(usual.items()):
         value = _option(table, key, default)
         if value is not None:
-            found.append((key, value))
+            result.append((key, value))
     table.close()
-    return tuple(found)
+    return tuple(result)
 
 
 def _option(table: Fields, key: str, default: Any) -> Any:
@@ -158,16 +158,16 @@ def _row(table: Fields, key: str, read: Callable[[Any], Any]) -> tuple[Any, ...]
         value = _steps(table, key, value)
     if value is None:
         return ()
-    found = [read(one) for one in value] if isinstance(value, list) and value else [None]
-    if any(one is None for one in found):
+    result = [read(one) for one in value] if isinstance(value, list) and value else [None]
+    if any(one is None for one in result):
         what = "members of the family from 1" if key == "m" else "gains above 0, or lists of one a joint"
         repair = f"write {key} = [1, 2, 3]" if key == "m" else f"write {key} = [0.1, 0.2], or [[0.1, 0.2], …]"
         table.fail(key, f"must be a list of {what}, or {{from, to, step}}", repair)
         return ()
-    if len(set(found)) < len(found):
+    if len(set(result)) < len(result):
         table.fail(key, "has a value twice", "give each once")
         return ()
-    return tuple(found)
+    return tuple(result)
 
 
 def _steps(table: Fields, key: str, value: dict[str, Any]) -> list[Any] | None:
@@ -202,7 +202,7 @@ def _gain(value: Any) -> Gain | None:
 
 def _joints(plan: Plan, notes: Notes) -> list[int]:
     """How many joints each robot has; what cannot be read, or has others than the gains, is noted."""
-    found: list[int] = []
+    result: list[int] = []
     for k, robot in enumerate(plan.robots):
         for number, variation in enumerate(plan.variations):
             try:
@@ -210,14 +210,14 @@ def _joints(plan: Plan, notes: Notes) -> list[int]:
             except InputError as error:
                 notes.problems += [_placed(one, notes, k, number) for one in error.problems]
                 n = 0
-        found.append(n)
+        result.append(n)
         for key, size in _sizes(plan):
             if n and size != n:
                 rule = f"has gains for {size} joints, but the arm {robot} has {n}"
                 notes.fail(
                     key, None, rule, "give one gain a joint; arms with other joints need a plan of their own"
                 )
-    return found
+    return result
 
 
 def _placed(problem: Problem, notes: Notes, robot: int, variation: int) -> Problem:

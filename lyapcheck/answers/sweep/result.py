@@ -81,8 +81,8 @@ class SweepAnswer(Answer):
         verdicts: dict[str, int] = {}
         for (_, _, verdict), count in self.tally.counts.items():
             verdicts[verdict] = verdicts.get(verdict, 0) + count
-        told = ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
-        return f"{SIGNS[self.exit_code]} {total} question{'' if total == 1 else 's'}: {told or 'none asked'}"
+        parts = ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+        return f"{SIGNS[self.exit_code]} {total} question{'' if total == 1 else 's'}: {parts or 'none asked'}"
 
     def _counts(self) -> Iterator[Block]:
         rows = [
@@ -95,10 +95,10 @@ class SweepAnswer(Answer):
     def _reasons(self) -> Iterator[Block]:
         reasons = sorted(self.tally.reasons.items(), key=lambda pair: -pair[1])
         if reasons:
-            told = tuple(
+            shown = tuple(
                 f"{count} times: {reason}" if count > 1 else reason for reason, count in reasons[:10]
             )
-            yield Section("Why not more was decided", (Bullets(told),))
+            yield Section("Why not more was decided", (Bullets(shown),))
 
     def _map(self, number: int, one: Map) -> Section:
         title = f"{one.measure.title}: {arm_text(one.arm)}"

@@ -46,7 +46,7 @@ def tune_for(
         bounds: limits to take instead of the arm's.
         against: gains to try beside them.
         varies: ranges of the arm's numbers; the worst of motions at their ends counts, limits hold for all.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Raises:
         InputError: the arm cannot be used.

@@ -1,4 +1,4 @@
-"""The room that an arm's limits leave to the gains of one joint, exactly, in units of the last digit."""
+"""The range that an arm's limits leave to the gains of one joint, exactly, in units of the last digit."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ class GainRange:
 def gain_range_of(
     joint: int, limits: Limits, gamma: Tree | None, targets: Targets, damping: Damping | None = None
 ) -> GainRange:
-    """The room of a joint, counted from 0, on an arm whose torque limits and friction are known.
+    """The range of a joint, counted from 0, on an arm whose torque limits and friction are known.
 
     Soundness: every largest decimal is proved to pass (10p) or (19) as the gate's checks are.
     """
     torque, friction = limits.torque[joint], limits.viscous_min
     if torque is None or friction is None or gamma is None:
-        raise ValueError("a room needs a torque limit, a friction and a bounded function")
+        raise ValueError("a range needs a torque limit, a friction and a bounded function")
     torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
     dampings = scaled(friction, limits.n, gamma)
     kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)

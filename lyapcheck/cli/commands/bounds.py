@@ -173,7 +173,7 @@ def _compare(
     result = []
     for done, gain_set in enumerate(gains):
 
-        def tell(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
+        def report(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
         result.append(
@@ -185,7 +185,7 @@ def _compare(
                 max_boxes=max_boxes,
                 jobs=jobs,
                 varied=varied,
-                on_progress=tell,
+                on_progress=report,
             )
         )
     return result

@@ -42,7 +42,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--eps0", metavar="N", help=about)
     about = "Degrees: with --reference, the time from which on all errors stay inside; 1."
     parser.add_real("--band", about)
-    parser.add_whole("--runs", "So many runs from random starts; tells how the indices spread.")
+    parser.add_whole("--runs", "So many runs from random starts; shows how the indices spread.")
     parser.add_real("--spread", "Degrees: with --runs, starts lie so far about --start; 45.")
     parser.add_whole("--seed", "Of the random starts; 0.")
     add_vary(parser)
@@ -127,7 +127,7 @@ def run(
     else:
         path = wrong.reading(read_reference, reference, model.n)
         request = wrong.reading(asked.request, model, path, band)
-    wrong.tell()
+    wrong.raise_all()
     name = robot_name(robot, [gain_file])
     arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()
     folder = None if certificates is None else open_folder("--certificates", certificates)

@@ -75,8 +75,8 @@ def run(
     folder = None if out is None else Folder(out, resume)
     tally = Tally()
     with progress("sweep") as advance:
-        found = asked(read, cores() if jobs is None else jobs, scheduler)
-        _count(found if folder is None else folder.written(found), read.count, tally, advance)
+        result = asked(read, cores() if jobs is None else jobs, scheduler)
+        _count(result if folder is None else folder.written(result), read.count, tally, advance)
     answer = SweepAnswer(read.path, tally)
     if folder is not None:
         folder.put(files(SweepAnswer(read.path, tally, figures=True)))
@@ -84,11 +84,11 @@ def run(
     return answer.exit_code
 
 
-def _count(found: Iterator[Answered], total: int, tally: Tally, advance: Progress) -> None:
+def _count(result: Iterator[Answered], total: int, tally: Tally, advance: Progress) -> None:
     """Take all answers, and say how far they have come and how long the rest will take at that pace."""
     begun = monotonic()
     advance(0.0, f"{total} questions")
-    for done, one in enumerate(found, start=1):
+    for done, one in enumerate(result, start=1):
         tally.add(one.row)
         left = (monotonic() - begun) / done * (total - done)
         advance(done / total, f"{done} of {total}, {_span(left)} left")

@@ -135,7 +135,7 @@ def run(
         motion = {"--start": start, "--goal": goal}
         repair = "add --overshoot, --settle or --rest-error"
         wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
-    wrong.tell()
+    wrong.raise_all()
     if wishes and bench is not None:
         return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
     task = _tasks(robot, None, None)[0] if len(members or ()) in COMPARED else None
@@ -160,7 +160,7 @@ def _many(robot: str) -> bool:
     try:
         return load(robot).n > FEW_JOINTS
     except InputError:
-        return False  # which is told with all else that is wrong
+        return False  # which is raised with all else that is wrong
 
 
 def _tune_for(

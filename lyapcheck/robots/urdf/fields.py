@@ -1,4 +1,4 @@
-"""Reading the attributes of URDF elements: exact decimals, and every problem told at once."""
+"""Reading the attributes of URDF elements: exact decimals, and every problem at once."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 The sine and cosine of a decimal angle other than 0 are never rational, so an angle of a file cannot be kept
 exactly. An angle within 10⁻⁹ rad of a multiple of π/2 is taken as that multiple, for that is what a file
 means by 1.57079632679; any other one, 1.5708 too, is replaced by a rational point of the circle close to it.
-Both are told to the reader.
+Both are reported.
 
 References: the half-angle parametrisation of the circle; a quaternion with rational entries gives a
 rational rotation.

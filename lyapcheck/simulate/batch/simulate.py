@@ -69,7 +69,7 @@ def simulate_many(
         tolerance: relative error allowed per step; the absolute one is a hundredth of it.
         max_steps: a budget for each run.
         motions: keep q, w and V at all samples.
-        on_progress: told the fraction done.
+        on_progress: receives the fraction done.
 
     Returns:
         Arrays with one row a run. A run that could not be finished is marked, and does not stop the others.

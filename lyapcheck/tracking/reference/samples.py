@@ -16,7 +16,7 @@ from lyapcheck.output.escapes import printable
 
 MOST_ROWS = 200_000
 MOST_PROBLEMS = 20
-"""Problems that are told of one file; the others are most often the same slip again."""
+"""Problems that are reported of one file; the others are most often the same slip again."""
 
 _COLUMN = re.compile(r"q(?P<joint>[1-9]\d?) ?\[(?P<unit>rad|deg|°)\]")
 _TIME = ("t", "t [s]")
@@ -111,7 +111,7 @@ def _sample(table: _Table, line: int, row: list[str]) -> None:
     if t <= table.latest < math.inf:
         rule = "times must increase, and do not here"
         table.fail(line, "t", row[table.time], rule, "keep the samples of one run, in order")
-        table.latest = math.inf  # one slip: what follows is not told as well
+        table.latest = math.inf  # one slip: what follows is not reported as well
     table.latest = max(table.latest, t) if math.isfinite(t) else table.latest
     if all(map(math.isfinite, (t, *q))):
         table.rows.append([t, *q])

@@ -29,13 +29,13 @@ def _asked(question: Question, jobs: int) -> Answered:
     task = task_of(model, options)
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
     budget = {"max_boxes": options["max_boxes"], "jobs": jobs}
-    found = compare(question.gains, model, task, delta, varied=varied, **budget)
+    result = compare(question.gains, model, task, delta, varied=varied, **budget)
     return answered(
         question,
-        VERDICTS[Exit.PROVED if found.certified else Exit.UNDECIDED],
-        comparison_data(found),
-        tuple(certificates(found).values()),
-        "" if found.certified else found.settling.reason or found.disturbance.reason,
-        settling=found.simulated_time,
-        settling_certified=above(found.settling.time),
+        VERDICTS[Exit.PROVED if result.certified else Exit.UNDECIDED],
+        comparison_data(result),
+        tuple(certificates(result).values()),
+        "" if result.certified else result.settling.reason or result.disturbance.reason,
+        settling=result.simulated_time,
+        settling_certified=above(result.settling.time),
     )

@@ -48,10 +48,10 @@ def _asked(question: Question) -> Answered:
             if not isinstance(failure, PromiseBroken):
                 unfinished.append(Unfinished(one.name, failure.reason))
             runs += [] if failure.partial is None else [failure.partial]
-    found = SetPointRuns(tuple(runs), tuple(unfinished))
-    verdict = OBSERVED if found.exit_code is Exit.PROVED else VERDICTS[found.exit_code]
+    result = SetPointRuns(tuple(runs), tuple(unfinished))
+    verdict = OBSERVED if result.exit_code is Exit.PROVED else VERDICTS[result.exit_code]
     return answered(
-        question, verdict, found.data(), reason="; ".join(found.complaints()), settling=_slowest(runs)
+        question, verdict, result.data(), reason="; ".join(result.complaints()), settling=_slowest(runs)
     )
 
 
