@@ -9,11 +9,11 @@ from typing import Any
 
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
-from lyapcheck.check.render import as_json
 from lyapcheck.kernel.judge import Kernel
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.rechecking.render import as_json
 
 SIGNS = {"refused": "✗", "undecided": "?", "accepted": "✓"}
 """What must be seen first comes first."""

@@ -21,11 +21,11 @@ from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.trusted import modules
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.rechecking.trusted import modules
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay import settling_bound

@@ -25,12 +25,12 @@ from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.constant import Constant, SeparateBalls
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.render import as_json, text
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.rechecking.render import as_json, text
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.json_schema import faults
 
@@ -491,7 +491,7 @@ class OnlyTheChecker(MetaPathFinder):
         root = name.partition(".")[0]
         if root in sys.stdlib_module_names or root == "flint" or name == "lyapcheck":
             return None
-        if name == "lyapcheck.check" or name.startswith("lyapcheck.check."):
+        if f"{name}.".startswith(("lyapcheck.check.", "lyapcheck.rechecking.")):
             return None
         raise ImportError(f"the checker must not import {name}")
 sys.meta_path.insert(0, OnlyTheChecker())
@@ -525,7 +525,7 @@ def test_the_module_has_the_exit_codes_of_the_command(folder):
 
 @pytest.mark.slow
 def test_an_empty_environment_with_the_checker_alone_rechecks_the_published_proof(tmp_path):
-    """A new environment gets python-flint and lyapcheck/check, nothing else, and judges every certificate."""
+    """A new environment gets python-flint, the checker and what prints, and judges every certificate."""
     made = tmp_path / "made"
     made.mkdir()
     for name, certificate in run_proof("published.py").certificates.items():
@@ -534,7 +534,8 @@ def test_an_empty_environment_with_the_checker_alone_rechecks_the_published_proo
     (packages / "lyapcheck").mkdir(parents=True)
     source = Path(lyapcheck.__file__).parent
     shutil.copy(source / "__init__.py", packages / "lyapcheck")
-    shutil.copytree(source / "check", packages / "lyapcheck" / "check")
+    for room in ("check", "rechecking"):
+        shutil.copytree(source / room, packages / "lyapcheck" / room)
     installed = Path(flint.__file__).parent.parent
     for part in ("flint", "python_flint.libs"):
         if (installed / part).exists():

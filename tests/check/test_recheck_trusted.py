@@ -11,7 +11,7 @@ import pytest
 from lyapcheck.check import judging
 from lyapcheck.check.codec import members, name_of
 from lyapcheck.check.statement import Piece, Proof, Statement
-from lyapcheck.check.trusted import code_lines, definitions, modules, reached, source, totals, tree
+from lyapcheck.rechecking.trusted import code_lines, definitions, modules, reached, source, totals, tree
 from tests.arena.run import ARENA
 from tests.helpers.command import lyapcheck
 
@@ -215,8 +215,8 @@ def test_what_is_listed_of_a_certificate_is_all_of_its_kinds_and_rules():
 def test_sizes_are_those_of_the_sources():
     for one in definitions().values():
         assert one.lines <= set(range(1, len(source(one.module).read_bytes().splitlines()) + 1))
-    assert 1 not in code_lines("lyapcheck.check.trusted")
-    assert tree("lyapcheck.check.trusted").body[1].lineno in code_lines("lyapcheck.check.trusted")
+    assert 1 not in code_lines("lyapcheck.check.verify")
+    assert tree("lyapcheck.check.verify").body[1].lineno in code_lines("lyapcheck.check.verify")
     assert name_of(members(Proof)["tree of boxes"]) == "tree of boxes"
 
 

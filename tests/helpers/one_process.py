@@ -17,9 +17,9 @@ import pytest
 @contextmanager
 def one_process() -> Iterator[pytest.MonkeyPatch]:
     """As long as it lasts; what else is to be replaced as long may be."""
-    from lyapcheck.check import __main__ as checker
     from lyapcheck.check import guard, judging
     from lyapcheck.claims import ask, fresh_check, script_process
+    from lyapcheck.rechecking import main as checker
 
     def run_script(request: Any) -> int:
         Path(request.answer).write_text(script_process.answer(request), encoding="utf-8")

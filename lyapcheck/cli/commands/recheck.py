@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.check import command
-from lyapcheck.check.command import FORMATS, HELP
 from lyapcheck.check.limits import MOST, Limits
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.cli.options import add_format
+from lyapcheck.rechecking import command
+from lyapcheck.rechecking.command import FORMATS, HELP
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser

@@ -10,7 +10,6 @@ reached the sources lead to others, always to too many rather than too few:
 - what runs when a module is imported, and is no definition, counts with the first definition of that module.
 
 Kinds of statement and proof are reached by the certificate at hand, which is all that makes objects of them.
-Command line and rendering are left out: they print what was decided.
 """
 
 from __future__ import annotations
@@ -23,8 +22,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from lyapcheck import check
+
 PACKAGE = "lyapcheck.check"
-ROOT = Path(__file__).parent
+ROOT = Path(check.__file__).parent
 CORE = (f"{PACKAGE}.recheck:recheck", f"{PACKAGE}.worker:serve")
 """What every verdict goes through."""
 BY_NAME = (f"{PACKAGE}.judging", f"{PACKAGE}.numbers.functions")

@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain
-from lyapcheck.check.trusted import Size, modules, totals
+from lyapcheck.rechecking.trusted import Size, modules, totals
 
 SCHEMA = "lyapcheck/recheck/2"
 STATUSES = ("accepted", "refused", "undecided")

@@ -9,7 +9,7 @@ from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import CannotStart
 from lyapcheck.check.limits import Limits
 from lyapcheck.check.recheck import Outcome, recheck
-from lyapcheck.check.render import as_json, text
+from lyapcheck.rechecking.render import as_json, text
 
 UNUSABLE = 2
 Writer = Callable[[Outcome, bool], str]
