@@ -9,22 +9,20 @@ References: ``reyes2019family`` (15), (16).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain, islice, product
-from random import Random
+from itertools import chain, product
 
 from flint import fmpq
 
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
-from lyapcheck.check.expressions.expression import Tree, Unsupported, shared, variables
+from lyapcheck.check.expressions.expression import Tree, shared, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.every_n import (
-    DRAWN_SIZES,
     MAX_SIZE,
     EntriesWitness,
     Equation,
@@ -33,7 +31,6 @@ from lyapcheck.check.kinds.every_n import (
     beside,
     known_of,
     rates_fit,
-    solved_at,
     sorts_text,
     words_of,
 )
@@ -42,8 +39,7 @@ from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.signs import Signs
 from lyapcheck.check.letters.entries import Entries
 from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
-from lyapcheck.check.letters.points import Norms, compared, drawn
-from lyapcheck.check.letters.points import Point as Drawn
+from lyapcheck.check.letters.points import Norms, compared
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates
@@ -146,10 +142,6 @@ class CoveredTerms(Proof):
 
 
 ZERO: Tree = ("num", "0")
-TRIES = 400
-"""How often entries are drawn for each n: not all meet the bounds."""
-ENOUGH = 4
-"""Entries at which a bound that is proved is evaluated."""
 Term = tuple[fmpq, dict[str, int]]
 """A coefficient, and the power of each variable."""
 
@@ -168,9 +160,6 @@ def by_covers(statement: BoundEveryN, proof: CoveredTerms) -> Accepted:
     )
     bounds = [bound_of(statement, words, *pair) for pair in zip(result, proof.covers, strict=True)]
     require(within(statement, bounds), "right", "", "is not shown to exceed the sum of the bounds")
-    evaluated = [sign for _, _, sign in islice(drawn_entries(statement, TRIES), ENOUGH)]
-    require(-1 not in evaluated, "entries", "", "that were drawn exceed the bound: the words are at fault")
-    require(len(evaluated) > 0, "entries", "", "that meet the bounds of the norms were not found")
     return Accepted("proved", "exact")
 
 
@@ -194,10 +183,10 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     terms = chain(sides, *equations, norms.terms(), beside(statement.identity, proof.n))
     for tree in terms:
         require_defined_at(tree, point)
-    given = all(compared(*pair, point, certain=True) == 0 for pair in equations)
+    given = all(compared(*pair, point) == 0 for pair in equations)
     require(given, "point", proof.n, "breaks what is given")
-    require(norms.hold(point, certain=True), "point", proof.n, "breaks a bound of the norms")
-    require(compared(*sides, point, certain=True) == -1, "point", proof.n, "does not exceed the bound")
+    require(norms.hold(point), "point", proof.n, "breaks a bound of the norms")
+    require(compared(*sides, point) == -1, "point", proof.n, "does not exceed the bound")
     return Accepted("refuted", "enclosure")
 
 
@@ -224,28 +213,6 @@ def names_at(statement: BoundEveryN, n: int, sides: Equation, given: list[Equati
     for number, _ in statement.least:
         result |= variables(entries.number(number))
     return result
-
-
-def drawn_entries(
-    statement: BoundEveryN, tries: int, sizes: Sequence[int] = DRAWN_SIZES
-) -> Iterator[tuple[int, Drawn, int]]:
-    """n, random exact entries that meet all bounds, and there the sign of right − left."""
-    random, numbers = Random(repr(statement)), statement.numbers
-    written = {name for kind, name in letters(statement.left) if kind == "var"}
-    only_bounds = numbers - written
-    both = {n: at_size(statement, n) for n in sizes}
-    at = {n: (one, norms_at(statement, n), names_at(statement, n, *one)) for n, one in both.items()}
-    for _ in range(tries):
-        for n, ((sides, equations), norms, names) in at.items():
-            try:
-                point = norms.shrunk(norms.upright(drawn(names, numbers, random)))
-                point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
-                given = all(compared(*pair, point) == 0 for pair in equations)
-                sign = compared(*sides, point) if given and norms.hold(point) else None
-            except (ZeroDivisionError, Unsupported):
-                continue
-            if sign is not None:
-                yield n, point, sign
 
 
 def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import chain
-from random import Random
 
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
-from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.letters.entries import Entries, exact
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
-from lyapcheck.check.letters.points import Point as Drawn
-from lyapcheck.check.letters.points import compared, drawn, solved
 from lyapcheck.check.letters.words import Words
-from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import coordinates
 from lyapcheck.check.statement import OfTerms, Point, Proof
 from lyapcheck.check.verify import Accepted, rule
@@ -106,9 +103,6 @@ class EntriesWitness(Proof):
 
 
 MAX_SIZE = 6
-DRAWN_SIZES = (1, 2, 3)
-TRIES = 12
-"""How often entries are drawn for each n: some make a matrix singular."""
 
 
 Equation = tuple[Tree, Tree]
@@ -119,8 +113,6 @@ def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
     """Soundness: see :meth:`Words.number`; a zero normal form in words is zero whatever the words are."""
     require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
     require(is_zero(in_words(statement)), "normal form", "", "that of the difference is not zero")
-    for sign in signs_at_entries(statement):
-        require(sign == 0, "entries", "", "that were drawn make both sides differ: the words are at fault")
     return Accepted("proved", "exact")
 
 
@@ -208,35 +200,3 @@ def known_of(statement: EveryN) -> list[str]:
     known += [f"d/dt({expression_text(x)}) = {expression_text(value)}" for x, value in statement.rates]
     known += [f"{one.matrix}·{one.vector} = {expression_text(one.equals)}" for one in statement.given]
     return known
-
-
-def signs_at_entries(statement: EveryN) -> Iterator[int]:
-    """The sign of right − left at random exact entries for some n, as ``letters.points`` finds them.
-
-    Raises:
-        Refused: no entries were found that meet what is supposed.
-    """
-    random = Random(repr(statement))
-    for n in DRAWN_SIZES:
-        (left, right), equations = at_size(statement, n)
-        names = names_at((left, right), equations)
-        for _ in range(TRIES):
-            try:
-                point = solved_at(statement, n, drawn(names, statement.positive, random))
-                given = all(compared(*pair, point) == 0 for pair in equations)
-                sign = compared(left, right, point) if given else None
-            except (ZeroDivisionError, Unsupported):
-                continue
-            if sign is not None:
-                yield sign
-                break
-        else:
-            raise Refused(
-                "n", n, "no entries were found at which both sides have values that can be compared"
-            )
-
-
-def solved_at(statement: EveryN, n: int, point: Drawn) -> Drawn:
-    """The point with the vectors that are given by a matrix put where that is met."""
-    entries = Entries(n, statement.symmetric, dict(statement.rates))
-    return solved(entries, ((one.matrix, one.vector, one.equals) for one in statement.given), point)

@@ -17,12 +17,11 @@ from lyapcheck.check.kinds.every_n import (
     in_words,
     names_of,
     rates_fit,
-    solved_at,
 )
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import exact
-from lyapcheck.check.letters.points import drawn
 from lyapcheck.check.refusal import Refused
+from lyapcheck.claims.procedures.drawn_entries import drawn, signs_at_entries, solved_at
 from lyapcheck.claims.procedures.search import Point, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
@@ -41,7 +40,7 @@ def find_every_n(statement: EveryN) -> SearchResult:
         if not rates_fit(statement):
             return still_open("a symmetric matrix has a derivative that is not; correct it", METHOD)
         if is_zero(in_words(statement)):
-            return shown(NormalForm(), f"{METHOD}: equal normal forms in words of vectors and matrices")
+            return _proved(statement)
     except Refused as refusal:
         return still_open(f"{refusal}; correct the statement", METHOD)
     except Unsupported as problem:
@@ -57,6 +56,16 @@ def find_every_n(statement: EveryN) -> SearchResult:
         "the normal forms differ, but no entries for n = 1, 2, 3 tell the sides apart; compare by hand",
         METHOD,
     )
+
+
+def _proved(statement: EveryN) -> SearchResult:
+    """Equal words, unless entries that are drawn say otherwise, or none are found."""
+    for sign in signs_at_entries(statement):
+        if sign is None:
+            return still_open("no entries were found at which both sides can be compared", METHOD)
+        if sign != 0:
+            return still_open("entries make sides differ whose words are equal: report this", METHOD)
+    return shown(NormalForm(), f"{METHOD}: equal normal forms in words of vectors and matrices")
 
 
 def _attempts(statement: EveryN) -> Iterator[tuple[int, Point]]:

@@ -1,0 +1,222 @@
+"""Random exact entries at one n that meet what a statement for every n supposes.
+
+Statements that words prove are evaluated here once more, entry by entry, by arithmetic that shares nothing
+with the words, before a proof is handed over; and where a statement is false, such entries may show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import isqrt
+from random import Random
+
+from flint import arb, ctx, fmpq_mat
+
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, variables
+from lyapcheck.check.kinds import bound_every_n, every_n
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.letters import points
+from lyapcheck.check.letters.entries import Entries, exact
+from lyapcheck.check.letters.grammar import letters as letters_of
+from lyapcheck.check.letters.points import BITS
+from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.numbers.polynomials import rational
+
+Point = dict[str, Fraction]
+NEARLY = 1 - Fraction(1, 2**32)
+"""What a number is lowered by beside its share, as the room that it has is rounded."""
+MOST = 12
+"""Entries are quotients of whole numbers up to this."""
+SIZES = (1, 2, 3)
+TRIES = 12
+"""How often entries are drawn for each n: some make a matrix singular."""
+
+
+def drawn(names: Iterable[str], positive: Iterable[str], random: Random) -> Point:
+    """A number for each name, never 0; about half of the letters are given positive entries alone."""
+    above, point = frozenset(positive), {}
+    upright: dict[str, bool] = {}
+    for name in sorted(names):
+        letter = name.split("[")[0]
+        if letter not in upright:
+            upright[letter] = letter in above or random.random() < 1 / 2
+        value = Fraction(random.randint(1, MOST), random.randint(1, MOST))
+        point[name] = value if upright[letter] or random.random() < 1 / 2 else -value
+    return point
+
+
+def solved(entries: Entries, given: Iterable[tuple[str, str, Tree]], point: Point) -> Point:
+    """The point with x, for each A x = b that is given, put at A⁻¹ b.
+
+    Raises:
+        ZeroDivisionError: some A is singular there.
+        Unsupported: b leaves the rational numbers.
+    """
+    for matrix, vector, equals in given:
+        a = fmpq_mat([[_at(tree, point) for tree in row] for row in entries.matrix(("mat", matrix))])
+        b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(equals)])
+        result = a.solve(b).entries()
+        for (_, name), value in zip(entries.vector(("vec", vector)), result, strict=True):
+            point = point | {name: Fraction(int(value.p), int(value.q))}
+    return point
+
+
+def _at(entry: Tree, point: Point) -> object:
+    return rational(point[entry[1]])
+
+
+def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
+    """The sign of right − left at a point as the checker sees it; 0 for balls that agree to half their bits.
+
+    Raises:
+        ZeroDivisionError: there is no value.
+    """
+    sign = points.compared(left, right, point)
+    if sign is not None:
+        return sign
+    with ctx.workprec(BITS):
+        balls = {name: ball_of(value) for name, value in point.items()}
+        gap = ball(("add", right, ("neg", left)), balls)
+        size = ball(("add", ("abs", left), ("abs", right)), balls)
+        return 0 if abs(gap) < (1 + size) * arb(2) ** (-BITS // 2) else None
+
+
+class Norms(points.Norms):
+    """Products of norms and their bounds at one n, and points put where they are met."""
+
+    def reaches(self, number: Tree, size: Tree, point: Mapping[str, Fraction]) -> bool:
+        """Whether a number is, or nearly is, at least what it is said to be."""
+        return compared(size, self.entries.number(number), point) in (0, 1)
+
+    def upright(self, point: Point) -> Point:
+        """The point with matrices in lower bounds, as diag(k) in xᵀdiag(k)x >= …, made positive definite."""
+        for letter in {letter for number, _ in self.least for letter in _matrices(number)}:
+            entries = {entry: abs(point[entry]) for entry in self.entries.names(letter)}
+            if letter[0] == "mat":
+                whole = sum(entries.values(), Fraction(0))
+                rows = self.entries.matrix(letter)
+                entries = {rows[i][i][1]: whole for i in self.entries.joints}
+            point = point | entries
+        return point
+
+    def shrunk(self, point: Point) -> Point:
+        """The point with letters made smaller until bounds by plain numbers hold."""
+        for letters, size in self.norms:
+            upper = _value(size, {})
+            square = self.squared(letters, point)
+            if upper is not None and square > upper * upper:
+                share = upper / _root_above(square)
+                point = self._scaled(letters[0], share, point)
+        return point
+
+    def _scaled(self, letter: Tree, share: Fraction, point: Point) -> Point:
+        return point | {entry: share * point[entry] for entry in dict.fromkeys(self.entries.names(letter))}
+
+    def widened(self, names: set[str], point: Point) -> Point:
+        """The point with the numbers ``names``, that only bounds speak of, put where the bounds hold.
+
+        A number that bounds a norm is raised to it; one that a number is at least is lowered to that.
+        """
+        raised = {name for _, size in self.norms for name in variables(size)}
+        for letters, size in self.norms:
+            free = sorted(variables(size) & names)
+            if not free:
+                continue
+            square, upper = self.squared(letters, point), _value(size, point)
+            if upper is not None and square > upper * upper:
+                rest = upper / point[free[-1]]
+                point = point | {free[-1]: _root_above(square) / rest if rest else point[free[-1]]}
+        for number, size in self.least:
+            free = sorted((variables(size) & names) - raised)
+            if not free:
+                continue
+            upper, value = _value(size, point), exact(self.entries.number(number), point)
+            if upper is not None and rational(upper) > value:
+                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / upper * NEARLY
+                point = point | {free[-1]: share * point[free[-1]]}
+        return point
+
+
+def _matrices(tree: Tree) -> set[Tree]:
+    """The matrices of an expression."""
+    if tree[0] in ("diag", "mat"):
+        return {tree}
+    return set().union(*(_matrices(part) for part in tree[1:] if isinstance(part, tuple)))
+
+
+def _value(size: Tree, point: Mapping[str, Fraction]) -> Fraction | None:
+    """A rational not above a size; ``None`` where it depends on more than the point."""
+    names = variables(size)
+    if not names <= point.keys():
+        return None
+    with ctx.workprec(BITS):
+        value = ball(size, {name: ball_of(point[name]) for name in names})
+        if not value.is_finite():
+            return None
+        low = value.lower().max(arb(0))
+        scale = 1 << 64
+        return Fraction(int((low * scale).floor().unique_fmpz() or 0), scale)
+
+
+def _root_above(square: Fraction) -> Fraction:
+    """A short rational not below a square root."""
+    scale = 1 << 64
+    return Fraction(isqrt(square.numerator * scale * scale // square.denominator) + 1, scale)
+
+
+def signs_at_entries(statement: EveryN) -> Iterator[int | None]:
+    """The sign of right − left at random exact entries for some n; ``None`` where none were found."""
+    random = Random(repr(statement))
+    for n in SIZES:
+        (left, right), equations = every_n.at_size(statement, n)
+        names = every_n.names_at((left, right), equations)
+        for _ in range(TRIES):
+            try:
+                point = solved_at(statement, n, drawn(names, statement.positive, random))
+                given = all(compared(*pair, point) == 0 for pair in equations)
+                sign = compared(left, right, point) if given else None
+            except (ZeroDivisionError, Unsupported):
+                continue
+            if sign is not None:
+                yield sign
+                break
+        else:
+            yield None
+
+
+def solved_at(statement: EveryN, n: int, point: Point) -> Point:
+    """The point with the vectors that are given by a matrix put where that is met."""
+    entries = Entries(n, statement.symmetric, dict(statement.rates))
+    return solved(entries, ((one.matrix, one.vector, one.equals) for one in statement.given), point)
+
+
+def drawn_entries(
+    statement: BoundEveryN, tries: int, sizes: Sequence[int] = SIZES
+) -> Iterator[tuple[int, Point, int]]:
+    """n, random exact entries that meet all bounds, and there the sign of right − left."""
+    random, numbers = Random(repr(statement)), statement.numbers
+    written = {name for kind, name in letters_of(statement.left) if kind == "var"}
+    only_bounds = numbers - written
+    both = {n: bound_every_n.at_size(statement, n) for n in sizes}
+    at = {
+        n: (one, _norms_at(statement, n), bound_every_n.names_at(statement, n, *one))
+        for n, one in both.items()
+    }
+    for _ in range(tries):
+        for n, ((sides, equations), norms, names) in at.items():
+            try:
+                point = norms.shrunk(norms.upright(drawn(names, numbers, random)))
+                point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
+                given = all(compared(*pair, point) == 0 for pair in equations)
+                sign = compared(*sides, point) if given and norms.hold(point) else None
+            except (ZeroDivisionError, Unsupported):
+                continue
+            if sign is not None:
+                yield n, point, sign
+
+
+def _norms_at(statement: BoundEveryN, n: int) -> Norms:
+    one = bound_every_n.norms_at(statement, n)
+    return Norms(one.entries, one.norms, one.least)
