@@ -304,6 +304,17 @@ def test_a_proof_by_words_of_something_false_is_refused():
 
 
 @pytest.mark.slow
+def test_words_that_entries_contradict_are_not_proposed(monkeypatch):
+    """Were the words wrong, drawn entries would say so before a proof is handed over."""
+    from lyapcheck.claims.procedures import every_n as searched
+
+    statement = every_n(dot(x, y), dot(x, z))
+    monkeypatch.setattr(searched, "is_zero", lambda tree: True)
+    found = searched.find_every_n(statement)
+    assert found.proof is None
+    assert "report this" in str(found)
+
+
 def test_it_is_written_out_for_readers():
     assert every_n(form(x, S, y), form(y, S, x), [S]).text() == (
         "xᵀ·S·y = yᵀ·S·x for every n and all vectors x, y; n × n matrices S, if Sᵀ = S"

@@ -276,3 +276,15 @@ def exchanged(tree, old, new):
     if not isinstance(tree, tuple):
         return new if tree == old else tree
     return tuple(exchanged(part, old, new) for part in tree)
+
+
+def test_covers_that_entries_contradict_are_not_proposed(monkeypatch):
+    """Were the words wrong, drawn entries would say so before a proof is handed over."""
+    from lyapcheck.claims.procedures import norm_bounds as searched
+
+    statement = TRUE["a diagonal"]
+    assert propose(statement).proof is not None
+    monkeypatch.setattr(searched, "drawn_entries", lambda *about: iter([(1, {}, 1), (2, {}, -1)]))
+    found = propose(statement)
+    assert found.proof is None
+    assert "words are at fault" in str(found)
