@@ -283,8 +283,8 @@ def test_covers_that_entries_contradict_are_not_proposed(monkeypatch):
     from lyapcheck.claims.procedures import norm_bounds as searched
 
     statement = TRUE["a diagonal"]
-    assert propose(statement).proof is not None
+    assert searched.find_bound_every_n(statement).proof is not None
     monkeypatch.setattr(searched, "drawn_entries", lambda *about: iter([(1, {}, 1), (2, {}, -1)]))
-    found = propose(statement)
+    found = searched.find_bound_every_n(statement)
     assert found.proof is None
     assert "words are at fault" in str(found)
