@@ -6,7 +6,8 @@ from fractions import Fraction
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.verify import verify

@@ -14,10 +14,9 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NoReturn
 
-from lyapcheck.check.codec import from_json, is_text, require_keys, to_json
+from lyapcheck.check.codec import from_json, is_text, require_keys
 from lyapcheck.check.expressions.grammar import MAX_NAME
 from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING
 from lyapcheck.check.refusal import Refused, require
@@ -57,47 +56,19 @@ class Certificate:
     uses: Mapping[str, str] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=dict)
 
-    def content(self) -> dict[str, Any]:
-        """The document without its digest."""
-        return {
-            "schema": SCHEMA,
-            "claim": to_json(self.claim),
-            "statement": to_json(self.statement),
-            "verdict": self.verdict,
-            "grade": self.grade,
-            "proof": to_json(self.proof),
-            "uses": dict(self.uses),
-            "versions": dict(self.versions),
-        }
-
-    @cached_property
-    def _parts(self) -> dict[str, str]:
-        """The document without its digest, part by part in canonical JSON."""
-        return {key: canonical(part) for key, part in self.content().items()}
-
-    @cached_property
-    def digest(self) -> str:
-        """The digest of the document."""
-        whole = ",".join(f"{json.dumps(key)}:{self._parts[key]}" for key in sorted(self._parts))
-        return _sha256(f"{{{whole}}}")
-
-    def text(self) -> str:
-        """The document as it is written to a file: the same bytes for the same certificate."""
-        parts = {**self._parts, "digest": canonical(self.digest)}
-        return "{\n" + ",\n".join(f"{json.dumps(key)}: {parts[key]}" for key in sorted(parts)) + "\n}\n"
-
 
 def canonical(value: Any) -> str:
     """JSON with sorted keys and no spaces."""
     return json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
 
 
-def digest_of(content: dict[str, Any]) -> str:
+def digest_of(content: Any) -> str:
     """The SHA-256 of the canonical JSON."""
-    return _sha256(canonical(content))
+    return digest_of_text(canonical(content))
 
 
-def _sha256(text: str) -> str:
+def digest_of_text(text: str) -> str:
+    """The SHA-256 of a text."""
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""Statements and proofs to JSON and back; reading is strict and builds nothing but plain data.
+"""Statements and proofs from JSON; reading is strict and builds nothing but plain data.
 
 Fields are read by the types that the data classes declare: a key too many or too few, a number of another
 type, a fraction that is not in lowest terms or an unknown kind or rule is refused. Fractions are text.
@@ -27,20 +27,6 @@ KINDS = __name__.rpartition(".")[0]
 """The package under which every class that may be read is defined."""
 TAGS: dict[type, str] = {Statement: "kind", Proof: "rule", Piece: "rule"}
 """The classes that are written with the name of the member, and under which key."""
-
-
-def to_json(value: Any) -> Any:
-    """Data as JSON values."""
-    if is_dataclass(value) and not isinstance(value, type):
-        own = {field.name: to_json(getattr(value, field.name)) for field in fields(value)}
-        return {**_tag(type(value)), **own}
-    if isinstance(value, tuple):
-        return [to_json(part) for part in value]
-    return str(value) if isinstance(value, Fraction) else value
-
-
-def _tag(cls: type) -> dict[str, str]:
-    return next(({key: name_of(cls)} for base, key in TAGS.items() if issubclass(cls, base)), {})
 
 
 def name_of(cls: type) -> str:

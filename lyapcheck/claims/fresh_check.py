@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.temporary import temporary_folder

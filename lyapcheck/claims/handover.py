@@ -11,9 +11,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import TOO_DEEP as DOCUMENT_TOO_DEEP
 from lyapcheck.check.certificate import parse
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.expressions.grammar import MAX_DEPTH
 from lyapcheck.check.limits import MAX_BYTES
 from lyapcheck.check.refusal import Refused, require

@@ -14,7 +14,8 @@ from itertools import product
 from math import sqrt
 from typing import Any
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.all_of import AllOf, OnePart

@@ -15,7 +15,7 @@ from lyapcheck.report.model import Data
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
-    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.proof import Proof as EpsilonProof
@@ -184,6 +184,7 @@ def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str
         cells: of the map, in the order of k_v, judged in this process.
         sets: the gain set of each m, of the K_p of the map.
     """
+    from lyapcheck.certificate import Certificate
     from lyapcheck.check.certificate import judge
     from lyapcheck.check.judging import certificate_of
     from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
@@ -200,13 +201,13 @@ def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str
             for_set = replace(of_cell, statement=replace(stated, kv=one.kv), proof=LargerKv(stated.kv, proof))
             with suppress(Refused):
                 judge(for_set)
-                result[one.name] = for_set
+                result[one.name] = Certificate.of(for_set)
     return result
 
 
 def holds_of(cell: Data, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
     """Whether a certificate, if it is one, is of the ε₀ that a place shows, for this arm and these gains."""
-    from lyapcheck.check.codec import to_json
+    from lyapcheck.certificate import to_json
     from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.controlled_arm import ControlledArm
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.control.gains import GainSet
     from lyapcheck.report.bench import Cell

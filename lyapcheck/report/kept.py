@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck.answers.check.claim import statement_text
-from lyapcheck.check.codec import to_json
+from lyapcheck.certificate import to_json
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.python_process import command, environment

@@ -14,7 +14,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.agrees import Agrees, Corners
 from lyapcheck.check.kinds.at_corners import MassAtCorners, RateAtCorners

@@ -18,7 +18,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.stability import ByObligations
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.claims.arguments import at_arm, lasalle

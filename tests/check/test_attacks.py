@@ -7,7 +7,8 @@ from math import isqrt
 
 import pytest
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart

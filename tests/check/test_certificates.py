@@ -12,8 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.certificate import SCHEMA, About, Certificate, digest_of, judge, parse, read
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import Certificate, to_json
+from lyapcheck.check.certificate import SCHEMA, About, digest_of, judge, parse, read
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS
 from lyapcheck.check.kinds.agrees import Corners, OutsideRounding
 from lyapcheck.check.kinds.all_of import EveryPart, OnePart
@@ -99,7 +100,7 @@ def refusal(statement, proof):
 
 def test_a_certificate_survives_its_file(made):
     for name, certificate in made.items():
-        again = read(parse(certificate.text()))
+        again = Certificate.of(read(parse(certificate.text())))
         assert again == certificate, name
         assert again.text() == certificate.text()
         assert judge(again).verdict == certificate.verdict

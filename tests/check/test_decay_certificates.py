@@ -14,7 +14,8 @@ import pytest
 
 from lyapcheck.answers.bounds.certificates import certificates
 from lyapcheck.answers.bounds.compare import compare
-from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness

@@ -13,7 +13,8 @@ import pytest
 
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.check.certificate import Certificate, digest_of, judge, parse, read
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.gains import read_gain_file

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.explain import explain
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.refusal import Refused

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, Cover, CoveredTerms, terms_in_words
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.refusal import Refused

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.check.run import paper_case
-from lyapcheck.check.certificate import About, Certificate, judge, parse, read
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About, judge, parse, read
 from lyapcheck.check.kinds.damping import DampingAbove
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify

@@ -7,7 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm, hessian

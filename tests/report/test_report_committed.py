@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from lyapcheck.answers.check.run import paper_case_data
-from lyapcheck.check.codec import to_json
+from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import Request

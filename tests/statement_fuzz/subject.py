@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from lyapcheck.check.certificate import About, Certificate
-from lyapcheck.check.codec import to_json
+from lyapcheck.certificate import Certificate, to_json
+from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import FAMILY, FUNCTIONS
 from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding, PrintedInputs
 from lyapcheck.check.kinds.all_of import AllOf

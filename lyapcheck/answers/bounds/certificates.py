@@ -5,7 +5,8 @@ from __future__ import annotations
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.files.names import file_stem
 
 if TYPE_CHECKING:

@@ -12,7 +12,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import digest_of
-from lyapcheck.check.codec import to_json
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.record import GRADE, accepted_before

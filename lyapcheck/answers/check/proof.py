@@ -15,7 +15,7 @@ from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Secti
 from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code
 
 if TYPE_CHECKING:
-    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.certificate import Certificate
 
 ORDER = (Verdict.ERROR, Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED)
 """What must be seen first."""

@@ -10,8 +10,9 @@ from typing import Any
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
+from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import digest_of
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify

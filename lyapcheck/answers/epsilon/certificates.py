@@ -6,7 +6,8 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.epsilon.words import limits_text
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.files.decimals import decimal_text

@@ -18,7 +18,8 @@ from lyapcheck.answers.epsilon.consistency import Contradiction
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.words import RULES, joint_name
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.control.judgement import judged

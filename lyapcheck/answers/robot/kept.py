@@ -12,7 +12,8 @@ from typing import Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress
-from lyapcheck.check.codec import from_json, to_json
+from lyapcheck.certificate import to_json
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof

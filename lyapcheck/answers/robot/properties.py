@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lyapcheck._types import Progress
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.certificate import Certificate
 from lyapcheck.claims.decision import Decision, undecided
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict

@@ -10,7 +10,7 @@ from lyapcheck.answers.robot.certified import Certified
 from lyapcheck.answers.robot.data import constant_data, property_data, report_data
 from lyapcheck.answers.robot.page import evidence, page
 from lyapcheck.answers.robot.properties import Property
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.certificate import Certificate
 from lyapcheck.constants import Constant
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer

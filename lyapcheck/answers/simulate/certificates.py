@@ -6,7 +6,8 @@ from fractions import Fraction
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.certificate import About, Certificate
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify

@@ -13,7 +13,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.verdicts import Exit, Verdict
 
 if TYPE_CHECKING:
-    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainSet
 
 Row = dict[str, Any]

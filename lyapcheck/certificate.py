@@ -1,0 +1,66 @@
+"""Certificates as they are written; reading and judging them is for ``lyapcheck.check.certificate``."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, fields, is_dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from lyapcheck.check import certificate as read
+from lyapcheck.check.certificate import SCHEMA, canonical, digest_of_text
+from lyapcheck.check.codec import TAGS, name_of
+
+
+@dataclass(frozen=True)
+class Certificate(read.Certificate):
+    """A certificate that can be written, with its digest."""
+
+    @classmethod
+    def of(cls, one: read.Certificate) -> Certificate:
+        """The same as one that was read."""
+        return cls(**{field.name: getattr(one, field.name) for field in fields(one)})
+
+    def content(self) -> dict[str, Any]:
+        """The document without its digest."""
+        return {
+            "schema": SCHEMA,
+            "claim": to_json(self.claim),
+            "statement": to_json(self.statement),
+            "verdict": self.verdict,
+            "grade": self.grade,
+            "proof": to_json(self.proof),
+            "uses": dict(self.uses),
+            "versions": dict(self.versions),
+        }
+
+    @cached_property
+    def _parts(self) -> dict[str, str]:
+        """The document without its digest, part by part in canonical JSON."""
+        return {key: canonical(part) for key, part in self.content().items()}
+
+    @cached_property
+    def digest(self) -> str:
+        """The digest of the document."""
+        whole = ",".join(f"{json.dumps(key)}:{self._parts[key]}" for key in sorted(self._parts))
+        return digest_of_text(f"{{{whole}}}")
+
+    def text(self) -> str:
+        """The document as it is written to a file: the same bytes for the same certificate."""
+        parts = {**self._parts, "digest": canonical(self.digest)}
+        return "{\n" + ",\n".join(f"{json.dumps(key)}: {parts[key]}" for key in sorted(parts)) + "\n}\n"
+
+
+def to_json(value: Any) -> Any:
+    """Data as JSON values."""
+    if is_dataclass(value) and not isinstance(value, type):
+        own = {field.name: to_json(getattr(value, field.name)) for field in fields(value)}
+        return {**_tag(type(value)), **own}
+    if isinstance(value, tuple):
+        return [to_json(part) for part in value]
+    return str(value) if isinstance(value, Fraction) else value
+
+
+def _tag(cls: type) -> dict[str, str]:
+    return next(({key: name_of(cls)} for base, key in TAGS.items() if issubclass(cls, base)), {})
