@@ -15,6 +15,7 @@ from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.report.bench import map_path
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -81,14 +82,14 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     certificates |= {map_path(one.data): one.certificate for one in mapped.cells if one.certificate}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
-        needed = {proof: _behind_own(proof, rows, notes) for proof in {row["proof"] for row in rows}}
-        unwanted = {row["certificate"] for row in rows if row["id"] not in needed[row["proof"]]}
-        rows = tuple(row for row in rows if row["id"] in notes.own.get(row["proof"], ()))
+        needed = {proof: _behind_own(proof, rows, notes) for proof in {row.proof for row in rows}}
+        unwanted = {row.certificate for row in rows if row.id not in needed[row.proof]}
+        rows = tuple(row for row in rows if row.id in notes.own.get(row.proof, ()))
         certificates = {path: text for path, text in certificates.items() if path not in unwanted}
     figures |= draw_sides(proofs.small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
-        claims=tuple(row for row in rows if row["proof"] == "published"),
-        others=tuple(row for row in rows if row["proof"] != "published"),
+        claims=tuple(row for row in rows if row.proof == "published"),
+        others=tuple(row for row in rows if row.proof != "published"),
         small={name: light(one) for name, one in proofs.small.items()},
         epsilon=epsilon,
         runs=runs,
@@ -99,9 +100,9 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     )
 
 
-def _behind_own(proof: str, rows: Sequence[Data], notes: Notes) -> set[str]:
+def _behind_own(proof: str, rows: Sequence[ClaimRow], notes: Notes) -> set[str]:
     """The claims that a report on an arm of one's own has, and all that they rest on."""
-    own = [row for row in rows if row["proof"] == proof]
+    own = [row for row in rows if row.proof == proof]
     return set().union(*(behind(name, own) for name in notes.own.get(proof, ())))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.model import Data, Witness
 
 
@@ -12,8 +13,8 @@ from lyapcheck.report.model import Data, Witness
 class Computed:
     """Rows, figures by file name, and certificates by their paths."""
 
-    claims: tuple[Data, ...]
-    others: tuple[Data, ...]
+    claims: tuple[ClaimRow, ...]
+    others: tuple[ClaimRow, ...]
     small: Mapping[str, Witness]
     epsilon: tuple[Data, ...]
     runs: tuple[Data, ...]

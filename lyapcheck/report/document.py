@@ -8,6 +8,7 @@ from typing import Any
 
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import WEIGHTS, Data, Finding, Report, Witness
 from lyapcheck.report.text import (
@@ -64,8 +65,8 @@ class ReportAnswer(Answer):
             "table": list(report.table),
             "gate": list(report.gate),
             "epsilon": list(report.epsilon),
-            "claims": list(report.claims),
-            "others": list(report.others),
+            "claims": [row.data() for row in report.claims],
+            "others": [row.data() for row in report.others],
             "runs": list(report.runs),
             "sensitivity": report.sensitivity,
             "figures": sorted(report.figures),
@@ -77,7 +78,7 @@ class ReportAnswer(Answer):
     def records(self) -> Sequence[Data]:
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
-        return [{key: row[key] for key in keys} for row in self.report.every_claim]
+        return [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
 
 
 def _finding_data(finding: Finding) -> dict[str, Any]:
@@ -127,8 +128,8 @@ def _line(finding: Finding) -> str:
 def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
     """One finding; a drawing that two of them share stands at the first."""
     if finding.claims:
-        row = next((r for r in report.claims if r["id"] == finding.claims[0]), None)
-        says = f": “{row['comment']}”" if row else ""
+        row = next((r for r in report.claims if r.id == finding.claims[0]), None)
+        says = f": “{row.comment}”" if row else ""
         yield Paragraph(
             f"{and_list([f'claim {name}' for name in finding.claims])}, {member_words(finding.ms)}{says}"
         )
@@ -160,23 +161,23 @@ def witness_sentence(witness: Witness) -> str:
 
 
 def _claims(report: Report) -> Iterator[Section]:
-    def title(row: Data) -> str:
-        section = row["section"] or "Claims"
-        return section if row["proof"] == "published" else f"{row['proof']}.py: {section}"
+    def title(row: ClaimRow) -> str:
+        section = row.section or "Claims"
+        return section if row.proof == "published" else f"{row.proof}.py: {section}"
 
     for name, group in groupby(report.every_claim, key=title):
         lines = []
-        for claim, rows in groupby(group, key=lambda row: row["id"]):
+        for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
             shown = ", ".join(
-                f"{SYMBOLS[row['verdict']]} {row['verdict']}" + (f" (m = {row['m']})" if row["m"] else "")
+                f"{SYMBOLS[row.verdict]} {row.verdict}" + (f" (m = {row.m})" if row.m else "")
                 for row in result
             )
-            if len({row["verdict"] for row in result}) == 1:
-                ms = [str(row["m"]) for row in result if row["m"] is not None]
-                shown = f"{SYMBOLS[result[0]['verdict']]} {result[0]['verdict']}" + (
+            if len({row.verdict for row in result}) == 1:
+                ms = [str(row.m) for row in result if row.m is not None]
+                shown = f"{SYMBOLS[result[0].verdict]} {result[0].verdict}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
-            grades = ", ".join(sorted({row["grade"] for row in result}))
-            lines.append((claim, shown, grades, result[0]["comment"]))
+            grades = ", ".join(sorted({row.grade for row in result}))
+            lines.append((claim, shown, grades, result[0].comment))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))

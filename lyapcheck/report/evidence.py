@@ -187,8 +187,8 @@ def known(report: Report) -> Iterator[Section]:
 
 def _kernel(report: Report) -> Iterator[Block]:
     """What the grade ``kernel`` means, and which verdicts have it."""
-    rows = [row for row in report.every_claim if row["verdict"] in ("proved", "refuted")]
-    kernel = [row for row in rows if row["grade"] == GRADE]
+    rows = [row for row in report.every_claim if row.decided]
+    kernel = [row for row in rows if row.grade == GRADE]
     if kernel:
         yield Paragraph(
             "Grade kernel: Coq's kernel has accepted it too, as a theorem printed from the claim's own data, "

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.model import Data, Finding, Witness, applies, behind
 from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
@@ -23,7 +24,7 @@ Small = Mapping[str, Witness]
 
 def findings(
     notes: Notes,
-    claims: Sequence[Data],
+    claims: Sequence[ClaimRow],
     small: Small,
     epsilon: Sequence[Data] = (),
     sensitivity: Data | None = None,
@@ -39,24 +40,24 @@ def findings(
 
 
 def own_findings(
-    gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[Data]
+    gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[ClaimRow]
 ) -> tuple[Finding, ...]:
     """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
     stable = {row["name"] for row in epsilon if row["certified"] is not None}
     result = [*_rejected(gate, stable), *_contradicted(epsilon)]
     for row in claims:
-        if row["verdict"] == "refuted" and row["section"].startswith("Section 2"):
+        if row.verdict == "refuted" and row.section.startswith("Section 2"):
             text = witness_words(row)
-            result.append(Finding("A", f"claim {row['id']}", (row["id"],), _ms([row]), row["comment"], text))
+            result.append(Finding("A", f"claim {row.id}", (row.id,), _ms([row]), row.comment, text))
     return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
-def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Finding]:
+def _refuted(notes: Notes, claims: Sequence[ClaimRow], small: Small) -> Iterator[Finding]:
     """One finding a note with refuted claims, and one a refuted claim without a note."""
-    refuted: dict[str, list[Data]] = {}
+    refuted: dict[str, list[ClaimRow]] = {}
     for row in claims:
-        if row["verdict"] == "refuted":
-            refuted.setdefault(row["id"], []).append(row)
+        if row.verdict == "refuted":
+            refuted.setdefault(row.id, []).append(row)
     carrying = behind(notes.paper.theorem, claims)
     done: set[str] = set()
     for note in notes.findings:
@@ -70,10 +71,12 @@ def _refuted(notes: Notes, claims: Sequence[Data], small: Small) -> Iterator[Fin
     for name, rows in refuted.items():
         if name not in done:
             weight = "A" if name in carrying else _lighter(rows)
-            yield _finding(weight, (name,), rows, Note((name,), rows[0]["comment"]), small)
+            yield _finding(weight, (name,), rows, Note((name,), rows[0].comment), small)
 
 
-def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: Note, small: Small) -> Finding:
+def _finding(
+    weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note: Note, small: Small
+) -> Finding:
     own = next((small[name] for name in names if name in small), None)
     witness = own or _ordinary(min(rows, key=_length))
     return Finding(
@@ -93,13 +96,13 @@ def _finding(weight: str, names: tuple[str, ...], rows: Sequence[Data], note: No
     )
 
 
-def _lighter(rows: Sequence[Data]) -> str:
-    parts = (weight for part, weight in LIGHTER.items() if rows and rows[0]["section"].startswith(part))
+def _lighter(rows: Sequence[ClaimRow]) -> str:
+    parts = (weight for part, weight in LIGHTER.items() if rows and rows[0].section.startswith(part))
     return next(parts, "B")
 
 
-def _ms(rows: Sequence[Data]) -> tuple[int, ...]:
-    return tuple(sorted({row["m"] for row in rows if row["m"] is not None}))
+def _ms(rows: Sequence[ClaimRow]) -> tuple[int, ...]:
+    return tuple(sorted({row.m for row in rows if row.m is not None}))
 
 
 def light(own: SmallWitness) -> Witness:
@@ -114,9 +117,9 @@ def sides_name(own: SmallWitness) -> str:
     return f"sides_{own.id.replace('.', '_')}" if own.moved else ""
 
 
-def _length(row: Data) -> int:
+def _length(row: ClaimRow) -> int:
     """Of the numbers of a witness, written out: the roundest is the shortest."""
-    return sum(map(len, row["witness"].get("point", {}).values()))
+    return sum(map(len, (row.witness or {}).get("point", {}).values()))
 
 
 def small_path(claim: str) -> str:
@@ -124,12 +127,12 @@ def small_path(claim: str) -> str:
     return f"certificates/small/{claim}.json"
 
 
-def _ordinary(row: Data) -> Witness | None:
-    data = row["witness"]
-    if "point" not in data:
+def _ordinary(row: ClaimRow) -> Witness | None:
+    data = row.witness
+    if data is None or "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return Witness(row["m"], row["n"], data["point"], *sides, row["certificate"], False, "")
+    return Witness(row.m, row.n, data["point"], *sides, row.certificate, False, "")
 
 
 def _rejected(gate: Sequence[Data], stable: Collection[str]) -> Iterator[Finding]:

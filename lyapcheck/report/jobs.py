@@ -9,6 +9,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.report.claim_row import ClaimRow
+
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import SmallWitness
@@ -44,7 +46,7 @@ SHOWN = 6
 class ProofData:
     """The claims of a proof, row by row, and the certificates behind them by their paths in a report."""
 
-    rows: tuple[dict[str, Any], ...]
+    rows: tuple[ClaimRow, ...]
     certificates: Mapping[str, str]
 
 
@@ -80,18 +82,8 @@ def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequenc
     for row in result.claims:
         own = file_name(row.id, row.m)
         certificate = result.certificates.get(own)
-        rows.append(
-            {
-                **row.data(),
-                "proof": result.name,
-                "title": result.title,
-                "details": [row.words, *row.support],
-                "certificate": f"certificates/{result.name}/{own}" if certificate else None,
-                "digest": certificate.digest if certificate else None,
-                "rules": list(row.decision.rules),
-                "granted": list(row.decision.granted),
-            }
-        )
+        path = f"certificates/{result.name}/{own}" if certificate else None
+        rows.append(ClaimRow.of(row, result, path, certificate.digest if certificate else None))
     files = {f"certificates/{result.name}/{own}": one.text() for own, one in result.certificates.items()}
     return ProofData(tuple(rows), files)
 
@@ -122,8 +114,8 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
         return ProofsData(proofs, {})
     wanted: dict[str, list[int]] = {}
     for row in proofs[0].rows:
-        if row["verdict"] == "refuted" and row["section"].startswith(CHAIN):
-            wanted.setdefault(row["id"], []).extend([] if row["m"] is None else [row["m"]])
+        if row.verdict == "refuted" and row.section.startswith(CHAIN):
+            wanted.setdefault(row.id, []).extend([] if row.m is None else [row.m])
     sets = {one.m: one for one in read_gain_file(gains).gains if one.m is not None and one.m in ms}
     for note in notes.findings:
         if note.ask and sets and not wanted.keys() & set(note.claims):

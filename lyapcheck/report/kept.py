@@ -22,9 +22,10 @@ from lyapcheck.claims.python_process import command, environment
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report.bench import holds_of, map_path
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
-from lyapcheck.report.model import Data, Witness
+from lyapcheck.report.model import Witness
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.temporary import temporary_folder
@@ -36,6 +37,7 @@ HALF = ("published", "scalar", "tracking", "every_function")
 """The folders of certificates that one process judges while another judges the rest, about as long."""
 JUDGED = ("verdict", "id", "m", "rules", "granted")
 """What a row has from the checker."""
+CLAIMS = ("claims", "others")
 
 
 def question(subject: Subject) -> dict[str, Any]:
@@ -53,7 +55,8 @@ def written(result: Computed) -> dict[str, Any]:
         for name, drawing in result.figures.items()
     }
     small = {name: asdict(one) for name, one in result.small.items()}
-    return {**vars(result), "figures": figures, "small": small}
+    rows = {name: [row.data() for row in getattr(result, name)] for name in CLAIMS}
+    return {**vars(result), **rows, "figures": figures, "small": small}
 
 
 def read(kept: Any, subject: Subject) -> Computed | None:
@@ -72,7 +75,8 @@ def read(kept: Any, subject: Subject) -> Computed | None:
             name: Witness(**{**one, "left": tuple(one["left"]), "right": tuple(one["right"])})
             for name, one in kept["small"].items()
         }
-        lists = {name: tuple(kept[name]) for name in ("claims", "others", "epsilon", "runs")}
+        lists = {name: tuple(kept[name]) for name in ("epsilon", "runs")}
+        lists |= {name: tuple(map(ClaimRow.read, kept[name])) for name in CLAIMS}
         result = Computed(**{**kept, **lists, "figures": figures, "small": small})
         with _judging(result.certificates) as judged:
             said = _of(subject, result) and _as_said(result)
@@ -100,15 +104,15 @@ def _as_said(result: Computed) -> bool:
     """Whether each claim shows the statement of its certificate, and the grade ``kernel`` where it has it."""
     texts = {json.loads(text)["digest"]: text for text in result.certificates.values()}
     for row in _decided_rows(result):
-        certificate, _ = certificate_of(texts[row["digest"]].encode())
+        certificate, _ = certificate_of(texts[row.digest].encode())
         by_coq = accepted_before(certificate.statement, certificate.proof, certificate.verdict)
-        if by_coq != (row["grade"] == GRADE) or row["statement"] != statement_text(certificate.statement):
+        if by_coq != (row.grade == GRADE) or row.statement != statement_text(certificate.statement):
             return False
     return True
 
 
-def _decided_rows(result: Computed) -> list[Data]:
-    return [row for row in (*result.claims, *result.others) if row["verdict"] in ("proved", "refuted")]
+def _decided_rows(result: Computed) -> list[ClaimRow]:
+    return [row for row in (*result.claims, *result.others) if row.decided]
 
 
 def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
@@ -119,10 +123,10 @@ def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
         return None if path is None else judged.get(digests[path], {}).get("verdict")
 
     for row in _decided_rows(result):
-        answer = judged.get(row["digest"], {})
-        if [answer.get(key) for key in JUDGED] != [row[key] for key in JUDGED]:
+        answer = judged.get(row.digest or "", {})
+        if _said(answer) != _said(row.data()):
             return False
-        if row["grade"] not in (GRADE, answer["grade"]):
+        if row.grade not in (GRADE, answer["grade"]):
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
@@ -134,6 +138,10 @@ def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
         for row in result.epsilon
         for kind, path in row["certificates"].items()
     ) and all(row["certified"] is None or "certified" in row["certificates"] for row in result.epsilon)
+
+
+def _said(row: Mapping[str, Any]) -> list[Any]:
+    return [row.get(key) for key in JUDGED]
 
 
 def _eps0(certificate: str) -> Fraction:

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.report.claim_row import ClaimRow
+
 if TYPE_CHECKING:
     from lyapcheck.report.notes import Notes
 
@@ -107,8 +109,8 @@ class Report:
     table: tuple[Data, ...]
     gate: tuple[Data, ...]
     epsilon: tuple[Data, ...]
-    claims: tuple[Data, ...]
-    others: tuple[Data, ...]
+    claims: tuple[ClaimRow, ...]
+    others: tuple[ClaimRow, ...]
     runs: tuple[Data, ...]
     sensitivity: Data | None
     findings: tuple[Finding, ...]
@@ -119,14 +121,14 @@ class Report:
     seed: int = 0
 
     @property
-    def every_claim(self) -> tuple[Data, ...]:
+    def every_claim(self) -> tuple[ClaimRow, ...]:
         """Those of the paper, then those of the other proofs."""
         return (*self.claims, *self.others)
 
     def counts(self) -> dict[str, int]:
         """How many claims of the paper have each verdict."""
         order = ("proved", "refuted", "undecided", "error")
-        return {verdict: sum(row["verdict"] == verdict for row in self.claims) for verdict in order}
+        return {verdict: sum(row.verdict == verdict for row in self.claims) for verdict in order}
 
     def weighing(self, weight: str) -> tuple[Finding, ...]:
         """The findings of one weight."""
@@ -134,8 +136,8 @@ class Report:
 
     def verdicts(self, ids: Sequence[str], proof: str) -> list[str]:
         """Of all rows of some claims."""
-        rows = (row for row in self.every_claim if row["proof"] == proof and row["id"] in ids)
-        return [row["verdict"] for row in rows]
+        rows = (row for row in self.every_claim if row.proof == proof and row.id in ids)
+        return [row.verdict for row in rows]
 
 
 def anchor(proof: str, claim: str) -> str:
@@ -143,9 +145,9 @@ def anchor(proof: str, claim: str) -> str:
     return claim if proof == "published" else f"{proof}:{claim}"
 
 
-def behind(claim: str, rows: Iterable[Data]) -> set[str]:
+def behind(claim: str, rows: Iterable[ClaimRow]) -> set[str]:
     """The claim, and all that it uses, directly or not."""
-    uses = {row["id"]: row["uses"] for row in rows}
+    uses = {row.id: row.uses for row in rows}
     result, waiting = {claim}, [claim]
     while waiting:
         fresh = set(uses.get(waiting.pop(), ())) - result

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.report.model import Data
+from lyapcheck.report.claim_row import ClaimRow
 
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
@@ -52,9 +52,9 @@ MOST_COORDINATES = 3
 """A witness with more coordinates than this is given in the table of claims only."""
 
 
-def witness_words(row: Data) -> str:
+def witness_words(row: ClaimRow) -> str:
     """Both sides of a refuted relation, in as few digits as tell them apart, and where: for an overview."""
-    witness = row["witness"]
+    witness = row.witness or {}
     if "point" not in witness:
         return "; ".join(f"{name}: {value}" for name, value in witness.items())
     point = [f"{name} = {value}" for name, value in witness["point"].items()]

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS
 from lyapcheck.report.model import Data, Report, applies, behind
 from lyapcheck.report.notes import Box
@@ -48,7 +49,7 @@ def badges(report: Report) -> tuple[Badge, ...]:
     if report.own:
         return tuple(_of_gains(row, report) for row in report.gate)
     true, broken = _is_true(report), break_places(report)
-    every = " for every n" if {row["n"] for row in _concluding(report)} == {None} else ""
+    every = " for every n" if {row.n for row in _concluding(report)} == {None} else ""
     theorem = Badge("theorem", f"proved{every}", "good") if true else Badge("theorem", "not decided", "open")
     if broken:
         proof = Badge("printed proof", f"breaks at {broken[0]}", "bad")
@@ -88,21 +89,19 @@ def route(report: Report) -> tuple[Step, ...]:
 def break_places(report: Report) -> list[str]:
     """Where the refuted claims stand that the theorem rests on and that rest on no other of them."""
     carrying = behind(report.notes.paper.theorem, report.claims)
-    refuted = {
-        row["id"]: row for row in report.claims if row["verdict"] == "refuted" and row["id"] in carrying
-    }
-    first = [name for name, row in refuted.items() if not set(row["uses"]) & set(refuted)]
-    return list(dict.fromkeys(refuted[name]["place"] or f"claim {name}" for name in first))
+    refuted = {row.id: row for row in report.claims if row.verdict == "refuted" and row.id in carrying}
+    first = [name for name, row in refuted.items() if not set(row.uses) & set(refuted)]
+    return list(dict.fromkeys(refuted[name].place or f"claim {name}" for name in first))
 
 
 def _step(box: Box, report: Report, carrying: set[str]) -> Step:
-    rows = [r for r in report.every_claim if r["proof"] == box.proof and r["id"] in box.claims]
-    refuted = {row["id"] for row in rows if row["verdict"] == "refuted"}
+    rows = [r for r in report.every_claim if r.proof == box.proof and r.id in box.claims]
+    refuted = {row.id for row in rows if row.verdict == "refuted"}
     if refuted & carrying and box.proof == "published":
         return Step(box, "bad", "breaks")
     if refuted:
         return Step(box, "warn", "wrong, repairable")
-    if rows and all(row["verdict"] == "proved" for row in rows):
+    if rows and all(row.verdict == "proved" for row in rows):
         return Step(box, "good", "proved")
     return Step(box, "open", "not shown")
 
@@ -113,22 +112,22 @@ def _is_true(report: Report) -> bool:
     }
 
 
-def _concluding(report: Report) -> list[Data]:
+def _concluding(report: Report) -> list[ClaimRow]:
     """The claims that say the theorem, on the way round if there is one."""
     last = report.notes.route[-1] if route(report) else report.notes.chain[-1]
-    return [r for r in report.every_claim if r["proof"] == last.proof and r["id"] in last.claims]
+    return [r for r in report.every_claim if r.proof == last.proof and r.id in last.claims]
 
 
 def _theorem(report: Report) -> str:
     if not _is_true(report):
         return "Whether the proposition is true was not decided here."
     rows = _concluding(report)
-    joints = {row["n"] for row in rows}
+    joints = {row.n for row in rows}
     size = (
         "every number of joints n" if joints == {None} else f"n = {and_list(sorted(map(str, joints)))} joints"
     )
     members = f"h_m with m = {and_list(list(map(str, report.ms)))}"
-    if any(row["m"] is None for row in rows):
+    if any(row.m is None for row in rows):
         members += " as for every odd bounded function of its class"
         if set(report.verdicts(BOUNDS, Path(CLASS).stem)) == {"proved"}:
             members += ", whose bounds h_m keeps for every real m ≥ 1"

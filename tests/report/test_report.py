@@ -6,7 +6,7 @@ import csv
 import json
 import pickle
 import re
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from html.parser import HTMLParser
 from io import BytesIO, StringIO
@@ -25,6 +25,7 @@ from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.report.build import Subject, build
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
@@ -184,17 +185,17 @@ def test_json_holds_every_claim_and_the_numbers_of_epsilon(report: Report, files
 def test_every_claim_has_its_equation_certificate_and_trust(report: Report, files: dict[str, str]) -> None:
     page = files["index.html"]
     for row in report.every_claim:
-        own = anchor(row["proof"], row["id"])
+        own = anchor(row.proof, row.id)
         body = page.split(f'<tr id="{own}"')[1].split("</tr>")[0]
-        assert "<math" in body or not re.search("[≤γε]", row["comment"])
-        for used in row["uses"]:
-            assert f'href="#{anchor(row["proof"], used)}"' in body
-        if row["verdict"] in ("proved", "refuted"):
-            assert f'href="{row["certificate"]}"' in body
-            assert row["certificate"] in report.certificates
-            assert row["rules"]
-            assert row["rules"][0] in body
-        assert f"| {row['id']} |" in files["report.md"]
+        assert "<math" in body or not re.search("[≤γε]", row.comment)
+        for used in row.uses:
+            assert f'href="#{anchor(row.proof, used)}"' in body
+        if row.decided:
+            assert f'href="{row.certificate}"' in body
+            assert row.certificate in report.certificates
+            assert row.rules
+            assert row.rules[0] in body
+        assert f"| {row.id} |" in files["report.md"]
 
 
 def test_assumptions_versions_and_seed_are_said(report: Report, files: dict[str, str]) -> None:
@@ -211,12 +212,16 @@ def test_no_clock_and_no_path_of_this_machine(files: dict[str, str]) -> None:
         assert "<dc:date>" not in text
 
 
-def claim(claim_id: str, m: int | None, verdict: str, uses: tuple[str, ...] = ()) -> dict[str, Any]:
+def claim_row(name: str, **about: Any) -> ClaimRow:
+    """A claim of the paper of which nothing else is known."""
+    blank = {field.name: () if "tuple" in str(field.type) else None for field in fields(ClaimRow)}
+    words = {"section": "Section 3", "place": "", "comment": "one is small", "verdict": "proved"}
+    return ClaimRow.read({**blank, **words, "id": name, **about})
+
+
+def claim(claim_id: str, m: int | None, verdict: str, uses: tuple[str, ...] = ()) -> ClaimRow:
     witness = {"point": {"x": "3/2"}, "left": ["1.0", "1.0"], "operator": "<=", "right": ["0", "0"]}
-    about = {"n": None, "section": "Section 3", "place": "", "uses": uses, "certificate": None}
-    return {
-        "id": claim_id, "m": m, "verdict": verdict, "comment": "one is small", "witness": witness, **about
-    }  # fmt: skip
+    return claim_row(claim_id, m=m, verdict=verdict, uses=uses, witness=witness)
 
 
 NOTES = published_notes()
@@ -257,8 +262,8 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None
     path.write_text('robot = "pendulum1"\n[[gains]]\nname = "mine"\nm = 2\nkp = [3]\nkv = [0.2]\n')
     own = build(Subject("pendulum1", (2,), (read_gain_file(path),), own=True))
     page = str(render(own, ("html",))["index.html"])
-    assert not {row["id"] for row in own.claims} & {"16", "P", "T1.torque.m1.base"}
-    assert {row["id"] for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
+    assert not {row.id for row in own.claims} & {"16", "P", "T1.torque.m1.base"}
+    assert {row.id for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
     assert [badge.subject for badge in badges(own)] == ["mine"]
     assert "printed proof" not in page.casefold()
     assert all(text not in page for text in ("Fig. 4", "Table 2 "))
@@ -290,7 +295,7 @@ def test_numbers_of_any_size_fit_a_cell() -> None:
 
 def test_a_long_witness_is_left_to_the_table() -> None:
     row = claim("a", 1, "refuted")
-    row["witness"]["point"] = {f"x{i}": "1" for i in range(4)}
+    row = replace(row, witness={**(row.witness or {}), "point": {f"x{i}": "1" for i in range(4)}})
     assert "x0" not in witness_words(row)
 
 
@@ -366,7 +371,7 @@ def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_pa
 
 def test_claims_stand_right_of_what_they_use() -> None:
     names = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["x"], "e": []}
-    rows = [{"id": name, "uses": uses, "broken": []} for name, uses in names.items()]
+    rows = [claim_row(name, uses=uses) for name, uses in names.items()]
     chosen = tied(rows)
     places = layout(chosen)
     assert sorted(places) == ["a", "b", "c"]
@@ -376,16 +381,16 @@ def test_claims_stand_right_of_what_they_use() -> None:
 
 def test_every_box_of_the_graph_has_a_title_that_fits(report: Report) -> None:
     titles = report.notes.titles
-    assert {row["id"] for row in tied(report.claims)} <= set(titles)
+    assert {row.id for row in tied(report.claims)} <= set(titles)
     assert max(map(len, titles.values())) <= LETTERS
 
 
 def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
-    about = {"comment": "<b>", "broken": []}
+    second = {"grade": "enclosure", "uses": ["a"], "comment": "<b>"}
     rows = [
-        {"id": "a", "verdict": "proved", "grade": "exact", "uses": [], **about},
-        {"id": "b", "verdict": "proved", "grade": "enclosure", "uses": ["a"], **about},
-        {"id": "c", "verdict": "refuted", "grade": "enclosure", "uses": ["a"], **about, "broken": ["a"]},
+        claim_row("a", grade="exact", comment="<b>"),
+        claim_row("b", **second),
+        claim_row("c", verdict="refuted", broken=["a"], **second),
     ]
     drawn = graph(rows, "words", {"a": "short"})
     boxes = ElementTree.fromstring(drawn).findall("a")

@@ -64,7 +64,7 @@ def test_a_claim_that_is_followed_is_open(page: Tab, folder: Path) -> None:
 def test_filters_leave_what_was_asked_for(page: Tab, report: Report) -> None:
     page.enter("#by-verdict", "refuted")
     shown = page.run(f"{ROWS}.filter(row => !row.hidden).map(row => row.id)")
-    refuted = {row["id"] for row in report.claims if row["verdict"] == "refuted"}
+    refuted = {row.id for row in report.claims if row.verdict == "refuted"}
     assert set(shown) == refuted
     assert page.run(f"{ROWS}.filter(row => !row.hidden).every(row => row.checkVisibility())")
     assert page.run("document.getElementById('shown').value").startswith(f"{len(refuted)} of ")
@@ -175,7 +175,7 @@ def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Repor
     page.open(folder / "index.html")
     text = page.send("DOM.getOuterHTML", nodeId=page.send("DOM.getDocument")["root"]["nodeId"])["outerHTML"]
     assert 'class="scripted"' not in text
-    assert all(f'id="{row["id"]}"' in text for row in report.claims)
+    assert all(f'id="{row.id}"' in text for row in report.claims)
 
 
 def test_the_old_page_of_a_member_leads_to_the_new(page: Tab, folder: Path) -> None:

@@ -8,9 +8,11 @@ from itertools import groupby
 
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
-from lyapcheck.report.model import Data, Report, anchor
+from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.model import Report, anchor
 from lyapcheck.report.page.graph import graph
 from lyapcheck.report.text import SYMBOLS, plural
+from lyapcheck.verdicts import Verdict
 
 GRADES = {
     "kernel": "accepted by Coq's kernel",
@@ -24,9 +26,9 @@ def claims_section(report: Report) -> Markup:
     """The claims of the paper and of the proofs that go round it, each with all its members."""
     rows = report.every_claim
     used_by: dict[str, list[str]] = {}
-    for row in {(r["proof"], r["id"]): r for r in rows}.values():
-        for name in row["uses"]:
-            used_by.setdefault(anchor(row["proof"], name), []).append(anchor(row["proof"], row["id"]))
+    for row in {(r.proof, r.id): r for r in rows}.values():
+        for name in row.uses:
+            used_by.setdefault(anchor(row.proof, name), []).append(anchor(row.proof, row.id))
     return element(
         "section",
         element("h2", "Claims"),
@@ -53,13 +55,13 @@ def _switch(report: Report) -> Markup:
     return element("fieldset", element("legend", "Members"), buttons, class_="switch")
 
 
-def _filters(rows: Iterable[Data]) -> Markup:
+def _filters(rows: Iterable[ClaimRow]) -> Markup:
     result = list(rows)
     return element(
         "form",
         element("label", "Find", element("input", type="search", id="find", placeholder="id or words")),
-        _select("verdict", [row["verdict"] for row in result]),
-        _select("grade", [row["grade"] for row in result]),
+        _select("verdict", [row.verdict for row in result]),
+        _select("grade", [row.grade for row in result]),
         element("output", id="shown"),
         class_="filters script-only",
         onsubmit="return false",
@@ -74,7 +76,7 @@ def _select(name: str, values: Iterable[str]) -> Markup:
 
 def _graph(report: Report) -> Markup:
     m = report.ms[0]
-    chosen = [row for row in report.claims if row["m"] in (m, None)]
+    chosen = [row for row in report.claims if row.m in (m, None)]
     words = (
         f"What rests on what in the paper, for m = {m}: each claim stands right of those it uses; "
         "click one to read it."
@@ -97,23 +99,23 @@ def _graph(report: Report) -> Markup:
     )
 
 
-def _sections(rows: Sequence[Data]) -> Iterator[tuple[str, list[Data]]]:
-    def title(row: Data) -> str:
-        section = str(row["section"] or "Claims")
-        return section if row["proof"] == "published" else f"{row['proof']}.py: {section}"
+def _sections(rows: Sequence[ClaimRow]) -> Iterator[tuple[str, list[ClaimRow]]]:
+    def title(row: ClaimRow) -> str:
+        section = str(row.section or "Claims")
+        return section if row.proof == "published" else f"{row.proof}.py: {section}"
 
-    groups: dict[str, list[Data]] = {}
+    groups: dict[str, list[ClaimRow]] = {}
     for row in rows:
         groups.setdefault(title(row), []).append(row)
     yield from groups.items()
 
 
-def _group(report: Report, title: str, rows: Sequence[Data], used_by: dict[str, list[str]]) -> Markup:
-    claims = [(key, list(group)) for key, group in groupby(rows, key=lambda row: (row["proof"], row["id"]))]
-    verdicts = [row["verdict"] for row in rows]
+def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
+    claims = [(key, list(group)) for key, group in groupby(rows, key=lambda row: (row.proof, row.id))]
+    verdicts = [row.verdict for row in rows]
     counts = ", ".join(
         element("span", plural_verdict(verdicts.count(word), word), class_=word)
-        for word in ("proved", "refuted", "undecided", "error")
+        for word in Verdict
         if word in verdicts
     )
     heads = [
@@ -140,15 +142,15 @@ def plural_verdict(count: int, word: str) -> str:
     return f"{count} {word}"
 
 
-def _claim(report: Report, rows: Sequence[Data], used_by: dict[str, list[str]]) -> Markup:
+def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
     first = rows[0]
-    own = anchor(first["proof"], first["id"])
-    name = element("a", first["id"], href=f"#{own}")
+    own = anchor(first.proof, first.id)
+    name = element("a", first.id, href=f"#{own}")
     chips = [_chip(row) for row in rows]
-    grades = sorted({row["grade"] for row in rows})
+    grades = sorted({row.grade for row in rows})
     more = element(
         "details",
-        element("summary", sentence(first["comment"])),
+        element("summary", sentence(first.comment)),
         _details(report, rows, used_by),
         class_="more",
     )
@@ -159,47 +161,45 @@ def _claim(report: Report, rows: Sequence[Data], used_by: dict[str, list[str]]) 
         element("td", element("span", chips, class_="chips")),
         element("td", ", ".join(grades), class_="grade"),
         id=own,
-        data_verdict=" ".join(sorted({row["verdict"] for row in rows})),
+        data_verdict=" ".join(sorted({row.verdict for row in rows})),
         data_grade=" ".join(grades),
     )
 
 
-def _chip(row: Data) -> Markup:
-    word = row["verdict"]
-    member = "" if row["m"] is None else f"m={row['m']} "
+def _chip(row: ClaimRow) -> Markup:
+    word = row.verdict
+    member = "" if row.m is None else f"m={row.m} "
     shown = [element("span", member, class_="m"), f"{SYMBOLS[word]} {word}"]
-    return element("span", shown, class_=f"chip {word}", data_m=row["m"])
+    return element("span", shown, class_=f"chip {word}", data_m=row.m)
 
 
-def _details(report: Report, rows: Sequence[Data], used_by: dict[str, list[str]]) -> list[Markup | None]:
+def _details(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> list[Markup | None]:
     first = rows[0]
-    own = anchor(first["proof"], first["id"])
-    rests = [_link(first["proof"], name) for name in first["uses"]]
+    own = anchor(first.proof, first.id)
+    rests = [_link(first.proof, name) for name in first.uses]
     carries = [element("a", name, href=f"#{name}") for name in used_by.get(own, ())]
     lines = [
-        _line("In the paper", _place(report, first)) if first["place"] else None,
+        _line("In the paper", _place(report, first)) if first.place else None,
         _line("Rests on", _joined(rests)) if rests else None,
         _line("Carries", _joined(carries)) if carries else None,
     ]
     return [element("dl", lines, class_="about"), *map(_member, rows)]
 
 
-def _member(row: Data) -> Markup:
+def _member(row: ClaimRow) -> Markup:
     """What was decided for one m, on what evidence."""
-    head = f"m = {row['m']}: " if row["m"] is not None else ""
+    head = f"m = {row.m}: " if row.m is not None else ""
     lines = [
-        element(
-            "p", element("b", head, row["verdict"]), f" [{row['grade']}: {GRADES.get(row['grade'], '')}]"
-        ),
-        element("p", row["statement"], class_="decided"),
-        [element("p", text) for text in row["details"][1:]],
+        element("p", element("b", head, row.verdict), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
+        element("p", row.statement, class_="decided"),
+        [element("p", text) for text in row.details[1:]],
     ]
-    if row["certificate"]:
-        link = element("a", "certificate", href=row["certificate"])
-        trust = [" Trusts the rules: ", ", ".join(row["rules"]), "."] if row["rules"] else None
-        lines.append(element("p", link, " ", element("code", row["digest"][:12]), ".", trust, class_="trust"))
-        lines += [element("p", "Takes for granted: ", text) for text in row["granted"]]
-    return element("div", lines, class_=f"member {row['verdict']}", data_m=row["m"])
+    if row.certificate and row.digest:
+        link = element("a", "certificate", href=row.certificate)
+        trust = [" Trusts the rules: ", ", ".join(row.rules), "."] if row.rules else None
+        lines.append(element("p", link, " ", element("code", row.digest[:12]), ".", trust, class_="trust"))
+        lines += [element("p", "Takes for granted: ", text) for text in row.granted]
+    return element("div", lines, class_=f"member {row.verdict}", data_m=row.m)
 
 
 def _line(term: str, what: object) -> list[Markup]:
@@ -214,10 +214,10 @@ def _link(proof: str, claim: str) -> Markup:
     return element("a", claim, href=f"#{anchor(proof, claim)}")
 
 
-def _place(report: Report, row: Data) -> list[Markup | str]:
+def _place(report: Report, row: ClaimRow) -> list[Markup | str]:
     """Where the paper says it, the numbers of formulas as links to them."""
     parts: list[Markup | str] = []
-    for k, part in enumerate(re.split(r"\((\d+)\)", row["place"])):
+    for k, part in enumerate(re.split(r"\((\d+)\)", row.place)):
         if k % 2 == 0:
             parts.append(part)
         elif part in report.notes.equations:

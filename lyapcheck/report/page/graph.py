@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from lyapcheck.output.elements import Markup, element
-from lyapcheck.report.model import Data
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.text import SYMBOLS
 
 WIDE, HIGH = 138, 34
@@ -16,7 +17,7 @@ LETTERS = 22
 Place = tuple[float, float]
 
 
-def graph(rows: Sequence[Data], words: str, titles: Mapping[str, str]) -> Markup:
+def graph(rows: Sequence[ClaimRow], words: str, titles: Mapping[str, str]) -> Markup:
     """Each claim that uses another or is used, right of all it uses; a thick line is a link that breaks.
 
     Args:
@@ -29,8 +30,8 @@ def graph(rows: Sequence[Data], words: str, titles: Mapping[str, str]) -> Markup
     at = {name: (MARGIN + x * ACROSS, MARGIN + (y + 0.5) * DOWN) for name, (x, y) in places.items()}
     width = max((x for x, _ in at.values()), default=0.0) + WIDE + MARGIN
     height = max((y for _, y in at.values()), default=0.0) + HIGH + MARGIN
-    lines = [_line(at[used], at[row["id"]], used, row) for row in chosen for used in row["uses"]]
-    boxes = [_box(at[row["id"]], row, titles.get(row["id"], "")) for row in chosen]
+    lines = [_line(at[used], at[row.id], used, row) for row in chosen for used in row.uses]
+    boxes = [_box(at[row.id], row, titles.get(row.id, "")) for row in chosen]
     view = f"0 0 {width:g} {height:g}"
     return element(
         "svg",
@@ -44,24 +45,22 @@ def graph(rows: Sequence[Data], words: str, titles: Mapping[str, str]) -> Markup
     )
 
 
-def _line(start: Place, end: Place, used: str, row: Data) -> Markup:
+def _line(start: Place, end: Place, used: str, row: ClaimRow) -> Markup:
     (x0, y0), (x1, y1) = (start[0] + WIDE, start[1]), end
     bend = (x1 - x0) / 2
     path = f"M{x0:g} {y0:g}C{x0 + bend:g} {y0:g} {x1 - bend:g} {y1:g} {x1:g} {y1:g}"
-    broken = " broken" if used in row["broken"] else ""
-    return element("path", d=path, class_=f"edge{broken}", data_from=used, data_to=row["id"])
+    broken = " broken" if used in row.broken else ""
+    return element("path", d=path, class_=f"edge{broken}", data_from=used, data_to=row.id)
 
 
-def _box(place: Place, row: Data, short: str) -> Markup:
+def _box(place: Place, row: ClaimRow, short: str) -> Markup:
     x, y = place
-    rests = f"Rests on {', '.join(row['uses'])}." if row["uses"] else "Rests on no other claim."
-    title = element("title", f"{row['id']}, {row['verdict']} [{row['grade']}]: {row['comment']} {rests}")
+    rests = f"Rests on {', '.join(row.uses)}." if row.uses else "Rests on no other claim."
+    title = element("title", f"{row.id}, {row.verdict} [{row.grade}]: {row.comment} {rests}")
     shape = element("rect", x=f"{x:g}", y=f"{y - HIGH / 2:g}", width=WIDE, height=HIGH, rx=4)
     middle = f"{x + WIDE / 2:g}"
     words = [
-        element(
-            "text", f"{SYMBOLS[row['verdict']]} {row['id']}", x=middle, y=f"{y - (3 if short else -4):g}"
-        ),
+        element("text", f"{SYMBOLS[row.verdict]} {row.id}", x=middle, y=f"{y - (3 if short else -4):g}"),
         element("text", short, x=middle, y=f"{y + 11:g}", class_="short") if short else None,
     ]
     return element(
@@ -69,23 +68,23 @@ def _box(place: Place, row: Data, short: str) -> Markup:
         title,
         shape,
         words,
-        href=f"#{row['id']}",
-        class_=f"box {row['verdict']} {row['grade']}",
-        data_claim=row["id"],
+        href=f"#{row.id}",
+        class_=f"box {row.verdict} {row.grade}",
+        data_claim=row.id,
     )
 
 
-def tied(rows: Sequence[Data]) -> list[Data]:
+def tied(rows: Sequence[ClaimRow]) -> list[ClaimRow]:
     """The claims that use another one of the list, or are used by one."""
-    known = {row["id"] for row in rows}
-    used = {name for row in rows for name in row["uses"] if name in known}
-    result = [row for row in rows if row["id"] in used or set(row["uses"]) & known]
-    return [{**row, "uses": [name for name in row["uses"] if name in known]} for row in result]
+    known = {row.id for row in rows}
+    used = {name for row in rows for name in row.uses if name in known}
+    result = [row for row in rows if row.id in used or set(row.uses) & known]
+    return [replace(row, uses=tuple(name for name in row.uses if name in known)) for row in result]
 
 
-def layout(rows: Sequence[Data]) -> dict[str, Place]:
+def layout(rows: Sequence[ClaimRow]) -> dict[str, Place]:
     """Columns by the longest way to a claim that uses nothing, rows near the claims that are used."""
-    uses = {row["id"]: row["uses"] for row in rows}
+    uses = {row.id: row.uses for row in rows}
     columns: dict[int, list[str]] = {}
     for name in uses:
         columns.setdefault(depth(name, uses), []).append(name)

@@ -1,0 +1,87 @@
+"""A claim in a report: what was decided for one m, in words that no longer change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.verdicts import Verdict
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.check import ClaimResult, ProofResult
+
+
+@dataclass(frozen=True)
+class ClaimRow:
+    """As `ClaimResult` has it, and what its certificate is.
+
+    Args:
+        witness, evidence: plain data; what else was found on the way.
+        proof, title: of the script.
+        details: the author's words, then what supports the verdict.
+        certificate: its path in the report; none where nothing was decided.
+        rules: that accepted it.
+        granted: what they take for granted.
+    """
+
+    id: str
+    m: int | None
+    n: int | None
+    statement: str
+    comment: str
+    place: str
+    section: str
+    kind: str
+    verdict: Verdict
+    grade: str
+    uses: tuple[str, ...]
+    broken: tuple[str, ...]
+    witness: Mapping[str, Any] | None
+    reason: str
+    method: str
+    evidence: Mapping[str, Any]
+    proof: str
+    title: str
+    details: tuple[str, ...]
+    certificate: str | None
+    digest: str | None
+    rules: tuple[str, ...]
+    granted: tuple[str, ...]
+
+    @classmethod
+    def of(cls, claim: ClaimResult, result: ProofResult, path: str | None, digest: str | None) -> ClaimRow:
+        """A claim of a proof, with the path and the digest of its certificate if it has one."""
+        return cls.read(
+            {
+                **claim.data(),
+                "proof": result.name,
+                "title": result.title,
+                "details": [claim.words, *claim.support],
+                "certificate": path,
+                "digest": digest,
+                "rules": claim.decision.rules,
+                "granted": claim.decision.granted,
+            }
+        )
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> ClaimRow:
+        """What `data` returned.
+
+        Raises:
+            TypeError, ValueError: it has another form.
+        """
+        lists = {one.name: tuple(data[one.name]) for one in fields(cls) if one.type == "tuple[str, ...]"}
+        return cls(**{**data, **lists, "verdict": Verdict(data["verdict"])})
+
+    def data(self) -> dict[str, Any]:
+        """The fields by their names."""
+        return {
+            name: list(value) if isinstance(value, tuple) else value for name, value in vars(self).items()
+        }
+
+    @property
+    def decided(self) -> bool:
+        """Whether a certificate stands behind the verdict."""
+        return self.verdict in (Verdict.PROVED, Verdict.REFUTED)
