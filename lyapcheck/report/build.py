@@ -3,60 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.report.compute import compute
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Data, Report
 from lyapcheck.report.notes import published_notes
+from lyapcheck.report.subject import Subject
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
 PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
-
-
-@dataclass(frozen=True)
-class Subject:
-    """What a report is about.
-
-    Args:
-        robot: name or file of the arm, as ``lyapcheck.robots.load`` takes it.
-        ms: the members of the family.
-        gain_files: the gains; sets of other members are left out, those without a member (PD) stay.
-        own: whether arm or gains are others than the paper's: it is then about these alone.
-        map: whether the map over m and k_v is to be computed; that of the paper's arm is at hand.
-    """
-
-    robot: str
-    ms: tuple[int, ...]
-    gain_files: tuple[GainFile, ...]
-    own: bool = False
-    map: bool = False
-
-    @property
-    def sets(self) -> list[tuple[GainFile, str]]:
-        """The gain sets that belong in the report, each with its file."""
-        return [
-            (file, item.name)
-            for file in self.gain_files
-            for item in file.gains
-            if item.m is None or item.m in self.ms
-        ]
-
-    @property
-    def of_family(self) -> dict[int, Any]:
-        """The first gain set of each member."""
-        result: dict[int, Any] = {}
-        for file in self.gain_files:
-            for item in file.gains:
-                if item.m in self.ms and item.family == "hyperbolic":
-                    result.setdefault(item.m, item)
-        return result
 
 
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:

@@ -34,10 +34,10 @@ from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
-    from lyapcheck.report.build import Subject
     from lyapcheck.report.figures.plot import Files
     from lyapcheck.report.jobs import MapData, ProofsData
     from lyapcheck.report.notes import Notes
+    from lyapcheck.report.subject import Subject
 
 Job = Future[Any]
 

@@ -31,7 +31,7 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.temporary import temporary_folder
 
 if TYPE_CHECKING:
-    from lyapcheck.report.build import Subject
+    from lyapcheck.report.subject import Subject
 
 HALF = ("published", "scalar", "tracking", "every_function")
 """The folders of certificates that one process judges while another judges the rest, about as long."""

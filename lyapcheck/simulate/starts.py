@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.simulate.batch.runs import Runs
-from lyapcheck.simulate.batch.simulate import simulate_many
+from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.gains import Gains, gains_for

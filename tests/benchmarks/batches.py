@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lyapcheck import load_robot, paper_gain_file, read_gain_file
-from lyapcheck.simulate.batch.simulate import simulate_many
+from lyapcheck.simulate.batch import simulate_many
 
 from .by_hand import batch
 from .measure import Disagreement, states_per_second

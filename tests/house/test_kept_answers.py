@@ -26,8 +26,8 @@ from lyapcheck.check.judging import certificate_of
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
-from lyapcheck.report.build import Subject
 from lyapcheck.report.jobs import rounded
+from lyapcheck.report.subject import Subject
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm

@@ -15,8 +15,9 @@ from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import compute
-from lyapcheck.report.build import Subject, build
+from lyapcheck.report.build import build
 from lyapcheck.report.model import Report
+from lyapcheck.report.subject import Subject
 from lyapcheck.report.write import render, write
 from tests.helpers import small_proofs
 from tests.helpers.once import once

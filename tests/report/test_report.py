@@ -24,7 +24,7 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
-from lyapcheck.report.build import Subject, build
+from lyapcheck.report.build import build
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
@@ -35,6 +35,7 @@ from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.model import Report, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
+from lyapcheck.report.subject import Subject
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.report.write import render, require_folder, write

@@ -16,10 +16,10 @@ from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import experiment, kept
 from lyapcheck.report.bench import gain_map, kept_map, map_eps0, map_path
-from lyapcheck.report.build import Subject
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.experiment import study_file
 from lyapcheck.report.model import Report
+from lyapcheck.report.subject import Subject
 from lyapcheck.robots import load
 
 

@@ -18,10 +18,9 @@ from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate import indices
+from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.batch import simulate as batch_module
 from lyapcheck.simulate.batch.compiled_integrator import compiled_runs
-from lyapcheck.simulate.batch.runs import Runs
-from lyapcheck.simulate.batch.simulate import simulate_many
 from lyapcheck.simulate.batch.values import compiled_value
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.gains import gains_for

@@ -18,8 +18,8 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.report.build import Subject
     from lyapcheck.report.model import Report
+    from lyapcheck.report.subject import Subject
 
 COMPARED = {"html": "html", "md": "markdown", "json": "json"}
 """The files of a comparison by the formats they are in."""
@@ -119,7 +119,7 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.control.paper import paper_gain_file
-    from lyapcheck.report.build import Subject
+    from lyapcheck.report.subject import Subject
     from lyapcheck.robots import load
 
     chosen = [gains] if gains else [paper_gain_file("table2"), paper_gain_file("table2_pd")]
