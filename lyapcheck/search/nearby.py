@@ -23,9 +23,9 @@ from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.search.closed_loop import closed_loop_of
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import short_below
+from lyapcheck.search.decay.digits import short_below
+from lyapcheck.search.decay.phases import floor_below, light_proof, lightest
 from lyapcheck.search.falsify import Witness, promising, smallest_refuted
-from lyapcheck.search.phases import floor_below, light_proof, lightest
 from lyapcheck.search.proof import Proof, RateData
 from lyapcheck.search.sample import States, fastest_directions, sample, slow_sample, spread
 from lyapcheck.search.worst_states import finite_states, slow_states

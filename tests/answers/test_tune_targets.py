@@ -14,11 +14,11 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.bench_answer import BenchTuning
-from lyapcheck.answers.tune.bench_tuning import stable_by, tune_for
-from lyapcheck.answers.tune.one_joint import Joint, proposal
-from lyapcheck.answers.tune.trial import tried
-from lyapcheck.answers.tune.wishes import BY_PROOF, Bench, Wishes
+from lyapcheck.answers.tune.response.answer import BenchTuning
+from lyapcheck.answers.tune.response.one_joint import Joint, proposal
+from lyapcheck.answers.tune.response.trial import tried
+from lyapcheck.answers.tune.response.tuning import stable_by, tune_for
+from lyapcheck.answers.tune.response.wishes import BY_PROOF, Bench, Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainSet, read_gain_file
@@ -90,7 +90,7 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> No
 
 @pytest.mark.slow
 def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
-    from lyapcheck.answers.tune.bench_file import bench_file_text
+    from lyapcheck.answers.tune.response.gain_file import bench_file_text
 
     (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
     by_19, by_proof = gate(read_gain_file(tmp_path / "g.toml"))

@@ -29,7 +29,7 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.rechecking.trusted import modules
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay import settling_bound
+from lyapcheck.search.decay.bounds import settling_bound
 from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict
 from tests.helpers.command import invoke

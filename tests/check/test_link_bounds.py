@@ -28,8 +28,8 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay.heaviest import heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
-from lyapcheck.search.heaviest import heaviest
 from lyapcheck.search.link_bounds import link_bounds
 from lyapcheck.search.proof import Proof
 from tests.helpers.shares import but

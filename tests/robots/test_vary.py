@@ -10,8 +10,8 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.bench_tuning import tune_for
-from lyapcheck.answers.tune.wishes import Bench, Wishes
+from lyapcheck.answers.tune.response.tuning import tune_for
+from lyapcheck.answers.tune.response.wishes import Bench, Wishes
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file

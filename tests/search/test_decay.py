@@ -32,10 +32,10 @@ from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay import disturbance_bound, settling_bound
-from lyapcheck.search.decay_levels import level_within
-from lyapcheck.search.heaviest import heaviest
-from lyapcheck.search.margins import Attempt, attempts, margin_at
+from lyapcheck.search.decay.bounds import disturbance_bound, settling_bound
+from lyapcheck.search.decay.descent import level_within
+from lyapcheck.search.decay.heaviest import heaviest
+from lyapcheck.search.decay.margins import Attempt, attempts, margin_at
 from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
 from tests.arena.extra import DOMINANT
 from tests.helpers.shares import one_in

@@ -19,7 +19,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.states import controlled_arm_of
-from lyapcheck.search.decay import disturbance_bound, settling_bound
+from lyapcheck.search.decay.bounds import disturbance_bound, settling_bound
 from lyapcheck.verdicts import Verdict
 
 MAX_BOXES = 2_000

@@ -28,7 +28,7 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.search.decay_results import MotionBound
+    from lyapcheck.search.decay.results import MotionBound
 
 RULES = {
     "settling": "a time after which every |e_i| ≤ δ is certified",

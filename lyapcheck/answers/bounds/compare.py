@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
-    from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound
+    from lyapcheck.search.decay.results import DisturbanceBound, SettlingBound
     from lyapcheck.simulate.task import Task
 
     Varied = tuple[RobotModel, Sequence[Vary]]

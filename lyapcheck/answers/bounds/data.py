@@ -13,7 +13,7 @@ from lyapcheck.files.decimals import decimal_text
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison
     from lyapcheck.check.statement import Statement
-    from lyapcheck.search.decay_results import DisturbanceBound, Provenance, SettlingBound
+    from lyapcheck.search.decay.results import DisturbanceBound, Provenance, SettlingBound
 
 
 def comparison_data(result: Comparison) -> dict[str, Any]:

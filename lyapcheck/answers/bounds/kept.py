@@ -21,10 +21,10 @@ from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.loop.decay.estimate import Disturbance
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.search.decay import disturbance_bound, settling_bound
-from lyapcheck.search.decay_digits import as_written
-from lyapcheck.search.decay_input import Start, start_of, torques_of
-from lyapcheck.search.decay_results import AtRest, DisturbanceBound, SettlingBound, Shown, accepted
+from lyapcheck.search.decay.bounds import disturbance_bound, settling_bound
+from lyapcheck.search.decay.digits import as_written
+from lyapcheck.search.decay.results import AtRest, DisturbanceBound, SettlingBound, Shown, accepted
+from lyapcheck.search.decay.start import Start, start_of, torques_of
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress

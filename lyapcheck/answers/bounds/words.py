@@ -12,7 +12,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 
 if TYPE_CHECKING:
     from lyapcheck.answers.bounds.compare import Comparison
-    from lyapcheck.search.decay_results import Provenance
+    from lyapcheck.search.decay.results import Provenance
 
 
 def title(results: Sequence[Comparison]) -> str:

@@ -22,8 +22,8 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from lyapcheck.answers.tune.response.wishes import Bench
     from lyapcheck.answers.tune.targets import Targets
-    from lyapcheck.answers.tune.wishes import Bench
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots.vary import Vary
@@ -174,8 +174,8 @@ def _tune_for(
     format: str,  # noqa: A002
 ) -> Exit:
     """Gains for targets."""
-    from lyapcheck.answers.tune.bench_file import bench_file_text
-    from lyapcheck.answers.tune.bench_tuning import tune_for
+    from lyapcheck.answers.tune.response.gain_file import bench_file_text
+    from lyapcheck.answers.tune.response.tuning import tune_for
     from lyapcheck.cli.progress import progress
 
     with progress("tune") as advance:
@@ -202,7 +202,7 @@ def _bench(
     Raises:
         InputError: a target or an angle that cannot be used.
     """
-    from lyapcheck.answers.tune.wishes import Bench, Wishes
+    from lyapcheck.answers.tune.response.wishes import Bench, Wishes
 
     tasks = _tasks(robot, *motion)
     shares = parse_decimals("--peak-share", peak_share) or ONE

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import as_written, short_above
+from lyapcheck.search.decay.digits import as_written, short_above
 
 Start = tuple[tuple[Fraction, ...], tuple[Fraction, ...]]
 """Bounds of |e_i| in rad and of |w_i| in rad/s."""

@@ -21,7 +21,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import short_above
+from lyapcheck.search.decay.digits import short_above
 from lyapcheck.search.link_bounds import link_bounds
 
 SAMPLES = 5_000

@@ -13,8 +13,8 @@ from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.loop.decay.rest import rests_within
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import short_above
-from lyapcheck.search.decay_results import AtRest, accepted
+from lyapcheck.search.decay.digits import short_above
+from lyapcheck.search.decay.results import AtRest, accepted
 
 HALVINGS = 50
 FARTHEST = 2**10

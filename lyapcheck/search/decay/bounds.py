@@ -19,15 +19,15 @@ from lyapcheck.check.kinds.settling import FallingLevels, Settling
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_arm import not_positive
-from lyapcheck.search.decay_digits import as_written, short_above, short_below
-from lyapcheck.search.decay_input import Start, start_of, torques_of
-from lyapcheck.search.decay_levels import Descent, descent
-from lyapcheck.search.decay_rest import resting
-from lyapcheck.search.decay_results import DisturbanceBound, SettlingBound, Shown, accepted
-from lyapcheck.search.heaviest import Heaviest, heaviest
-from lyapcheck.search.margins import MAX_BOXES, Attempt, attempts, candidates
-from lyapcheck.search.phases import Phases
+from lyapcheck.search.decay.arm import not_positive
+from lyapcheck.search.decay.descent import Descent, descent
+from lyapcheck.search.decay.digits import as_written, short_above, short_below
+from lyapcheck.search.decay.heaviest import Heaviest, heaviest
+from lyapcheck.search.decay.margins import MAX_BOXES, Attempt, attempts, candidates
+from lyapcheck.search.decay.phases import Phases
+from lyapcheck.search.decay.rest import resting
+from lyapcheck.search.decay.results import DisturbanceBound, SettlingBound, Shown, accepted
+from lyapcheck.search.decay.start import Start, start_of, torques_of
 
 COARSE = 0.6
 FINE = 0.93

@@ -10,9 +10,9 @@ from lyapcheck.check.loop.decay.estimate import BITS, Estimate
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family import Family
-from lyapcheck.search.decay_digits import short_above, short_below, tick_after
-from lyapcheck.search.decay_input import Start
-from lyapcheck.search.levels import Slopes, falling
+from lyapcheck.search.decay.digits import short_above, short_below, tick_after
+from lyapcheck.search.decay.levels import Slopes, falling
+from lyapcheck.search.decay.start import Start
 
 DEEPEST = Fraction(1, 10**9)
 """Levels below this share of the first one are not looked at for what a disturbance leaves."""

@@ -21,8 +21,8 @@ from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay.heaviest import Heaviest, heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
-from lyapcheck.search.heaviest import Heaviest, heaviest
 from lyapcheck.search.link_bounds import link_bounds
 from lyapcheck.search.schur import Problem
 

@@ -30,12 +30,12 @@ from lyapcheck.check.statement import Ends
 from lyapcheck.check.verify import verify
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay_digits import short_above, short_below
-from lyapcheck.search.decay_input import Start
-from lyapcheck.search.decay_levels import Descent, level_within, lowered
-from lyapcheck.search.decay_results import Shown
-from lyapcheck.search.heaviest import Heaviest, heaviest, masses
-from lyapcheck.search.margins import Attempt, attempts, candidates, margin_at
+from lyapcheck.search.decay.descent import Descent, level_within, lowered
+from lyapcheck.search.decay.digits import short_above, short_below
+from lyapcheck.search.decay.heaviest import Heaviest, heaviest, masses
+from lyapcheck.search.decay.margins import Attempt, attempts, candidates, margin_at
+from lyapcheck.search.decay.results import Shown
+from lyapcheck.search.decay.start import Start
 
 FRICTION = tuple(Fraction(k, 100) for k in (20, 40, 60))
 """The η that are weighed against each other."""

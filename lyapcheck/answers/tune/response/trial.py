@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lyapcheck.answers.gate.bench import rest_errors
-from lyapcheck.answers.tune.wishes import Wishes
+from lyapcheck.answers.tune.response.wishes import Wishes
 from lyapcheck.simulate import indices
 from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.extremes import with_extremes

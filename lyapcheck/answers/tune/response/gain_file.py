@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.tune.gain_file import beside, list_text, quoted
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.bench_answer import BenchTuning, Candidate
+    from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
 
 
 def bench_file_text(tuning: BenchTuning, folder: Path | None = None) -> str:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from lyapcheck.answers.simulate.numbers import cell
-from lyapcheck.answers.tune.trial import Trial
-from lyapcheck.answers.tune.wishes import BY_19, BY_PROOF, NAMES, Bench
+from lyapcheck.answers.tune.response.trial import Trial
+from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Bench
 from lyapcheck.control.gains import GainSet
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer

@@ -19,7 +19,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from lyapcheck.answers.tune.wishes import Wishes
+from lyapcheck.answers.tune.response.wishes import Wishes
 from lyapcheck.family import Family
 from lyapcheck.simulate.indices import SETTLING_BAND
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck.answers.gate.bench import dry_friction
-from lyapcheck.answers.tune.one_joint import Joint, proposal
-from lyapcheck.answers.tune.trial import Trial, tried
-from lyapcheck.answers.tune.wishes import BY_19, Bench
+from lyapcheck.answers.tune.response.one_joint import Joint, proposal
+from lyapcheck.answers.tune.response.trial import Trial, tried
+from lyapcheck.answers.tune.response.wishes import BY_19, Bench
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
