@@ -12,6 +12,7 @@ from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 from lyapcheck.family.compared import gamma_less_than
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells
 
@@ -156,7 +157,7 @@ class Table(Answer):
 
     def _cells(self, *values: Enclosure | None, digits: int | None = None) -> list[str]:
         shown = self.digits if digits is None else digits
-        return [INFINITY if value is None else value.correct_digits(shown) for value in values]
+        return [INFINITY if value is None else correct_digits(value, shown) for value in values]
 
     def _row(self, index: int) -> dict[str, Any]:
         row = self.rows[index]
@@ -184,7 +185,7 @@ class Table(Answer):
         return result
 
     def _ends(self, value: Enclosure | None) -> dict[str, str] | None:
-        return None if value is None else dict(zip(ENDS, value.decimals(self.digits), strict=True))
+        return None if value is None else dict(zip(ENDS, decimals(value, self.digits), strict=True))
 
 
 def build_table(
@@ -211,9 +212,9 @@ def build_table(
 
     Example:
         >>> table = build_table([1, 2, 3], digits=8)
-        >>> [row.gamma.correct_digits(8) for row in table.rows]
+        >>> [correct_digits(row.gamma, 8) for row in table.rows]
         ['1', '1.0535692', '1.1142096']
-        >>> table.rows[1].gamma.decimals(8)
+        >>> decimals(table.rows[1].gamma, 8)
         ('1.0535692', '1.0535693')
         >>> print(table)  # doctest: +ELLIPSIS
         Constants of h_m(x) = ...

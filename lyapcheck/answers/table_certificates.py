@@ -12,6 +12,7 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
+from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.table import Table
@@ -25,7 +26,7 @@ def certificates(table: Table) -> dict[str, Certificate]:
     made = {}
     for row in table.rows:
         for name, function in FUNCTIONS.items():
-            _, upper = getattr(row, name).decimals(table.digits)
+            _, upper = decimals(getattr(row, name), table.digits)
             x: Tree = ("var", "x")
             statement = NormBound((function, row.m, x), 1, ("num", str(Fraction(upper))))
             proof = propose(statement).proof

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.output.digits import correct_digits, decimals
 
 rationals = st.fractions(max_denominator=10**12)
 widths = st.fractions(min_value=0, max_denominator=10**9)
@@ -21,20 +22,20 @@ widths = st.fractions(min_value=0, max_denominator=10**9)
 
 @given(lower=rationals, width=widths, digits=st.integers(1, 40))
 def test_decimals_enclose(lower, width, digits):
-    low, high = Enclosure(lower, lower + width).decimals(digits)
+    low, high = decimals(Enclosure(lower, lower + width), digits)
     assert Fraction(low) <= lower
     assert lower + width <= Fraction(high)
 
 
 @given(value=rationals.filter(bool), digits=st.integers(2, 40))
 def test_decimals_are_tight(value, digits):
-    low, high = Enclosure.exact(value).decimals(digits)
+    low, high = decimals(Enclosure.exact(value), digits)
     assert Fraction(high) - Fraction(low) <= abs(value) * Fraction(10) ** (1 - digits)
 
 
 @given(value=rationals, width=widths, digits=st.integers(1, 30))
 def test_correct_digits_are_digits_of_both_ends(value, width, digits):
-    shown = Enclosure(value, value + width).correct_digits(digits)
+    shown = correct_digits(Enclosure(value, value + width), digits)
     if shown.startswith("["):
         low, high = (Fraction(end) for end in shown.strip("[]").split(", "))
         assert low <= value <= value + width <= high
@@ -54,7 +55,7 @@ def test_correct_digits_are_digits_of_both_ends(value, width, digits):
     ],
 )
 def test_exact_numbers_are_written_as_they_are(value, digits, shown):
-    assert Enclosure.exact(Fraction(value)).correct_digits(digits) == shown
+    assert correct_digits(Enclosure.exact(Fraction(value)), digits) == shown
 
 
 @given(value=rationals)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.epsilon.words import KINDS, exact, ratio_text
+from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.nearby import NearbyResult
@@ -69,5 +70,5 @@ def _nearby(near: NearbyResult) -> dict[str, Any]:
 
 def _witness(witness: Witness) -> dict[str, Any]:
     state = {name: [exact(x) for x in getattr(witness.state, name)] for name in ("q", "e", "w")}
-    rate = dict(zip(("lower", "upper"), witness.rate.decimals(_DIGITS), strict=True))
+    rate = dict(zip(("lower", "upper"), decimals(witness.rate, _DIGITS), strict=True))
     return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.nearby import NearbyResult
@@ -206,7 +207,7 @@ def witness_text(witness: Witness) -> str:
         f"{name} = ({', '.join(map(decimal_text, getattr(witness.state, name)))}) {unit}"
         for name, unit in parts
     )
-    low, _ = witness.rate.decimals(6)
+    low, _ = decimals(witness.rate, 6)
     return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W"
 
 

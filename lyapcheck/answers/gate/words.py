@@ -9,6 +9,7 @@ from lyapcheck.answers.gate.judge import GateResult
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text
+from lyapcheck.output.digits import correct_digits, decimals
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
@@ -53,7 +54,7 @@ def limit_text(check: Check, digits: int = 6) -> str:
 
 @lru_cache(maxsize=256)  # joints and sets share limits
 def _digits(limit: Enclosure, digits: int) -> str:
-    return limit.correct_digits(digits)
+    return correct_digits(limit, digits)
 
 
 def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
@@ -63,7 +64,7 @@ def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
 
 @lru_cache(maxsize=256)  # of integers, since hashing fractions takes longer
 def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tuple[str, str]:
-    return Enclosure(Fraction(*lower), Fraction(*upper)).decimals(digits)
+    return decimals(Enclosure(Fraction(*lower), Fraction(*upper)), digits)
 
 
 def largest_text(check: Check) -> str:

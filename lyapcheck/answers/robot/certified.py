@@ -33,6 +33,7 @@ from lyapcheck.constants import SEED, Constant
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import decimals
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooLong
 from lyapcheck.robots.trig import to_terms
@@ -129,7 +130,7 @@ def _inner(seen: Fraction, sign: int) -> Fraction:
 def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> SearchResult:
     point = {f"q{i + 1}": str(angle) for i, angle in enumerate(witness.q)}
     point |= {f"x{i + 1}": str(x) for i, x in enumerate(witness.x)}
-    ends = [list(Enclosure.exact(value).decimals(12)) for value in (seen, inner)]
+    ends = [list(decimals(Enclosure.exact(value), 12)) for value in (seen, inner)]
     values = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
     return broken(witness, "a posture", values)
 
@@ -271,4 +272,4 @@ def _root(square: Fraction) -> Fraction:
 
 def _rounded(value: Fraction, sign: int) -> Fraction:
     """The nearest decimal number of a few digits that is not below (sign > 0), or not above."""
-    return Fraction(Enclosure.exact(value).decimals(DIGITS)[1 if sign > 0 else 0])
+    return Fraction(decimals(Enclosure.exact(value), DIGITS)[1 if sign > 0 else 0])

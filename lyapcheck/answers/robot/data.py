@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.robot.certified import Certified
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.robot.properties import Property
@@ -63,7 +64,7 @@ def property_data(row: Property) -> dict[str, Any]:
 
 def constant_data(report: RobotReport, constant: Constant) -> dict[str, Any]:
     """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
-    lower, upper = constant.enclosure.decimals(_DIGITS)
+    lower, upper = decimals(constant.enclosure, _DIGITS)
     n, shown = report.model.n, report.certified.get(constant.name, Certified())
     return {
         "name": constant.name,

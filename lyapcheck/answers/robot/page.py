@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.robot.certified import Certified
 from lyapcheck.answers.robot.entries import inertia_sections
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict
@@ -105,7 +106,7 @@ def _constant_row(report: RobotReport, constant: Constant) -> tuple[str, ...]:
     shown = report.certified.get(constant.name, Certified())
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
     gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
-    return (_symbol(constant), constant.unit, *known, *constant.enclosure.decimals(_DIGITS), gap)
+    return (_symbol(constant), constant.unit, *known, *decimals(constant.enclosure, _DIGITS), gap)
 
 
 def _state_rows(report: RobotReport, constant: Constant) -> list[tuple[str, str]]:

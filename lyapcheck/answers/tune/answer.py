@@ -14,6 +14,7 @@ from lyapcheck.control.gains import Bounds
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import correct_digits
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
@@ -120,8 +121,8 @@ def _tuned(item: TunedSet, digits: int) -> Table:
             joint.name,
             decimal_text(joint.kp, digits),
             decimal_text(joint.kv, digits),
-            joint.sum_limit.correct_digits(8),
-            joint.kv_limit.correct_digits(8),
+            correct_digits(joint.sum_limit, 8),
+            correct_digits(joint.kv_limit, 8),
             BOUNDS[joint.kp_bound],
             BOUNDS[joint.kv_bound],
             *([] if joint.damping is None else [f"{float(joint.damping):.4g}"]),

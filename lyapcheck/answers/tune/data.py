@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet
+from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
@@ -100,7 +101,7 @@ def _compared(joint: ComparedJoint) -> dict[str, Any]:
 
 
 def _ends(value: Enclosure) -> dict[str, str]:
-    return dict(zip(("lower", "upper"), value.decimals(DIGITS), strict=True))
+    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
 
 
 def _texts(values: Sequence[Fraction] | None) -> list[str] | None:

@@ -102,7 +102,7 @@ def by_printed_inputs(statement: Agrees, proof: PrintedInputs) -> Accepted:
     """Soundness: the formula at the printed inputs, enclosed, lies inside the half unit."""
     value, target = at_printed(statement, proof.bits), printed_range(statement.printed)
     inside = target.lower <= value.lower and value.upper <= target.upper
-    require(inside, "result", value.decimals(8), "leaves the rounding of the printed one")
+    require(inside, "result", value.to_arb(), "leaves the rounding of the printed one")
     return Accepted("proved", "enclosure")
 
 
@@ -112,8 +112,8 @@ def by_corners(statement: Agrees, proof: Corners) -> Accepted:
     over_all(statement, proof.bits)
     target = printed_range(statement.printed)
     low, high = (at_corner(statement, ends, proof.bits) for ends in (proof.below, proof.above))
-    require(low.upper <= target.upper, "lower corner", low.decimals(8), "is above the printed result")
-    require(high.lower >= target.lower, "upper corner", high.decimals(8), "is below the printed result")
+    require(low.upper <= target.upper, "lower corner", low.to_arb(), "is above the printed result")
+    require(high.lower >= target.lower, "upper corner", high.to_arb(), "is below the printed result")
     return Accepted("proved", "enclosure")
 
 
@@ -123,7 +123,7 @@ def by_outside(statement: Agrees, proof: OutsideRounding) -> Accepted:
     value, target = over_all(statement, proof.bits), printed_range(statement.printed)
     statement.require_defined()
     outside = value.upper < target.lower or value.lower > target.upper
-    require(outside, "result", value.decimals(8), "meets the rounding of the printed one")
+    require(outside, "result", value.to_arb(), "meets the rounding of the printed one")
     return Accepted("refuted", "enclosure")
 
 

@@ -12,6 +12,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.procedures.search import BITS
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 
 METHOD = "comparison of polynomials in normal form"
 TRIES = 40
@@ -28,7 +29,7 @@ def find_compared(statement: Compared) -> SearchResult:
             value = next(value for place, value in differences(statement, posture) if place == gap[0])
             if value.contains(0):
                 continue
-            left = list(Enclosure.from_arb(value).decimals(12))
+            left = list(decimals(Enclosure.from_arb(value), 12))
         point = {f"q{i + 1}": str(angle) for i, angle in enumerate(posture.q)}
         point |= {f"p{i + 1}": str(end) for i, end in enumerate(posture.parameters)}
         if any(rates for _, rates, _ in statement.gaps()):

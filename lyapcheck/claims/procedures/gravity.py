@@ -14,6 +14,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 
 METHOD = "gravity"
 SAMPLES = 400
@@ -28,8 +29,8 @@ def find_gravity_below(statement: GravityBelow) -> SearchResult:
     if _verdict(statement, worst[1]):
         point = {f"q{i + 1}": str(angle) for i, angle in enumerate(worst[1].q)}
         point |= {f"p{i + 1}": str(end) for i, end in enumerate(worst[1].parameters)}
-        left = list(Enclosure.exact(Fraction(worst[0])).decimals(6))
-        right = list(Enclosure.exact(statement.high).decimals(12))
+        left = list(decimals(Enclosure.exact(Fraction(worst[0])), 6))
+        right = list(decimals(Enclosure.exact(statement.high), 12))
         witness = {"point": point, "left": left, "operator": "<=", "right": right}
         return broken(worst[1], f"{METHOD}: a posture", witness)
     if _verdict(statement, Bisection()):

@@ -29,6 +29,7 @@ from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "inertia"
@@ -131,10 +132,10 @@ def _witness(statement: OfArm, proof: PostureWitness) -> dict[str, object]:
     point = {f"{name}{i + 1}": str(v) for name in "qxy" for i, v in enumerate(getattr(proof, name))}
     point |= {f"p{i + 1}": str(v) for i, v in enumerate(proof.parameters)}
     bound = statement.low if isinstance(statement, MassAbove) else statement.high
-    decimals = list(Enclosure.exact(bound).decimals(12))
+    shown = list(decimals(Enclosure.exact(bound), 12))
     value, _ = _at(statement, statement.inertia, proof.q, proof.parameters, np.random.default_rng(SEED))
-    reached = list(Enclosure.exact(Fraction(value) + bound).decimals(6))
+    reached = list(decimals(Enclosure.exact(Fraction(value) + bound), 6))
     if isinstance(statement, MassAbove):
-        reached = list(Enclosure.exact(bound - Fraction(value)).decimals(6))
-        return {"point": point, "left": decimals, "operator": "<", "right": reached}
-    return {"point": point, "left": reached, "operator": "<=", "right": decimals}
+        reached = list(decimals(Enclosure.exact(bound - Fraction(value)), 6))
+        return {"point": point, "left": shown, "operator": "<", "right": reached}
+    return {"point": point, "left": reached, "operator": "<=", "right": shown}

@@ -32,6 +32,7 @@ from lyapcheck.claims.procedures.drawn_entries import drawn_entries
 from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 
 METHOD = "norms for every n"
 TRIES, TRIES_OF_ONE = 40, 1_000
@@ -117,7 +118,7 @@ def _against(statement: BoundEveryN) -> SearchResult | None:
             left, right = at_size(statement, n)[0]
             balls = {name: ball_of(x) for name, x in point.items()}
             with ctx.workprec(BITS):
-                sides = (Enclosure.from_arb(ball(side, balls)).decimals(12) for side in (left, right))
+                sides = (decimals(Enclosure.from_arb(ball(side, balls)), 12) for side in (left, right))
             data = dict(zip(("left", "right"), map(list, sides), strict=True)) | {"operator": "<="}
             shown_at = {"n": str(n), **{name: str(x) for name, x in sorted(point.items())}}
             proof = EntriesWitness(n, point_of(point))

@@ -14,6 +14,7 @@ from lyapcheck.check.expressions.witness import Comparison, holds
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.statement import Point as Coordinates
 from lyapcheck.check.statement import Witness
+from lyapcheck.output.digits import decimals
 
 BITS = 192
 LARGEST = 4096
@@ -102,7 +103,7 @@ def told_apart(left: Enclosure, right: Enclosure) -> tuple[list[str], list[str]]
     """Both between decimals: with 12 digits, or as many as it takes for two numbers to look different."""
     digits = 12
     while True:
-        shown = left.decimals(digits), right.decimals(digits)
+        shown = decimals(left, digits), decimals(right, digits)
         lower, upper = sorted(tuple(map(Fraction, ends)) for ends in shown)
         overlap = max(left.lower, right.lower) <= min(left.upper, right.upper)
         if overlap or digits >= MOST_DIGITS or lower[1] < upper[0]:

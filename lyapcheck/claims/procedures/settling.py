@@ -15,6 +15,7 @@ from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "states of rest"
@@ -45,7 +46,7 @@ def find_resting(statement: Resting | ComesToRest) -> SearchResult:
     for joint, bound in enumerate(statement.errors):
         against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
         if bound is not None and _verdict(statement, against) == "refuted":
-            left, right = (list(Enclosure.exact(x).decimals(12)) for x in (against.error, bound))
+            left, right = (list(decimals(Enclosure.exact(x), 12)) for x in (against.error, bound))
             point = {f"e{joint + 1}": str(against.error)}
             witness = {"point": point, "left": left, "operator": "<=", "right": right}
             return broken(against, f"{METHOD}: one beyond a bound", witness)

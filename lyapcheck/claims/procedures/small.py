@@ -30,6 +30,7 @@ from lyapcheck.claims.procedures.implication import EFFORT
 from lyapcheck.claims.procedures.search import BITS, Point, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 
 METHOD = "small parameter"
 TRIES = 300
@@ -132,7 +133,7 @@ def _data(statement: ForSmall, point: Point, below: Fraction) -> dict[str, objec
         left, right = (Enclosure.from_arb(ball(side, balls)) for side in (claim.left, claim.right))
     return {
         "point": {name: str(value) for name, value in sorted(whole.items())},
-        "left": list(left.decimals(12)),
+        "left": list(decimals(left, 12)),
         "operator": claim.operator,
-        "right": list(right.decimals(12)),
+        "right": list(decimals(right, 12)),
     }

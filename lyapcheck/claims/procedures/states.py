@@ -27,6 +27,7 @@ from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.output.digits import decimals
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
 from lyapcheck.robots.plant import Plant
@@ -134,7 +135,7 @@ def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[st
     result = Enclosure.from_arb(rate(controlled.arm, controlled.controller, eps0, state, 256))
     return {
         "point": {name: str(value) for name, value in names.items()},
-        "left": list(result.decimals(12)),
+        "left": list(decimals(result, 12)),
         "operator": "<",
         "right": ["0", "0"],
     }
