@@ -280,7 +280,7 @@ def test_what_the_verdict_rests_on_is_listed() -> None:
     for part in ("estimate", "margin", "least"):
         assert f"lyapcheck.check.loop.decay.{part}" in used
     used = modules([("", f"{kinds}.resting:Resting {kinds}.resting:AtBounds")])
-    assert "lyapcheck.check.loop.decay.rest" in used
+    assert "lyapcheck.check.kinds.resting" in used
 
 
 GAINS = 'robot = "{robot}"\n[[gains]]\nname = "one"\nm = 1\nkp = [60, 5]\nkv = [0.2, 0.2]\n'

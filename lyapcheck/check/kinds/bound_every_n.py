@@ -37,9 +37,8 @@ from lyapcheck.check.kinds.every_n import (
 from lyapcheck.check.kinds.every_n import at_size as identity_at_size
 from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.signs import Signs
-from lyapcheck.check.letters.entries import Entries
+from lyapcheck.check.letters.entries import Entries, compared
 from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
-from lyapcheck.check.letters.points import Norms, compared
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates
@@ -176,16 +175,16 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     """Soundness: entries at one n that meet all that is supposed, and the left side exceeds the right."""
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, equations = at_size(statement, proof.n)
-    point = coordinates(proof.point, names_at(statement, proof.n, sides, equations))
+    bounds = list(bounds_at(statement, proof.n))
+    point = coordinates(proof.point, names_at(statement, proof.n, [sides, *equations, *bounds]))
     for name in sorted(statement.numbers):
         require(point[name] >= 0, name, point[name], "must not be negative")
-    norms = norms_at(statement, proof.n)
-    terms = chain(sides, *equations, norms.terms(), beside(statement.identity, proof.n))
-    for tree in terms:
+    for tree in chain(sides, *equations, *bounds, beside(statement.identity, proof.n)):
         require_defined_at(tree, point)
     given = all(compared(*pair, point) == 0 for pair in equations)
     require(given, "point", proof.n, "breaks what is given")
-    require(norms.hold(point), "point", proof.n, "breaks a bound of the norms")
+    met = all(compared(*pair, point) in (0, 1) for pair in bounds)
+    require(met, "point", proof.n, "breaks a bound of the norms")
     require(compared(*sides, point) == -1, "point", proof.n, "does not exceed the bound")
     return Accepted("refuted", "enclosure")
 
@@ -196,23 +195,32 @@ def at_size(statement: BoundEveryN, n: int) -> tuple[Equation, list[Equation]]:
     return (shared(left), statement.right), equations
 
 
-def norms_at(statement: BoundEveryN, n: int) -> Norms:
-    """The bounds of norms at one n."""
+def bounds_at(statement: BoundEveryN, n: int) -> Iterator[Equation]:
+    """Pairs, left <= right, that give all bounds at one n; a full matrix is taken at its Frobenius norm.
+
+    A product of norms is at most a size if the size is >= 0 and the product of squares at most its square;
+    the square of the norm of a diagonal matrix is at most something if the squares of all entries are.
+    """
     entries = Entries(n, statement.symmetric, dict(statement.rates))
-    return Norms(entries, statement.norms, statement.least)
+    for known, size in statement.norms:
+        yield ZERO, size
+        for squares in product(*(_squares(entries, letter) for letter in known)):
+            yield ("mul", ("num", "1"), *squares), ("pow", size, 2)
+    for number, size in statement.least:
+        yield size, entries.number(number)
 
 
-def names_at(statement: BoundEveryN, n: int, sides: Equation, given: list[Equation]) -> set[str]:
-    """The variables of both sides and of all bounds at one n."""
+def _squares(entries: Entries, letter: Tree) -> list[Tree]:
+    """Squares that are, all of them, at most what the square of a norm is at most."""
+    squares: list[Tree] = [("pow", ("var", name), 2) for name in entries.names(letter)]
+    return squares if letter[0] == "diag" else [("add", *squares)]
+
+
+def names_at(statement: BoundEveryN, n: int, pairs: list[Equation]) -> set[str]:
+    """The variables of some pairs at one n, and all that the statement has there beside."""
     entries = Entries(n, statement.symmetric, dict(statement.rates))
-    result = set(statement.numbers)
-    result |= {name for tree in entries.moving.values() for name in variables(tree)}
-    result |= {name for pair in (sides, *given) for side in pair for name in variables(side)}
-    for letter in (letter for letters_of, _ in statement.norms for letter in letters_of):
-        result |= set(entries.names(letter))
-    for number, _ in statement.least:
-        result |= variables(entries.number(number))
-    return result
+    trees = chain(*pairs, entries.moving.values())
+    return statement.numbers.union(*map(variables, trees))
 
 
 def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:

@@ -1,5 +1,8 @@
 """Where an arm may come to rest beside its goal: proved by h at the bounds, refuted by one state of rest.
 
+At rest (11) is K_p h(e) + d = 0, so |h(e_i)| = |d_i|/k_pi. Each h rises from 0 to its peak, or for ever, and
+is at least 1 beyond its peak: for d̄_i < k_pi all solutions lie where h rises.
+
 References: ``reyes2019family`` (7), (11).
 """
 
@@ -11,11 +14,13 @@ from fractions import Fraction
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
 from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.limits import LARGEST, MAX_ARM
-from lyapcheck.check.loop.decay.rest import balanced_at, rests_within
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
+
+BITS = 64
 
 
 @dataclass(frozen=True)
@@ -78,7 +83,7 @@ class RestWitness(Proof):
 
 @rule(Resting, AtBounds)
 def by_rising(statement: Resting, proof: AtBounds) -> Accepted:
-    """Soundness: see ``lyapcheck.check.loop.decay.rest``."""
+    """Soundness: see :func:`rests_within`."""
     known = member(statement.family, statement.m)
     for k, torque, error in zip(statement.kp, statement.torque, statement.errors, strict=True):
         if error is not None:
@@ -101,3 +106,21 @@ def by_rest(statement: Resting, proof: RestWitness) -> Accepted:
     held = balanced_at(member(statement.family, statement.m), ratio, proof.error)
     require(held, "error", proof.error, "is not shown to be held by a torque within its bound")
     return Accepted("refuted", "enclosure")
+
+
+def rests_within(member: Member, ratio: Fraction, error: Fraction) -> bool:
+    """Whether |h(x)| ≤ ratio is shown to imply |x| ≤ error, for a ratio d̄/k_p ≥ 0.
+
+    Soundness: h(error) ≥ ratio > 0, and beyond it h rises further or is at least 1 > ratio. For ratio = 0 it
+        is h(x) > 0 for x > 0 that matters.
+    """
+    if ratio >= 1 or error < 0:
+        return False
+    with precision(BITS):
+        return ratio == 0 or bool(member.h(to_arb(error)) >= to_arb(ratio))
+
+
+def balanced_at(member: Member, ratio: Fraction, error: Fraction) -> bool:
+    """Whether |h(error)| ≤ ratio is shown."""
+    with precision(BITS):
+        return bool(abs(member.h(to_arb(error))) <= to_arb(ratio))

@@ -6,19 +6,22 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
 
-from flint import fmpq
+from flint import ctx, fmpq
 
 from lyapcheck.check.expressions.expression import (
     ExactAlgebra,
     Tree,
     Unsupported,
+    ball,
     derivative,
     evaluate,
     variables,
 )
+from lyapcheck.check.numbers.enclosure import ball_of
 from lyapcheck.check.numbers.polynomials import rational
 
 ZERO: Tree = ("num", "0")
+BITS = 256
 Vector = list[Tree]
 Matrix = list[Vector]
 
@@ -127,6 +130,22 @@ def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
         ZeroDivisionError: it has no value there.
     """
     return evaluate(tree, {name: rational(value) for name, value in point.items()}, ExactAlgebra())
+
+
+def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
+    """The sign of right − left at a point: exactly in ℚ, else by balls; ``None`` where these do not tell.
+
+    Raises:
+        ZeroDivisionError: there is no value.
+    """
+    gap: Tree = ("add", right, ("neg", left))
+    try:
+        value = exact(gap, point)
+    except Unsupported:
+        with ctx.workprec(BITS):
+            value = ball(gap, {name: ball_of(x) for name, x in point.items()})
+            return 1 if value > 0 else -1 if value < 0 else None
+    return int(value > 0) - int(value < 0)
 
 
 def _sum(parts: list[Tree]) -> Tree:

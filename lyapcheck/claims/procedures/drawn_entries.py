@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from math import isqrt
+from math import isqrt, prod
 from random import Random
 
 from flint import arb, ctx, fmpq_mat
@@ -17,10 +17,9 @@ from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, vari
 from lyapcheck.check.kinds import bound_every_n, every_n
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
-from lyapcheck.check.letters import points
-from lyapcheck.check.letters.entries import Entries, exact
+from lyapcheck.check.letters.entries import BITS, Entries, exact
+from lyapcheck.check.letters.entries import compared as exactly_compared
 from lyapcheck.check.letters.grammar import letters as letters_of
-from lyapcheck.check.letters.points import BITS
 from lyapcheck.check.numbers.enclosure import ball_of
 from lyapcheck.check.numbers.polynomials import rational
 
@@ -73,7 +72,7 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | No
     Raises:
         ZeroDivisionError: there is no value.
     """
-    sign = points.compared(left, right, point)
+    sign = exactly_compared(left, right, point)
     if sign is not None:
         return sign
     with ctx.workprec(BITS):
@@ -83,12 +82,25 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | No
         return 0 if abs(gap) < (1 + size) * arb(2) ** (-BITS // 2) else None
 
 
-class Norms(points.Norms):
-    """Products of norms and their bounds at one n, and points put where they are met."""
+class Bounds:
+    """The bounds of a statement at one n, and points put where they are met."""
 
-    def reaches(self, number: Tree, size: Tree, point: Mapping[str, Fraction]) -> bool:
-        """Whether a number is, or nearly is, at least what it is said to be."""
-        return compared(size, self.entries.number(number), point) in (0, 1)
+    def __init__(self, statement: BoundEveryN, n: int) -> None:
+        self.entries = Entries(n, statement.symmetric, dict(statement.rates))
+        self.norms, self.least = statement.norms, statement.least
+        self.pairs = list(bound_every_n.bounds_at(statement, n))
+
+    def hold(self, point: Mapping[str, Fraction]) -> bool:
+        """Whether all bounds are met, or nearly."""
+        return all(compared(*pair, point) in (0, 1) for pair in self.pairs)
+
+    def squared(self, letters: Iterable[Tree], point: Mapping[str, Fraction]) -> Fraction:
+        """The square of a product of norms, from above."""
+        return prod((self._square(letter, point) for letter in letters), start=Fraction(1))
+
+    def _square(self, letter: Tree, point: Mapping[str, Fraction]) -> Fraction:
+        squares = [point[entry] ** 2 for entry in self.entries.names(letter)]
+        return max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
 
     def upright(self, point: Point) -> Point:
         """The point with matrices in lower bounds, as diag(k) in xᵀdiag(k)x >= …, made positive definite."""
@@ -199,24 +211,19 @@ def drawn_entries(
     random, numbers = Random(repr(statement)), statement.numbers
     written = {name for kind, name in letters_of(statement.left) if kind == "var"}
     only_bounds = numbers - written
-    both = {n: bound_every_n.at_size(statement, n) for n in sizes}
-    at = {
-        n: (one, _norms_at(statement, n), bound_every_n.names_at(statement, n, *one))
-        for n, one in both.items()
-    }
+    at = {}
+    for n in sizes:
+        bounds, (sides, equations) = Bounds(statement, n), bound_every_n.at_size(statement, n)
+        names = bound_every_n.names_at(statement, n, [sides, *equations, *bounds.pairs])
+        at[n] = sides, equations, bounds, names
     for _ in range(tries):
-        for n, ((sides, equations), norms, names) in at.items():
+        for n, (sides, equations, bounds, names) in at.items():
             try:
-                point = norms.shrunk(norms.upright(drawn(names, numbers, random)))
-                point = norms.widened(only_bounds, solved_at(statement.identity, n, point))
+                point = bounds.shrunk(bounds.upright(drawn(names, numbers, random)))
+                point = bounds.widened(only_bounds, solved_at(statement.identity, n, point))
                 given = all(compared(*pair, point) == 0 for pair in equations)
-                sign = compared(*sides, point) if given and norms.hold(point) else None
+                sign = compared(*sides, point) if given and bounds.hold(point) else None
             except (ZeroDivisionError, Unsupported):
                 continue
             if sign is not None:
                 yield n, point, sign
-
-
-def _norms_at(statement: BoundEveryN, n: int) -> Norms:
-    one = bound_every_n.norms_at(statement, n)
-    return Norms(one.entries, one.norms, one.least)

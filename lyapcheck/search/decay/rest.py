@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lyapcheck.check.kinds.resting import AtBounds, Resting
+from lyapcheck.check.kinds.resting import AtBounds, Resting, rests_within
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
-from lyapcheck.check.loop.decay.rest import rests_within
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.digits import short_above
