@@ -58,11 +58,11 @@ class Check:
     """
 
     id: str
-    joint: int | None
-    judgement: Judgement | None
-    value: Fraction | None
-    limit: Enclosure | None
-    largest_admissible: Written | None
+    joint: int | None = None
+    judgement: Judgement | None = None
+    value: Fraction | None = None
+    limit: Enclosure | None = None
+    largest_admissible: Written | None = None
     reason: str = ""
 
     @property
@@ -147,10 +147,10 @@ class Conditions:
         missing: str,
     ) -> Check:
         if threshold is None:
-            return Check(name, joint, None, value, None, None, missing)
+            return Check(name, joint, value=value, reason=missing)
         result = threshold.judged(value, places)
         if not threshold.bounded:
-            return Check(name, joint, result, value, None, None, _UNBOUNDED)
+            return Check(name, joint, result, value, reason=_UNBOUNDED)
         limit = threshold.apart(value, places)
         reason = _UNTOLD.format(result.reason) if result.proof is None else ""
         return Check(name, joint, result, value, limit, threshold.largest(places), reason)

@@ -253,7 +253,7 @@ def test_stability_is_not_said_where_it_was_not_verified(monkeypatch: pytest.Mon
     assert remarks(result)[0] == "(19) fails, but it is only sufficient; --condition scalar looks for a proof"
 
 
-UNPROVED = Check("lasalle", None, None, None, None, None)
+UNPROVED = Check("lasalle")
 
 
 def test_what_fails_otherwise_too_is_rejected(tmp_path: Path) -> None:

@@ -99,7 +99,7 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
     if proof is None:
         return None
     result = judged(proof.statement, [proof.certificate])
-    return Check(SCALAR, None, result, proof.loop.eps0, None, None, result.reason)
+    return Check(SCALAR, judgement=result, value=proof.loop.eps0, reason=result.reason)
 
 
 @lru_cache(maxsize=8)
@@ -111,4 +111,4 @@ def lasalle(arm: RobotModel) -> Check:
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
     result = judged(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
-    return Check(LASALLE, None, result, None, None, None, result.reason)
+    return Check(LASALLE, judgement=result, reason=result.reason)

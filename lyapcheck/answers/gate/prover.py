@@ -59,10 +59,10 @@ class Prover:
         Soundness: that of ``lyapcheck.check.verify``.
         """
         if self.model is None:
-            return Check(name, None, None, None, None, None, _NO_ARM)
+            return Check(name, reason=_NO_ARM)
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
-            return Check(name, None, None, None, None, None, _TOO_MANY)
+            return Check(name, reason=_TOO_MANY)
         reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None
         if not reason and name == LASALLE:
@@ -75,9 +75,9 @@ class Prover:
                 else self._global(controlled, self.model.viscous)
             )
         if proof is None:
-            return Check(name, None, None, None, None, None, reason)
+            return Check(name, reason=reason)
         result = judged(proof.statement, [proof.certificate])
-        return Check(name, None, result, proof.loop.eps0, None, None, result.reason)
+        return Check(name, judgement=result, value=proof.loop.eps0, reason=result.reason)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
