@@ -4,7 +4,7 @@
 
 Over a box each of these is bounded at the corners of a linear part, because eigenvalues and norms are convex
 functions of the entries (λmin is concave); near an extremum that leaves an error of second order. For more
-than three joints bounds along the chain of links take their place; k_c keeps its boxes up to five joints.
+than three joints bounds along the chain of links take their place, and for k_c points of a lattice.
 
 References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 """
@@ -29,10 +29,6 @@ GAP_OF_MANY = 2e-2
 MAX_BOXES = 60_000
 THOROUGH = 150_000
 """Boxes times the square of the joints from which k_c of a chain may take a minute."""
-BOXED = 5
-"""Up to so many joints boxes bound k_c closer than storage forms."""
-SHARE = 3
-"""Boxes of k_c of a chain, relative to the budget."""
 
 
 def arm_constants(
@@ -74,12 +70,8 @@ def arm_constants(
 
         progress(0.0, "sampling")
         thorough = max_boxes * model.n**2 >= THOROUGH
-        if along and name == "k_c" and thorough and model.n <= BOXED:
-            task = coriolis_task(ArmHarmonics(fixed))
-            boxes = SHARE * task.cost * max_boxes
-            result.append(task.solve(boxes, enough, progress, from_distances(fixed, name)))
-        elif arm is None:
-            result.append(chain_constant(fixed, name, thorough))
+        if arm is None:
+            result.append(chain_constant(fixed, name, thorough, enough))
         else:
             result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))
     return tuple(result)

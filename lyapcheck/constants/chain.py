@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import Constant
+from lyapcheck.constants.coriolis_chain import coriolis_bound
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.outside import from_distances
 from lyapcheck.constants.storage.bounds import storage_proof
-from lyapcheck.constants.storage.coriolis import coriolis_bound
+from lyapcheck.constants.storage.coriolis import coriolis_bound as storage_bound
 from lyapcheck.constants.storage.hinges import hinges
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
 
-def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
+def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Constant:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Args:
         plant: the arm.
         name: of the constant.
         thorough: whether k_c may take a minute; else masses and distances alone bound it.
+        gap: relative width that is good enough for k_c.
 
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, and
-        for k_c see `lyapcheck.constants.storage.coriolis`.
+        for k_c see `lyapcheck.constants.coriolis_chain`, with many joints
+        `lyapcheck.constants.storage.coriolis`.
     """
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
@@ -32,8 +35,9 @@ def chain_constant(plant: Plant, name: str, thorough: bool) -> Constant:
         shown = storage_proof(chain, name)
     outer = from_distances(plant, name) if shown is None else shown.bound
     if name == "k_c" and (thorough or outer is None):
-        forms = coriolis_bound(hinges(chain)[0])
-        outer = min((x for x in (outer, forms) if x is not None), default=None)
+        seen = coriolis_bound(plant, float(inner.value), gap) if inner.value > 0 else None
+        sharper = storage_bound(hinges(chain)[0]) if seen is None else seen
+        outer = min((x for x in (outer, sharper) if x is not None), default=None)
     if outer is None:
         raise argument_error(
             name, "", "has no bound: no body has the inertia of some link", "correct the inertias"

@@ -1,0 +1,155 @@
+"""k_c from points of a lattice: beside samples and boxes, and each step of the argument on its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lyapcheck.constants import arm_constants
+from lyapcheck.constants.circles import Circles, basis
+from lyapcheck.constants.coriolis_chain import MOST_JOINTS, _bends, coriolis_bound
+from lyapcheck.constants.extreme import extreme
+from lyapcheck.constants.lattice import Lattice, norms_above
+from lyapcheck.constants.products import common_factor
+from lyapcheck.constants.quartic import quartic
+from lyapcheck.robots import RobotModel
+from lyapcheck.robots.numeric import NumericModel
+from tests.search.test_constants_storage import arm_of
+
+RNG_SEED = 5
+
+
+def stacks_of(arm: RobotModel, q: np.ndarray) -> np.ndarray:
+    return quartic(arm.n).stack(NumericModel(arm).christoffel(q))
+
+
+def products(x: np.ndarray) -> np.ndarray:
+    forms = quartic(x.shape[-1])
+    return x[..., forms.rows] * x[..., forms.columns] * forms.scale
+
+
+def polynomials(arm: RobotModel) -> Circles:
+    return Circles.through(lambda q: stacks_of(arm, q), arm.n)
+
+
+def at(circles: Circles, q: np.ndarray) -> np.ndarray:
+    """Term by term, one posture."""
+    result = circles.coefficients
+    for angle in circles.angles:
+        result = np.tensordot(basis(q[angle]), result, 1)
+    return result
+
+
+def test_polynomials_pass_through_the_arm_everywhere() -> None:
+    arm, rng = arm_of("px100", Path()), np.random.default_rng(RNG_SEED)
+    circles = polynomials(arm)
+    for q in rng.uniform(-3, 3, (5, arm.n)):
+        assert at(circles, q) == pytest.approx(stacks_of(arm, q[None])[0], abs=1e-12)
+        step = np.zeros(arm.n)
+        for axis, angle in enumerate(circles.angles):
+            step[:], step[angle] = 0, 1e-3
+            around = [at(circles, q + k * step) for k in (-1, 0, 1)]
+            bent = (around[0] - 2 * around[1] + around[2]) / 1e-6
+            assert at(circles.bent(axis), q) == pytest.approx(bent, abs=1e-6)
+
+
+def test_a_grid_has_the_values_of_its_points() -> None:
+    rng = np.random.default_rng(RNG_SEED)
+    circles = Circles(rng.normal(size=(5, 5, 5, 5, 2, 3)), (1, 2, 3, 4), 1.0)
+    first = rng.choice([0.1, 0.7, 2.0], size=(9, 2))
+    seen = 0
+    for places, values in circles.on(first, (2, 3)):
+        for place, grid in zip(places, values.reshape(-1, 2, 3, 2, 3), strict=True):
+            for i, j in np.ndindex(2, 3):
+                q = np.array([0, *first[place], np.pi * i, 2 * np.pi * j / 3])
+                assert grid[i, j] == pytest.approx(at(circles, q))
+                seen += 1
+    assert seen == 9 * 6
+
+
+def test_an_angle_that_does_not_matter_is_left_out(tmp_path: Path) -> None:
+    arm = arm_of("ur5", tmp_path)
+    rest = Circles.through(lambda q: stacks_of(arm, np.where(np.arange(6) == 2, 0.0, q)), arm.n)
+    assert rest.angles == (1, 3, 4, 5)
+
+
+def test_a_common_factor_leaves_the_size_of_products_as_it_is() -> None:
+    arm, rng = arm_of("px100", Path()), np.random.default_rng(RNG_SEED)
+    stacks = stacks_of(arm, rng.uniform(-3, 3, (50, arm.n)))
+    factor = common_factor(stacks, arm.n)
+    x = rng.normal(size=(200, arm.n))
+    measured = np.sum(np.linalg.solve(factor, products(x).T) ** 2, axis=0)
+    assert measured == pytest.approx(np.sum(x**2, axis=1) ** 2)
+    plain, better = (norms_above(stacks @ f, 0.0) for f in (np.eye(len(factor)), factor))
+    reached = np.linalg.norm(stacks @ products(x).T, axis=1) / np.sum(x**2, axis=1)
+    assert np.all(better >= reached.max(axis=1) * (1 - 1e-9))
+    assert better.max() < plain.max()
+
+
+def test_norms_are_never_too_small_and_close_above_the_cut() -> None:
+    matrices = np.random.default_rng(RNG_SEED).normal(size=(500, 4, 10))
+    norms = np.linalg.norm(matrices, ord=2, axis=(1, 2))
+    bounds = norms_above(matrices, 4.0)
+    assert np.all(bounds >= norms * (1 - 1e-12))
+    assert bounds[bounds > 4.0] == pytest.approx(norms[bounds > 4.0])
+    assert 0 < np.count_nonzero(bounds > 4.0) < len(bounds)
+
+
+@pytest.mark.parametrize("name", ["leaning", "px100"])
+def test_the_bound_is_above_every_posture_and_as_close_as_asked(name: str, tmp_path: Path) -> None:
+    arm = arm_of(name, tmp_path)
+    inside = float(extreme(arm, "k_c").value)
+    bound = float(coriolis_bound(arm, inside, 0.02))
+    assert inside <= bound <= inside / 0.98 * (1 + 1e-9)
+    rng = np.random.default_rng(RNG_SEED)
+    q, x = rng.uniform(-np.pi, np.pi, (20_000, arm.n)), rng.normal(size=(20_000, arm.n))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    stacks = stacks_of(arm, q)
+    for _ in range(3):
+        torque = np.einsum("kip,kp->ki", stacks, products(x))
+        assert np.linalg.norm(torque, axis=1).max() <= bound
+        tensor = np.einsum("ki,kijl->kjl", torque, NumericModel(arm).christoffel(q))
+        x = np.linalg.eigh(tensor)[1][..., -1]
+
+
+@pytest.mark.parametrize("name", ["pelican2", "leaning"])
+def test_few_joints_have_what_boxes_enclose(name: str, tmp_path: Path) -> None:
+    arm = arm_of(name, tmp_path)
+    (boxes,) = arm_constants(arm, 20_000, names=("k_c",))
+    bound = coriolis_bound(arm, float(boxes.enclosure.lower), 0.01)
+    assert boxes.enclosure.lower <= bound <= float(boxes.enclosure.lower) / 0.99 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.9, 0.99])
+@pytest.mark.parametrize("most", [0, 10_000])
+def test_what_is_too_small_is_never_shown(share: float, most: int, tmp_path: Path) -> None:
+    """A target below what is reached is not met, whatever the budget and the second derivatives assumed."""
+    arm = arm_of("leaning", tmp_path)
+    inside = float(extreme(arm, "k_c").value)
+    target = share * inside
+    circles = polynomials(arm)
+    bend = np.full(len(circles.angles), 4 * target)
+    assert Lattice(circles, bend, target, target).bound(most) >= inside
+
+
+def test_second_derivatives_stay_below_their_bounds() -> None:
+    arm = arm_of("px100", Path())
+    inside = float(extreme(arm, "k_c").value)
+    circles = polynomials(arm).times(np.eye(10))
+    bends = _bends(circles, inside / 0.98)
+    assert bends.min() < 2 * inside
+    rng = np.random.default_rng(RNG_SEED)
+    x = rng.normal(size=(4000, arm.n))
+    for axis, bend in enumerate(bends):
+        part = circles.bent(axis)
+        for q in rng.uniform(-np.pi, np.pi, (20, arm.n)):
+            torque = at(part, q) @ products(x).T
+            assert np.max(np.linalg.norm(torque, axis=0) / np.sum(x**2, axis=1)) <= bend
+
+
+def test_many_joints_are_left_to_others(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("lyapcheck.constants.coriolis_chain.MOST_JOINTS", 2)
+    assert MOST_JOINTS >= 6
+    assert coriolis_bound(arm_of("leaning", tmp_path), 1.0, 0.1) is None
