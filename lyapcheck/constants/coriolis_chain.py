@@ -31,6 +31,8 @@ _AROUND = 12
 """Points of a circle on which second derivatives are looked at; fewer where a bound of them is known that"""
 _WEAK = 0.05
 """is small: what interpolation leaves is then this share of the derivative, about."""
+_WITHIN = 0.99
+"""Share of the gap that is asked for, so that rounding does not exceed it."""
 _ROUNDING = 1e-8
 """Of the largest matrix, beyond what doubles lose: the matrices at the nodes are right within 1e-13 of it, to
 pass through them multiplies that by at most 2 an angle, 64 in all, and every L by at most 10."""
@@ -62,7 +64,7 @@ def coriolis_bound(plant: Plant, inside: float, gap: float) -> Fraction | None:
     entries = Circles.through(stacks, n)
     lost = _ROUNDING * entries.size
     moved = entries.times(factor)
-    target = inside / (1 - gap) - 2 * lost
+    target = inside / (1 - _WITHIN * gap) - 2 * lost
     bend = _bends(moved, target) + lost
     lattice = Lattice(moved, bend, target, inside, Postures(stacks, factor, n))
     return Fraction(lattice.bound(_POINTS) + 2 * lost)

@@ -97,14 +97,14 @@ def test_norms_are_never_too_small_and_close_above_the_cut() -> None:
     assert 0 < np.count_nonzero(bounds > 4.0) < len(bounds)
 
 
-@pytest.mark.parametrize("name", ["leaning", "px100"])
+@pytest.mark.parametrize("name", ["leaning", pytest.param("px100", marks=pytest.mark.slow)])
 def test_the_bound_is_above_every_posture_and_as_close_as_asked(name: str, tmp_path: Path) -> None:
     arm = arm_of(name, tmp_path)
     inside = float(extreme(arm, "k_c").value)
     bound = float(coriolis_bound(arm, inside, 0.02))
     assert inside <= bound <= inside / 0.98 * (1 + 1e-9)
     rng = np.random.default_rng(RNG_SEED)
-    q, x = rng.uniform(-np.pi, np.pi, (20_000, arm.n)), rng.normal(size=(20_000, arm.n))
+    q, x = rng.uniform(-np.pi, np.pi, (5000, arm.n)), rng.normal(size=(5000, arm.n))
     x /= np.linalg.norm(x, axis=1, keepdims=True)
     stacks = stacks_of(arm, q)
     for _ in range(3):
@@ -114,7 +114,7 @@ def test_the_bound_is_above_every_posture_and_as_close_as_asked(name: str, tmp_p
         x = np.linalg.eigh(tensor)[1][..., -1]
 
 
-@pytest.mark.parametrize("name", ["pelican2", "leaning"])
+@pytest.mark.parametrize("name", ["pelican2", pytest.param("leaning", marks=pytest.mark.slow)])
 def test_few_joints_have_what_boxes_enclose(name: str, tmp_path: Path) -> None:
     arm = arm_of(name, tmp_path)
     (boxes,) = arm_constants(arm, 20_000, names=("k_c",))

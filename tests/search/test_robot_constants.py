@@ -243,7 +243,7 @@ def test_an_undefined_bound_is_no_bound() -> None:
 
 
 @pytest.mark.slow
-def test_k_c_of_four_joints_is_bounded_by_boxes() -> None:
+def test_k_c_of_four_joints() -> None:
     """Within two hundredths, and above a sample of ‖C(q, x)x‖ that comes near."""
     model = load("px100")
     (k_c,) = arm_constants(model, 200_000 // model.n**2, names=("k_c",))
