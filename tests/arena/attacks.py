@@ -434,7 +434,15 @@ ONLY = "ext.the-origin-is-the-only-equilibrium"
 SQUARE = ["pow", X, 2]
 ARGUED: Path = (S, "argument")
 MEMBER: Path = (*ARGUED, "system", "functions", 0, "member")
+UNUSED = at(S, "argument", "rate", "entries", 0)
+"""A coefficient that the property does not need: it must be one all the same."""
 ON_PROPERTIES: list[Attack] = [
+    *(
+        (f"coefficient-{k}", "ext.V-is-positive-definite", [(UNUSED, tree)], "a coefficient that is none")
+        for k, tree in enumerate(
+            (["num", "0, whatever happens"], ["num", "1.5"], ["foo", ["num", "1"]], "1", ["var", ["pi"], 2])
+        )
+    ),
     ("property-unknown", LOOP_BASE, [(at(S, "name"), "V is radially bounded")], "an unknown property"),
     ("property-other", LOOP_BASE, [(at(S, "name"), "the origin is the only equilibrium")], "no form at rest"),
     ("property-decrescent", LOOP_BASE, [(at(S, "name"), "V is decrescent")], "no form above V"),

@@ -73,6 +73,7 @@ class BoundEveryN(OfTerms):
         self.identity.require_well_formed()
         used = letters(self.left)
         for known, size in self.norms:
+            require_expressions([size])
             require(len(known) > 0, "norms", expression_text(size), "bounds no letter")
             for letter in known:
                 sort = next((sort for sort, kind in LETTERS.items() if letter[:1] == (kind,)), "matrix")
@@ -81,7 +82,6 @@ class BoundEveryN(OfTerms):
                     letters(letter) == {letter} or letter[0] == "diag", "norms", letter, "is not a letter"
                 )
                 used |= letters(letter)
-            require_expressions([size])
         for number, size in self.least:
             require_sort(number, "number")
             require_expressions([size])

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
+from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.parts import require_distinct
@@ -37,11 +38,12 @@ class Form:
     linear: tuple[tuple[str, Tree], ...] = ()
 
     def require_well_formed(self) -> None:
-        """Refuse sizes given twice, and another number of entries."""
+        """Refuse sizes given twice, another number of entries, and coefficients that are no expressions."""
         require_distinct("sizes", [*self.sizes, *self.names])
         n = len(self.sizes)
         require(n <= MAX_SIZES, "sizes", n, f"must be at most {MAX_SIZES}")
         require(len(self.entries) == n * (n + 1) // 2, "entries", len(self.entries), "do not fit the sizes")
+        require_expressions(self.coefficients)
 
     @property
     def names(self) -> tuple[str, ...]:
