@@ -149,6 +149,17 @@ def test_second_derivatives_stay_below_their_bounds() -> None:
             assert np.max(np.linalg.norm(torque, axis=0) / np.sum(x**2, axis=1)) <= bend
 
 
+@pytest.mark.parametrize("phase", np.linspace(0, np.pi / 3, 5))
+def test_a_largest_value_between_the_points_of_a_circle_is_not_missed(phase: float) -> None:
+    """cos(2q − phase) and a second angle that hardly matters."""
+    wave = np.array([0, 0, 0, np.cos(phase), np.sin(phase)])
+    faint = np.array([1, 0.01 * np.cos(phase), 0.01 * np.sin(phase), 0, 0])
+    circles = Circles(np.multiply.outer(wave, faint)[..., None, None], (1, 2), 1.0)
+    bends = _bends(circles, 10.0)
+    assert 4 * 1.01 <= bends[0] <= 4 * 1.4
+    assert 0.01 <= bends[1] <= 0.02
+
+
 def test_many_joints_are_left_to_others(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("lyapcheck.constants.coriolis_chain.MOST_JOINTS", 2)
     assert MOST_JOINTS >= 6
