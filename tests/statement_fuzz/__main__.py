@@ -12,7 +12,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from tests.statement_fuzz.report import markdown, summary
-from tests.statement_fuzz.run import Tally, run
+from tests.statement_fuzz.run import Run, Tally, run
 from tests.statement_fuzz.shrink import shrunk
 
 CHUNK = 2_000
@@ -29,25 +29,28 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--shown", type=int, default=2, help="faults of each sort to print")
     parser.add_argument("--report", type=Path, help="where to write the page of figures")
     parser.add_argument(
-        "--record", type=Path, help="a file of counts: a run goes on where the last one ended"
+        "--record", type=Path, help="a file of runs: one with this seed and kind goes on where it ended"
     )
     options = parser.parse_args(arguments)
     started = time.monotonic()
-    tally, printed = _recorded(options), Counter[tuple[str, ...]]()
-    options.first, options.statements = (
-        options.first + tally.statements,
-        options.statements - tally.statements,
-    )
+    runs = _recorded(options.record)
+    own = next((one for one in runs if (one.seed, one.only) == (options.seed, options.only)), None)
+    if own is None:
+        runs.append(own := Run(options.seed, options.only))
+    printed = Counter[tuple[str, ...]]()
+    options.first += own.tally.statements
+    options.statements -= own.tally.statements
     for part in _parts(options):
-        tally += part
+        own.tally += part
         _print_faults(part, printed, options.shown)
-        print(f"… {tally.statements}: {len(tally.faults)} faults", file=sys.stderr)
+        print(f"… {own.tally.statements}: {len(own.tally.faults)} faults", file=sys.stderr)
         if options.report is not None:  # after every part: an interrupted run leaves what it did
             options.report.parent.mkdir(parents=True, exist_ok=True)
-            options.report.write_text(markdown(tally, options.seed), encoding="utf-8")
+            options.report.write_text(markdown(runs), encoding="utf-8")
         if options.record is not None:
-            counts = {"seed": options.seed} | tally.data()
-            options.record.write_text(json.dumps(counts, ensure_ascii=False, indent=1) + "\n")
+            rows = [one.data() for one in runs]
+            options.record.write_text(json.dumps(rows, ensure_ascii=False, indent=1) + "\n")
+    tally = own.tally
     seconds = time.monotonic() - started
     for sort, count in Counter(judged.signature for _, judged in tally.faults).most_common():
         print(f"{count} × {' | '.join(sort)}")
@@ -58,14 +61,11 @@ def main(arguments: list[str] | None = None) -> int:
     return int(bool(tally.faults))
 
 
-def _recorded(options: argparse.Namespace) -> Tally:
-    """What earlier runs of the same seed counted."""
-    if options.record is None or not options.record.exists():
-        return Tally()
-    counts = json.loads(options.record.read_text(encoding="utf-8"))
-    if counts.pop("seed") != options.seed:
-        raise SystemExit(f"{options.record} is of another seed")
-    return Tally.of(counts)
+def _recorded(record: Path | None) -> list[Run]:
+    """The runs of a file, if there is one."""
+    if record is None or not record.exists():
+        return []
+    return [Run.of(row) for row in json.loads(record.read_text(encoding="utf-8"))]
 
 
 def _parts(options: argparse.Namespace) -> Iterator[Tally]:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.check.verify import verify
 from lyapcheck.verdicts import Verdict
@@ -55,7 +54,7 @@ def decide_proposed(proposed: Proposed) -> Any:
     try:
         proposed.statement.require_well_formed()
         verdict = Verdict(verify(proposed.statement, proof).verdict)
-    except (Refused, ValueError, ArithmeticError) as refusal:
+    except Exception as refusal:  # as ``check.judging`` does
         verdict, reason = Verdict.UNDECIDED, str(refusal)
     point = {name: str(value) for name, value in proof.point} if isinstance(proof, Witness) else None
     return SimpleNamespace(

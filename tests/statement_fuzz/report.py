@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 from lyapcheck.check.codec import members
 from lyapcheck.check.statement import Statement
 from tests.statement_fuzz.generators import names
 from tests.statement_fuzz.judge import VERDICTS, Judged
 from tests.statement_fuzz.proposed import Proposed
-from tests.statement_fuzz.run import Recorded, Tally
+from tests.statement_fuzz.run import Recorded, Run, Tally
 
 INTRODUCTION = """\
 A program writes statements of the kinds that users write, many of them false or undefined somewhere,
@@ -20,16 +21,20 @@ construction; an exception. Written by `python -m tests.statement_fuzz`.
 """
 
 
-def markdown(tally: Tally, seed: int) -> str:
+def markdown(runs: Sequence[Run]) -> str:
     """The whole page."""
+    tally = sum((one.tally for one in runs), Tally())
     lines = [
         "# Statements at random",
         "",
-        f"{summary(tally)} Seed {seed}.",
+        summary(tally),
         "",
         *INTRODUCTION.splitlines(),
         "",
-        *_checkers(tally),
+        "## Runs",
+        "",
+        *_runs(runs),
+        "",
         *_gone(tally),
     ]
     lines += ["## By kind of statement", "", *_table(tally), "", "## By family", "", *_families(tally), ""]
@@ -43,12 +48,18 @@ def _fault(index: int, fault: Judged | Recorded) -> str:
     return f"- {index}: {fault.text()}" + (f"\n  {fault.now()}" if isinstance(fault, Recorded) else "")
 
 
-def _checkers(tally: Tally) -> list[str]:
-    """Which checkers judged, where the run went on after a change of them."""
-    if len(tally.checkers) < 2:
-        return []
-    parts = ", ".join(f"{count} by {digest}" for digest, count in tally.checkers.items())
-    return [f"The checker changed in between (SHA-256 of its sources): {parts}.", ""]
+def _runs(runs: Sequence[Run]) -> list[str]:
+    """What each run judged, and by which checkers, as the SHA-256 of their sources begins."""
+    lines = [
+        _row(["seed", "statements of", *VERDICTS, "faults", "checker"]),
+        _row(["---:", "---", *["---:"] * (len(VERDICTS) + 1), "---"]),
+    ]
+    for one in runs:
+        counts = _by_verdict(one.tally)
+        checkers = ", ".join(f"{count} by {digest}" for digest, count in one.tally.checkers.items())
+        cells = [counts[verdict] for verdict in VERDICTS]
+        lines.append(_row([one.seed, one.only or "all kinds", *cells, len(one.tally.faults), checkers]))
+    return lines
 
 
 def _gone(tally: Tally) -> list[str]:
@@ -65,11 +76,16 @@ def _gone(tally: Tally) -> list[str]:
 
 def summary(tally: Tally) -> str:
     """One line with the figures."""
+    counts = _by_verdict(tally)
+    verdicts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if counts[verdict])
+    return f"{tally.statements} statements: {verdicts}; {len(tally.faults)} faults."
+
+
+def _by_verdict(tally: Tally) -> Counter[str]:
     counts: Counter[str] = Counter()
     for (_, verdict), count in tally.verdicts.items():
         counts[verdict] += count
-    verdicts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if counts[verdict])
-    return f"{tally.statements} statements: {verdicts}; {len(tally.faults)} faults."
+    return counts
 
 
 def _table(tally: Tally) -> list[str]:

@@ -96,6 +96,24 @@ class Tally:
         return sum(self.verdicts.values())
 
 
+@dataclass
+class Run:
+    """The statements of a seed, of all generators or of ``only`` one, as far as they are judged."""
+
+    seed: int
+    only: str | None
+    tally: Tally = field(default_factory=Tally)
+
+    def data(self) -> dict[str, Any]:
+        """The run as plain data."""
+        return {"seed": self.seed, "only": self.only} | self.tally.data()
+
+    @classmethod
+    def of(cls, data: dict[str, Any]) -> Run:
+        """The run of some data."""
+        return cls(data["seed"], data["only"], Tally.of(data))
+
+
 def run(seed: int, indices: Iterable[int], only: str | None = None) -> Tally:
     """The statements of a seed with these indices."""
     tally = Tally()

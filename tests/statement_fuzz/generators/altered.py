@@ -35,7 +35,7 @@ def _texts() -> tuple[str, ...]:
     return tuple(path.read_text(encoding="utf-8") for path in files if path.stat().st_size <= LARGEST)
 
 
-@generates("Altered", 0.1)
+@generates("Altered", 0.001)
 def altered(random: Random) -> Made:
     """The first of some alterations that still reads as a statement with a proof."""
     while True:
