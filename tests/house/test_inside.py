@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.house.test_house import imported, modules
+
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "inside.md").read_text(encoding="utf-8")
 
@@ -38,6 +40,23 @@ def test_the_map_has_the_folders_that_there_are(top: str) -> None:
         assert inside == set(re.findall(r"`(?:\w+/)*(\w+)/`", words)), names
         mapped |= {path.name for path in here}
     assert mapped == folders(ROOT / top)
+
+
+def test_a_folder_imports_only_from_those_below_it() -> None:
+    """In the order of the map, as modules are loaded; the checker's command alone begins at the bottom."""
+    order = [name for names, _ in rows("folder of `lyapcheck/`") for name in re.findall(r"`(\w+)`", names)]
+    place = {f"lyapcheck.{name}": k for k, name in enumerate(order)}
+    upwards = {
+        (module, name)
+        for module in modules()
+        for name in imported(module)
+        if place.get(folder_of(name), len(order)) < place.get(folder_of(module), -1)
+    }
+    assert {module for module, _ in upwards} <= {"lyapcheck.check.__main__"}, upwards
+
+
+def folder_of(module: str) -> str:
+    return ".".join(module.split(".")[:2])
 
 
 WAYS = rows("function")

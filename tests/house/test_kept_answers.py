@@ -6,6 +6,7 @@ import copy
 import gzip
 import json
 from collections.abc import Callable
+from dataclasses import fields
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -26,6 +27,7 @@ from lyapcheck.check.judging import certificate_of
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import rounded
 from lyapcheck.report.subject import Subject
 from lyapcheck.robots import RobotModel, load
@@ -203,9 +205,8 @@ def reported() -> tuple[Subject, dict[str, Any]]:
     files[PATH] = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
     with kept_report._judging({PATH: files[PATH]}) as judged:
         answer = judged()[json.loads(files[PATH])["digest"]]
-    row = {
-        key: answer[key] for key in ("verdict", "grade", "id", "m", "rules", "granted", "statement", "digest")
-    }
+    row: dict[str, Any] = {field.name: () for field in fields(ClaimRow)}
+    row |= {name: value for name, value in answer.items() if name in row}
     shown, _ = certificate_of(files[PATH].encode())
     if accepted_before(shown.statement, shown.proof, shown.verdict):
         row["grade"] = GRADE

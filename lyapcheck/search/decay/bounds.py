@@ -16,10 +16,11 @@ from fractions import Fraction
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
+from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.estimate import Disturbance, Estimate
 from lyapcheck.check.loop.decay.margin import Margin
+from lyapcheck.check.refusal import Refused
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay.arm import not_positive
 from lyapcheck.search.decay.descent import Descent, descent
 from lyapcheck.search.decay.digits import as_written, short_above, short_below
 from lyapcheck.search.decay.heaviest import Heaviest, heaviest
@@ -28,6 +29,7 @@ from lyapcheck.search.decay.phases import Phases
 from lyapcheck.search.decay.rest import resting
 from lyapcheck.search.decay.results import DisturbanceBound, SettlingBound, Shown, accepted
 from lyapcheck.search.decay.start import Start, start_of, torques_of
+from lyapcheck.search.posture import unphysical
 
 COARSE = 0.6
 FINE = 0.93
@@ -75,7 +77,7 @@ def settling_bound(
     wanted = _Wanted(controlled, Disturbance.none(controlled.n), start, short_below(as_written(delta)))
     progress = on_progress or silent
     progress(0.0, "bounds of the inertia")
-    shown, reason = None, not_positive(controlled)
+    shown, reason = None, _impossible(controlled)
     if not reason and in_phases:
         claim = Phases(controlled, start, wanted.goal or Fraction(0), max_boxes).found(progress)
         shown = claim if claim is not None and accepted(claim.statement, claim.proof, jobs) else None
@@ -117,7 +119,7 @@ def disturbance_bound(
     start = start_of(controlled, e0, w0, 1.0)
     acting = Disturbance(torques_of(controlled, "torque", torque), torques_of(controlled, "dry", dry))
     wanted = _Wanted(controlled, acting, start, None)
-    shown, reason, at_rest = None, not_positive(controlled), None
+    shown, reason, at_rest = None, _impossible(controlled), None
     if not reason:
         shown, reason = wanted.shown(max_boxes, jobs, on_progress or silent)
         at_rest = resting(controlled, acting.torque, acting.dry)
@@ -204,3 +206,12 @@ class _Wanted:
 
 def _short(angles: Sequence[float]) -> tuple[Fraction, ...]:
     return tuple(short_above(Fraction(x)) for x in angles)
+
+
+def _impossible(controlled: ControlledArm) -> str:
+    """Why nothing is certified of an arm: its ranges have no bounds, or M(q) ≻ 0 is not proved over them."""
+    try:
+        at_corners(controlled.loop(Fraction(1)))
+    except Refused as refusal:
+        return f"no bounds over these ranges: {refusal}; vary fewer numbers, such as masses and friction"
+    return unphysical(controlled)
