@@ -25,7 +25,8 @@ DIGITS = 50
 
 @pytest.fixture(scope="module")
 def rows():
-    table = build_table(range(1, 1001), DIGITS)
+    """What the table says of the sample: {m: row}."""
+    table = build_table(SAMPLE, DIGITS)
     return {row["m"]: row for row in json.loads(table.written("json"))["rows"]}
 
 
