@@ -148,9 +148,9 @@ class Proof:
         Raises:
             InputError: there is no such script, or no such claim in it.
         """
-        from lyapcheck.claims.script import check_ids, find_script, load_proof
+        from lyapcheck.claims.script import check_ids, load_library
 
-        other = load_proof(find_script(script))
+        other = load_library(script)
         check_ids(other.claims, ids, script)
         wanted = needed(other.claims, ids)
         for name, claim in other.claims.items():

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import runpy
 import traceback
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
+from functools import lru_cache
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
@@ -46,8 +48,22 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         InputError: the script has a syntax error, raises, or does not define exactly one proof.
     """
     name = shown or str(path)
+    return _only_proof(lambda: runpy.run_path(str(path)), path, name)
+
+
+def load_library(script: str) -> Proof:
+    """The one proof of a script that another one builds on; run once in a process, like a module.
+
+    Raises:
+        InputError: there is no such script, or as for `load_proof`.
+    """
+    path = find_script(script)
+    return _only_proof(lambda: _run_once(path, path.read_bytes()), path, str(path))
+
+
+def _only_proof(run: Callable[[], dict[str, Any]], path: Path, name: str) -> Proof:
     try:
-        names = runpy.run_path(str(path))
+        names = run()
     except SyntaxError as error:
         raise InputError(
             Problem(name, error.lineno, "script", "", f"is not Python: {error.msg}", "correct the syntax")
@@ -69,7 +85,14 @@ def companion(script: str) -> SimpleNamespace:
     Args:
         script: a path, or the name of a script that comes with lyapcheck.
     """
-    return SimpleNamespace(**runpy.run_path(str(find_script(script))))
+    path = find_script(script)
+    return SimpleNamespace(**_run_once(path, path.read_bytes()))
+
+
+@lru_cache(maxsize=64)
+def _run_once(path: Path, _content: bytes) -> dict[str, Any]:
+    """What a script defines; anew where its text has changed."""
+    return runpy.run_path(str(path))
 
 
 def _raised(name: str, path: Path, error: BaseException) -> Problem:
