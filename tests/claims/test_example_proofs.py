@@ -8,6 +8,7 @@ import pytest
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.text import witness_words
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.command import invoke
@@ -49,10 +50,11 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
 
 
 def test_both_sides_of_a_refuted_inequality_look_different():
-    (row,) = run_proof(MUST_FAIL, ms=(1,), only=("wrong",)).claims
-    left, right = (row.decision.witness[side] for side in ("left", "right"))
+    result = run_proof(MUST_FAIL, ms=(1,), only=("wrong",))
+    row = ClaimRow.of(result.claims[0], result, None, None)
+    left, right = (row.witness[side] for side in ("left", "right"))
     assert Fraction(left[0]) > Fraction(right[1])
-    shown = witness_words({"witness": row.decision.witness})
+    shown = witness_words(row)
     first, second = shown.split(" at ")[0].split(" is not ≤ ")
     assert first != second
 
