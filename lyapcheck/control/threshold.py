@@ -54,13 +54,14 @@ class Threshold:
     def judged(self, value: Fraction, places: int = 0) -> Judgement:
         """What the checker says of a positive value with so many decimal places."""
         key = value.as_integer_ratio()  # hashing a fraction takes longer
-        if key not in self._known:
+        known = self._known.get(key)
+        if known is None:
             if self.bounded:
-                statement = Constant(Relation(number(value), self.operator, self.limit))
-                self._known[key] = judged(statement, _proofs(places))
+                known = judged(Constant(Relation(number(value), self.operator, self.limit)), _proofs(places))
             else:
-                self._known[key] = judged(*self._against(value))
-        return self._known[key]
+                known = judged(*self._against(value))
+            self._known[key] = known
+        return known
 
     def admits(self, value: Fraction, places: int = 0) -> bool:
         """Whether the checker proves that a positive value passes."""
@@ -78,7 +79,7 @@ class Threshold:
     def apart(self, value: Fraction, places: int = 0) -> Enclosure:
         """As `near`, and without the value, unless the number is known to be it or cannot be told from it."""
         result, bits = self.near(places), FIRST_BITS + 4 * places
-        while result.lower <= value <= result.upper and result.width and bits < MAX_BITS:
+        while _between(result, value) and result.width and bits < MAX_BITS:
             bits *= 2
             result = self._within(bits)
         return result
@@ -155,6 +156,12 @@ def root(square: Fraction) -> Tree:
         return number(factor if whole else Fraction(0))
     surd: Tree = ("sqrt", number(Fraction(inside)))
     return surd if factor == 1 else ("mul", number(factor), surd)
+
+
+def _between(ends: Enclosure, value: Fraction) -> bool:
+    """Whether a value lies between two others; in integers, since comparing fractions takes longer."""
+    (a, b), (n, d), (e, f) = (x.as_integer_ratio() for x in (ends.lower, value, ends.upper))
+    return a * d <= n * b and n * f <= e * d
 
 
 def _plain_root(square: Fraction) -> Tree:

@@ -22,13 +22,10 @@ LONGEST = 1000
 class Written(Fraction):
     """An exact rational that remembers the text it was read from."""
 
-    __slots__ = ("text",)
+    __slots__ = ("places", "text")
     text: str
-
-    @property
-    def places(self) -> int:
-        """Digits after the decimal point, as written: ``0.50`` has two, ``5e-3`` has three, ``28`` none."""
-        return decimal_places(self.text)
+    places: int
+    """Digits after the decimal point, as written: ``0.50`` has two, ``5e-3`` has three, ``28`` none."""
 
     def __repr__(self) -> str:
         return self.text
@@ -72,7 +69,7 @@ def exact_decimal(text: str) -> Written:
     whole, _, part = text.partition(".")
     plain = part.isdecimal()  # without an exponent; Fraction takes four times as long to read a text
     value = Written(int(whole + part), 10 ** len(part)) if plain else Written(text)
-    value.text = text
+    value.text, value.places = text, len(part) if plain else decimal_places(text)
     return value
 
 

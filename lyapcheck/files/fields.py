@@ -137,7 +137,8 @@ class Fields:
         if rule or not isinstance(value, int | Fraction):
             self.notes.fail(path, value, rule, "write a plain decimal like 0.223")
             return None
-        if value < 0 or (positive and value == 0):
+        sign = value.numerator  # comparing fractions takes longer
+        if sign < 0 or (positive and sign == 0):
             rule = "must be positive" if positive else "must not be negative"
             self.notes.fail(path, value, rule, "correct the sign or the value")
             return None

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from functools import lru_cache
 from importlib.metadata import version
+from itertools import repeat
 from json import JSONEncoder
 from typing import Any
 
@@ -26,34 +29,45 @@ def render(answer: Answer) -> str:
 
 def laid_out(value: Any) -> str:
     """A value as JSON, a line a record: what holds no more than flat parts on a line of its own."""
+    if not isinstance(value, NESTING):
+        return _encode(value)
     text: list[str] = []
     _lay_out(value, "\n", text)
     return "".join(text)
 
 
 def _lay_out(value: Any, line: str, text: list[str]) -> None:
-    """Add a value to a text; ``line`` is a line end with the indent of what holds the value."""
-    if not isinstance(value, NESTING):
-        text.append(_encode(value))
-        return
+    """Add a value with parts to a text; ``line`` is a line end with the indent of what holds the value."""
     parts = value.values() if isinstance(value, dict) else value
-    nested = [part for part in parts if isinstance(part, NESTING)]
-    if not any(_holds_parts(part) for part in nested):
+    if _shallow(parts):
         whole = _encode(value)
         if len(whole) <= LONGEST or not parts:
             text.append(whole)
             return
     inner = f"{line}  "
-    heads = [f"{_encode(key)}: " for key in value] if isinstance(value, dict) else [""] * len(value)
+    heads = map(_head, value) if isinstance(value, dict) else repeat("", len(value))
     first, last = "{}" if isinstance(value, dict) else "[]"
     between = f"{first}{inner}"
     for head, part in zip(heads, parts, strict=True):
-        text.append(between + head)
-        _lay_out(part, inner, text)
+        if isinstance(part, NESTING):
+            text.append(between + head)
+            _lay_out(part, inner, text)
+        else:
+            text.append(between + head + _encode(part))
         between = f",{inner}"
     text.append(line + last)
 
 
-def _holds_parts(part: Any) -> bool:
-    """Whether a part has parts that are not empty and no plain values."""
-    return any(isinstance(x, NESTING) and x for x in (part.values() if isinstance(part, dict) else part))
+def _shallow(parts: Iterable[Any]) -> bool:
+    """Whether no part of a part has parts."""
+    for part in parts:
+        if isinstance(part, NESTING):
+            for inner in part.values() if isinstance(part, dict) else part:
+                if isinstance(inner, NESTING) and inner:
+                    return False
+    return True
+
+
+@lru_cache(maxsize=256)  # ten thousand records have the same keys
+def _head(key: str) -> str:
+    return f"{_encode(key)}: "

@@ -44,22 +44,29 @@ Monomial = tuple[tuple[Symbol, int], ...]
 """Powers of symbols."""
 
 
-@dataclass(frozen=True)
 class Coefficient:
     """A number that lies in a ball; ``exact`` has its monomials if it is the same known one for all x."""
 
-    ball: arb
-    exact: tuple[tuple[Monomial, fmpq], ...] | None = None
+    __slots__ = ("_ball", "exact")
 
-    def __add__(self, other: Coefficient) -> Coefficient:
-        if self.exact is None or other.exact is None:
-            return Coefficient(self.ball + other.ball)
-        return _collected((*self.exact, *other.exact))
+    def __init__(self, ball: arb | None, exact: tuple[tuple[Monomial, fmpq], ...] | None = None) -> None:
+        self._ball, self.exact = ball, exact
+
+    @property
+    def ball(self) -> arb:
+        """The ball; that of an exact number is worked out where it is asked for first."""
+        if self._ball is None:
+            parts = (prod((_value(*s) ** e for s, e in p), start=arb(c)) for p, c in self.exact or ())
+            self._ball = sum(parts, arb(0))
+        return self._ball
 
     def __mul__(self, other: Coefficient) -> Coefficient:
         if self.exact is None or other.exact is None:
             return Coefficient(self.ball * other.ball)
-        return _collected(_monomial((*p, *q), c * d) for (p, c), (q, d) in product(self.exact, other.exact))
+        return _collected(
+            _monomial((*p, *q), c * d) if p and q else (p or q, c * d)
+            for (p, c), (q, d) in product(self.exact, other.exact)
+        )
 
     @property
     def is_zero(self) -> bool:
@@ -112,11 +119,7 @@ def _collected(terms: Iterable[tuple[Monomial, fmpq]]) -> Coefficient:
     result: dict[Monomial, fmpq] = {}
     for p, c in terms:
         result[p] = result[p] + c if p in result else c
-    kept = tuple(sorted((p, c) for p, c in result.items() if c))
-    ball = arb(0)
-    for p, c in kept:
-        ball += prod((_value(*symbol) ** e for symbol, e in p), start=arb(c))
-    return Coefficient(ball, kept)
+    return Coefficient(None, tuple(sorted((p, c) for p, c in result.items() if c)))
 
 
 def _value(name: str, c: Fraction) -> arb:
@@ -248,15 +251,25 @@ def _bounded(key: Key, start: Fraction) -> arb:
 
 def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
     """The sum of terms; the lowest ones are taken into the last that is kept."""
-    result: dict[Key, Coefficient] = {}
+    parts: dict[Key, list[Coefficient]] = {}
     for key, c in terms:
-        result[key] = result[key] + c if key in result else c
-    kept = [(key, result[key]) for key in sorted(result, reverse=True) if not result[key].is_zero]
+        parts.setdefault(key, []).append(c)
+    added = ((key, _added(parts[key])) for key in sorted(parts, reverse=True))
+    kept = [(key, c) for key, c in added if not c.is_zero]
     if len(kept) > TERMS:
         last = kept[TERMS - 1][0]
         rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(exactly(1), power_of(last, Fraction(-1)))
         kept = [*kept[: TERMS - 1], (last, Coefficient(rest.enclosure()))]
     return Asymptotic(tuple(kept), start)
+
+
+def _added(parts: list[Coefficient]) -> Coefficient:
+    """The sum of numbers, those that are exact first."""
+    if len(parts) == 1:
+        return parts[0]
+    exact = _collected(term for c in parts if c.exact is not None for term in c.exact)
+    others = [c.ball for c in parts if c.exact is None]
+    return Coefficient(sum(others, exact.ball)) if others else exact
 
 
 def constant(c: Coefficient, start: Fraction) -> Asymptotic:

@@ -61,7 +61,7 @@ def run(
     """
     import gc
 
-    gc.set_threshold(1_000_000)  # modules and ten thousand sets hold no garbage, and would be looked through
+    gc.set_threshold(3_000_000)  # modules and ten thousand sets hold no garbage, and would be looked through
 
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
     from lyapcheck.control.arm_limits import ArmLimits, varied_limits
