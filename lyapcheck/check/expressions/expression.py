@@ -132,8 +132,7 @@ def evaluate(tree: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
     Raises:
         Unsupported: for a node that is not in the list above or that the algebra cannot express.
     """
-    kind, *rest = tree
-    return _leaf(kind, rest, values, algebra) if kind in LEAVES else _Evaluation(values, algebra).of(tree)
+    return _Evaluation(values, algebra).of(tree)
 
 
 class _Evaluation:
@@ -167,8 +166,7 @@ class _Evaluation:
 @lru_cache(maxsize=1 << 14)
 def _fraction(text: str) -> Fraction:
     """Kept, as reading a number takes longer than reckoning with it."""
-    top, over, bottom = text.partition("/")
-    return Fraction(int(top), int(bottom)) if over else Fraction(text)
+    return Fraction(*map(int, text.split("/"))) if "/" in text else Fraction(text)
 
 
 def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:
