@@ -8,8 +8,6 @@ from lyapcheck.constants.coriolis_chain import coriolis_bound
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.outside import from_distances
 from lyapcheck.constants.storage.bounds import storage_proof
-from lyapcheck.constants.storage.coriolis import coriolis_bound as storage_bound
-from lyapcheck.constants.storage.hinges import hinges
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
@@ -23,20 +21,20 @@ def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Const
         thorough: whether k_c may take a minute; else masses and distances alone bound it.
         gap: relative width that is good enough for k_c.
 
-    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, and
-        for k_c see `lyapcheck.constants.coriolis_chain`, with many joints
-        `lyapcheck.constants.storage.coriolis`.
+    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, or
+        for k_c the lower bound of `lyapcheck.constants.coriolis_chain`.
     """
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
     still = name.startswith("k_g") and inner.value == 0
     shown = storage_proof(chain, name, still=True) if still else None
-    if shown is None and name != "k_c":
+    outer = from_distances(plant, name)
+    if shown is None and (name != "k_c" or thorough or outer is None):
         shown = storage_proof(chain, name)
-    outer = from_distances(plant, name) if shown is None else shown.bound
-    if name == "k_c" and (thorough or outer is None):
-        seen = coriolis_bound(plant, float(inner.value), gap) if inner.value > 0 else None
-        sharper = storage_bound(hinges(chain)[0]) if seen is None else seen
+    if shown is not None:
+        outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
+    if name == "k_c" and thorough and inner.value > 0:
+        sharper = coriolis_bound(plant, float(inner.value), gap)
         outer = min((x for x in (outer, sharper) if x is not None), default=None)
     if outer is None:
         raise argument_error(

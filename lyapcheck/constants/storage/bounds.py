@@ -8,16 +8,17 @@ from fractions import Fraction
 from functools import partial
 
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.constants.storage.coriolis import coriolis_bound
-from lyapcheck.constants.storage.hinges import hinges
+from lyapcheck.constants.storage.motion import coriolis_forms
 from lyapcheck.constants.storage.problem import Problem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.robots.dynamics import Chain
 
-Bound = ChainAbove | ChainBelow | ChainGravityBelow
+Bound = ChainAbove | ChainBelow | ChainGravityBelow | ChainCoriolisBelow
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
+_MARGINS_OF_CORIOLIS = (1e-5, 1e-3)
 _DIGITS = 7
 """Significant digits of a bound; coefficients are kept as the doubles that they are."""
 
@@ -27,7 +28,7 @@ class Shown:
     """A bound as a statement, and its proof."""
 
     statement: Bound
-    proof: StorageForms | NoTorque
+    proof: StorageForms | NoTorque | MotionForms
 
     @property
     def bound(self) -> Fraction:
@@ -45,12 +46,10 @@ def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
     Returns:
         By the name of the constant a function that gives the bound, or ``None`` where none was certified.
 
-    Soundness: what the solver of semidefinite programs says is not relied on; see `storage_proof`, and for
-        k_c `lyapcheck.constants.storage.coriolis`.
+    Soundness: what the solver of semidefinite programs says is not relied on; see `storage_proof`.
     """
-    names = ["lambda_min", "lambda_max", "k_g", *(f"k_g{i + 1}" for i in range(chain.n))]
-    result: dict[str, Callable[[], Fraction | None]] = {name: partial(_bound, chain, name) for name in names}
-    return result | {"k_c": lambda: coriolis_bound(hinges(chain)[0])}
+    names = ["lambda_min", "lambda_max", "k_c", "k_g", *(f"k_g{i + 1}" for i in range(chain.n))]
+    return {name: partial(_bound, chain, name) for name in names}
 
 
 def _bound(chain: Chain, name: str) -> Fraction | None:
@@ -59,10 +58,12 @@ def _bound(chain: Chain, name: str) -> Fraction | None:
 
 
 def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
-    """The best bound of λmin(M), λmax(M), ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
+    """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     ``still`` says that no torque was seen: then it is shown to be 0.
     """
+    if name == "k_c":
+        return _coriolis_proof(chain)
     problem, statement = _question(chain, name)
     if still:
         return _accepted(Shown(statement, NoTorque()))
@@ -75,6 +76,17 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
         kappa = _above(found * (1 + Fraction(problem.sign if found > 0 else -1, 10**8)))
         forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients[0])
         shown = _accepted(Shown(with_end(statement, problem.sign * kappa), StorageForms(forms)))
+        if shown is not None:
+            return shown
+    return None
+
+
+def _coriolis_proof(chain: Chain) -> Shown | None:
+    for margin in _MARGINS_OF_CORIOLIS:
+        forms = coriolis_forms(chain, margin, _above)
+        shown = (
+            None if forms is None else _accepted(Shown(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
+        )
         if shown is not None:
             return shown
     return None
@@ -100,6 +112,8 @@ def _question(chain: Chain, name: str) -> tuple[Problem, Bound]:
 
 def bound_of(chain: Chain, name: str, value: Fraction) -> Bound:
     """The bound of a constant of a chain as a statement: λmin(M) from below, the others from above."""
+    if name == "k_c":
+        return ChainCoriolisBelow(chain.links, value)
     return with_end(_question(chain, name)[1], value)
 
 

@@ -27,6 +27,14 @@ class Blocks:
         self.constants.append(_stacked(constant))
         self.slopes.append({i: _stacked(slope) for i, slope in slopes.items()})
 
+    def at(self, x: Array, block: int) -> Array:
+        """One of the blocks at some x."""
+        stacked = self.constants[block] + sum(x[i] * slope for i, slope in self.slopes[block].items())
+        columns, rows = np.tril_indices(self.sizes[block])
+        result = np.zeros((self.sizes[block],) * 2)
+        result[rows, columns] = result[columns, rows] = stacked / np.where(rows == columns, 1.0, np.sqrt(2.0))
+        return result
+
 
 @dataclass(frozen=True, eq=False)
 class Proposal:

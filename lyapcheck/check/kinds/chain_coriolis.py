@@ -1,0 +1,78 @@
+"""C(q, x) of a chain of links: how large it is at most.
+
+References: ``reyes2019family``, Property 2.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb
+
+from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.kinds.chain import OfLinks
+from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture
+from lyapcheck.check.loop import motion
+from lyapcheck.check.loop.storage import hinges
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import Accepted, rule
+
+
+@dataclass(frozen=True)
+class ChainCoriolisBelow(OfLinks, Bound):
+    """‖C(q, x)y‖ <= high ‖x‖ ‖y‖ for the C of Christoffel symbols, all q, x and y; kg·m².
+
+    That C(q, x)y is bilinear and symmetric in x and y; so is zᵀC(q, x)y for each z, and with it the largest
+    value over unit vectors x, y is taken with y = ± x: ‖C(q, x)x‖ <= high ‖x‖² says the same.
+    """
+
+    high: Fraction
+
+    def require_well_formed(self) -> None:
+        """A chain, and a bound that is not negative."""
+        super().require_well_formed()
+        require(self.high >= 0, "high", self.high, "must not be negative")
+
+    def text(self) -> str:
+        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
+        bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
+        return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
+
+    def excess(self, at: PostureWitness) -> arb:
+        """(2 yᵀC(q, x)x)² − (2 high ‖y‖ ‖x‖²)²."""
+        n = len(self.links)
+        require_posture(at, n, ())
+        require(len(at.x) == len(at.y) == n, "x, y", (len(at.x), len(at.y)), f"must have {n} entries each")
+        q, x, y = ([to_arb(value) for value in part] for part in (at.q, at.x, at.y))
+        turns = [angle.sin() for angle in q], [angle.cos() for angle in q]
+        power = motion.coriolis_power(Algebra(to_arb), hinges(self.links), *turns, y, x)
+        return power**2 - to_arb(4 * self.high**2) * dot(y, y) * dot(x, x) ** 2
+
+
+@dataclass(frozen=True)
+class MotionForms(Proof):
+    """Positive definite matrices of monomials of the motion, see :func:`motion.shows`; untrusted.
+
+    Args:
+        joints: P and Q of the third and each further joint.
+        first: P of the first two joints together.
+    """
+
+    rule = "forms of the motion"
+    joints: tuple[tuple[motion.Gram, motion.Gram], ...]
+    first: motion.Gram
+
+
+@rule(ChainCoriolisBelow, MotionForms)
+def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
+    """Soundness: 2 zᵀC(q, x)x ≤ κ(‖z‖² + ‖x‖⁴) with κ = high; for z along C(q, x)x, ‖z‖ = ‖x‖²."""
+    n = len(statement.links)
+    require(n >= 2, "links", n, "must be two or more")
+    require(len(proof.joints) == n - 2, "joints", len(proof.joints), f"must be {n - 2}, from the third on")
+    shown = motion.shows(hinges(statement.links), statement.high, proof.joints, proof.first)
+    require(shown, "forms", "", "do not show the bound")
+    return Accepted("proved", "enclosure")
