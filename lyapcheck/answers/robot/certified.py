@@ -14,6 +14,7 @@ import numpy as np
 
 from lyapcheck.answers.robot.judged import Answered, Question
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
@@ -48,6 +49,7 @@ MARGINS_OF_MANY = (Fraction(1, 200), Fraction(1, 20))
 """The same for k_c, whose boxes cost more and end in a coarser bound anyway."""
 BITS = 64
 SAMPLES = 4096
+_ABOVE = (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
 
 
@@ -157,7 +159,7 @@ def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certifie
 def _value(statement: Statement) -> Fraction:
     if isinstance(statement, (MassAbove, ChainAbove)):
         return statement.low
-    if isinstance(statement, (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow)):
+    if isinstance(statement, _ABOVE):
         return statement.high
     raise TypeError(f"{type(statement).__name__} is no bound of a constant")
 

@@ -43,14 +43,18 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 
     def excess(self, at: PostureWitness) -> arb:
-        """(2 yᵀC(q, x)x)² − (2 high ‖y‖ ‖x‖²)²."""
+        """‖2 C(q, x)x‖² − (2 high ‖x‖²)²."""
         n = len(self.links)
         require_posture(at, n, ())
-        require(len(at.x) == len(at.y) == n, "x, y", (len(at.x), len(at.y)), f"must have {n} entries each")
-        q, x, y = ([to_arb(value) for value in part] for part in (at.q, at.x, at.y))
+        require(len(at.x) == n and not at.y, "x", len(at.x), f"must have {n} entries, and y none")
+        q, x = ([to_arb(value) for value in part] for part in (at.q, at.x))
         turns = [angle.sin() for angle in q], [angle.cos() for angle in q]
-        power = motion.coriolis_power(Algebra(to_arb), hinges(self.links), *turns, y, x)
-        return power**2 - to_arb(4 * self.high**2) * dot(y, y) * dot(x, x) ** 2
+        chain, of = hinges(self.links), Algebra(to_arb)
+        torques = [
+            motion.coriolis_power(of, chain, *turns, [Fraction(int(i == k)) for k in range(n)], x)
+            for i in range(n)
+        ]
+        return dot(torques, torques) - to_arb(4 * self.high**2) * dot(x, x) ** 2
 
 
 @dataclass(frozen=True)

@@ -148,7 +148,7 @@ def _turning(form: fmpq_mpoly) -> fmpq_mpoly:
     return rate
 
 
-def gram(matrix: Gram, terms: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
+def gram(matrix: Sequence[Vector], terms: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
     """mᵀPm."""
     total = RING.constant(0)
     for i, row in enumerate(matrix):

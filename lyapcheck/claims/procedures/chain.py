@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, shown, still_open
 from lyapcheck.constants.storage import storage_proof
@@ -13,10 +14,10 @@ from lyapcheck.robots.dynamics import Chain
 METHOD = "links"
 
 
-@procedure(ChainBelow, ChainGravityBelow)
-def find_chain_bound(statement: ChainBelow | ChainGravityBelow) -> SearchResult:
+@procedure(ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
+def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBelow) -> SearchResult:
     """The forms of the least bound, which hold for every larger one."""
-    fall, name = tuple([Fraction(0)] * 3), "lambda_max"
+    fall, name = tuple([Fraction(0)] * 3), "k_c" if isinstance(statement, ChainCoriolisBelow) else "lambda_max"
     if isinstance(statement, ChainGravityBelow):
         fall, name = statement.fall, "k_g"
         if len(statement.joints) < len(statement.links):
