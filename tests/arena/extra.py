@@ -27,6 +27,7 @@ from lyapcheck.check.kinds.chain import (
     NoTorque,
     OwnMoments,
 )
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.compared import MovingPosture
 from lyapcheck.check.kinds.coriolis import (
@@ -180,6 +181,10 @@ def of_chains() -> Iterator[Row]:
         yield f"chain-{identity.replace(' ', '-')}", ChainIdentity(LINKS, identity), ByDefinition()
     yield "chain-small", ChainAbove(LINKS, F(1)), PostureWitness(AT, (), (F(-2), F(5)))
     yield "chain-large", ChainBelow(LINKS, F(5)), PostureWitness((F(0), F(0)), (), (F(5), F(2)))
+    shown = storage_proof(chain, "k_c")
+    assert shown is not None
+    yield "chain-k_c", shown.statement, shown.proof
+    yield "chain-coriolis", ChainCoriolisBelow(LINKS, F(1, 10)), PostureWitness(AT, (), (F(1), F(1)))
     yield (
         "chain-torque",
         ChainGravityBelow(LINKS, fall, (1,), F(29, 10)),

@@ -48,6 +48,7 @@ NO_VALUE = ["div", ["num", "1"], ["num", "0"]]
 NO_BOUND: dict[str, tuple[str, Any]] = {
     "MassBelow": ("high", "-1"),
     "CoriolisBelow": ("high", "-1"),
+    "ChainCoriolisBelow": ("high", "-1"),
     "GravityBelow": ("high", "-1"),
     "MassAbove": ("low", "1000000007"),
     "NormBound": ("bound", ["num", "-1"]),

@@ -189,6 +189,7 @@ LARGE = "1000000007"
 TRUE: dict[tuple[str, str], Callable[[Document], bool]] = {
     ("MassBelow", "posture"): _bound("high", LARGE),
     ("CoriolisBelow", "posture"): _bound("high", LARGE),
+    ("ChainCoriolisBelow", "posture"): _bound("high", LARGE),
     ("GravityBelow", "posture"): _bound("high", LARGE),
     ("MassAbove", "posture"): _unit_mass,
     ("Decreasing", "posture"): _unit_mass,
@@ -275,6 +276,18 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("w",), ["1000000008/1000000007"], "a speed just beyond its limit"),
         (("e",), ["2"], "an error beyond its limit"),
         (("viscous",), [LARGE], "a friction out of its range"),
+    ],
+    ("ChainCoriolisBelow", "forms of the motion"): [
+        (("first",), [], "no matrix for the first joints"),
+        (("first", 0, 0), "-1", "a matrix that is not positive definite"),
+        (("first", 0, 0), LARGE, "a form that is not that of the arm"),
+        (("joints",), [[[], []]], "a joint that there is not"),
+    ],
+    ("ChainCoriolisBelow", "posture"): [
+        *NO_POSTURE,
+        (("x",), ["0", "0"], "the vector 0"),
+        (("x",), [], "no vector"),
+        (("y",), ["1", "1"], "a second vector, which is not asked for"),
     ],
     ("DampingBelow", "damping above the bound"): [
         (("factor",), "-1", "a negative factor"),

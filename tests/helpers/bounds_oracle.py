@@ -14,7 +14,8 @@ from scipy.optimize import minimize
 DIGITS = 60
 SAMPLES, CLIMBS = 150, 3
 KINDS = {
-    "MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "ChainAbove", "ChainBelow", "ChainGravityBelow"
+    "MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "ChainAbove", "ChainBelow",
+    "ChainGravityBelow", "ChainCoriolisBelow"
 }  # fmt: skip
 
 
@@ -41,7 +42,7 @@ class Bound:
             g = self._gravity(q, free, number)
             return g @ g - bound**2
         a = a / _root(a @ a)
-        if self.kind == "CoriolisBelow":
+        if "Coriolis" in self.kind:
             # symmetric in its two vectors, ‖C(q, x)y‖ is largest where they are the same
             turned = self._coriolis(q, free, a, number)
             return turned @ turned - bound**2

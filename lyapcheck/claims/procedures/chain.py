@@ -17,7 +17,10 @@ METHOD = "links"
 @procedure(ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBelow) -> SearchResult:
     """The forms of the least bound, which hold for every larger one."""
-    fall, name = tuple([Fraction(0)] * 3), "k_c" if isinstance(statement, ChainCoriolisBelow) else "lambda_max"
+    fall, name = (
+        tuple([Fraction(0)] * 3),
+        "k_c" if isinstance(statement, ChainCoriolisBelow) else "lambda_max",
+    )
     if isinstance(statement, ChainGravityBelow):
         fall, name = statement.fall, "k_g"
         if len(statement.joints) < len(statement.links):
