@@ -1,4 +1,4 @@
-"""k_c along a chain with a certificate: the sum along the links beside C, the bound beside boxes, what must not pass."""
+"""k_c along a chain with a certificate: the power beside C, the bound beside boxes, what must not pass."""
 
 from __future__ import annotations
 
