@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 import errno
+import gc
 import io
 import os
 import select
@@ -49,6 +51,7 @@ def run(words: Sequence[str]) -> int:
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
     _same_bytes_everywhere()
+    atexit.register(gc.freeze)  # a last look for garbage takes longer than the gate to decide
     try:
         _require_output()
         with Stopping():
