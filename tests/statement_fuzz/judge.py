@@ -85,7 +85,7 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
         except TooSlow:
             fault = ""
         except Exception as error:
-            fault = f"the oracle itself fails: {_place(error)}"
+            fault = f"the oracle itself fails: {_place(error)}" if verdict != UNDECIDED else ""
     if verdict == UNDECIDED and fault:
         verdict, fault = FALSE_REFUSED, ""
     return Judged(made, verdict, fault, str(decision.method))
