@@ -16,10 +16,12 @@ from tests.statement_fuzz.oracle import kinds
 from tests.statement_fuzz.oracle.loop import DOUBLES
 from tests.statement_fuzz.oracle.region import Objection
 from tests.statement_fuzz.oracle.resting import resting, rests_there
-from tests.statement_fuzz.oracle.settling import MARGIN, STEP, Motion
+from tests.statement_fuzz.oracle.settling import MARGIN, STEEPEST, STEP, Motion
 
 MOST_STEPS = 1_400
 RESTING_STEPS = 40
+STEEPEST_H = 3
+"""Above h(w)/w of every function that statements are made of."""
 
 
 @kinds.objections_to("StaysWithin")
@@ -77,10 +79,13 @@ def comes_to_rest(statement: Any, random: Random) -> Objection | None:
         return Objection("false", "a posture where M is not positive")
     if not 1e-3 < least < 1e3:
         return None  # too stiff, or too slow, for these steps
+    pairs = zip(statement.viscous, statement.kv, strict=True)
+    damping = STEEPEST + float(max(max(map(abs, ends)) + STEEPEST_H * k for ends, k in pairs))
+    step = min(STEP / 10, least / damping)
     with np.errstate(all="ignore"):
         before = motion.energy()
         for _ in range(RESTING_STEPS):
-            motion.advance(STEP / 10)
+            motion.advance(step)
             now = motion.energy()
             if np.any(now > before * (1 + MARGIN) + 1e-9):
                 return Objection("false", "a motion that gains energy")
