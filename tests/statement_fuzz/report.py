@@ -17,9 +17,9 @@ A program writes statements of the kinds that users write, many of them false or
 and decides them. An oracle that shares no code with lyapcheck looks for a point at which a proved
 statement fails or a term of it is undefined, and replays every counterexample. A fault is: proved with
 such a point, or though false by construction; refuted by a point that is none, or though true by
-construction; an exception. Of statements that stay undecided the oracle says in all runs but the first two which are not
-true. Kinds that begin with `By`, and `Altered`, are proofs put to statements that they were not made for.
-Written by `python -m tests.statement_fuzz`.
+construction; an exception. Where a row counts what is undecided and not true, the oracle was also asked of
+statements that stay undecided. Kinds that begin with `By`, and `Altered`, are proofs put to statements that
+they were not made for. Written by `python -m tests.statement_fuzz`.
 """
 
 
