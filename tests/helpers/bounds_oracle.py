@@ -96,7 +96,7 @@ class Bound:
 
     def _bodies(self, q, number):
         """Mass, inertia and the two Jacobians of each body in the frame of the base."""
-        zero = np.zeros((3, self.n)) * number(0)
+        zero = np.zeros((3, self.n)) * q[0]  # complex where slopes are taken along complex steps
         turn, place, joints = np.eye(3) * number(1), np.zeros(3) * number(0), []
         for i, link in enumerate(self.links):
             read = {
