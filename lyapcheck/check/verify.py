@@ -28,6 +28,8 @@ class Accepted:
 
 Rule = Callable[[Any, Any], Accepted]
 RULES: dict[tuple[type[Statement], type[Proof]], Rule] = {}
+DOUBTS: dict[type[Statement], Callable[[Any], None]] = {}
+"""What looks for faults of the checker in what it is about to prove: it can refuse, and accept nothing."""
 _SHOWN: ContextVar[dict[tuple[Statement, Proof], Accepted] | None] = ContextVar("shown", default=None)
 
 S = TypeVar("S", bound=Statement)
@@ -100,6 +102,8 @@ def _verified(statement: Statement, proof: Proof) -> Accepted:
             accepted = judge(statement, proof)
             if accepted.verdict == "proved":
                 statement.require_defined()
+                if type(statement) in DOUBTS:
+                    DOUBTS[type(statement)](statement)
             return accepted
     except Refused:
         raise

@@ -22,6 +22,8 @@ from lyapcheck.check.limits import Limits
 resource: Any = import_module("resource") if find_spec("resource") else None
 """The limits of a POSIX system; elsewhere there are none."""
 
+DOUBTS = "lyapcheck.rechecking.drawn_entries"
+"""What doubts the checker, beside it: see ``verify.DOUBTS``."""
 RECURSION = 6_000
 """Levels of calls: an expression may be 300 deep, and a level of it takes several calls."""
 SHARE = 8
@@ -38,6 +40,8 @@ def serve(limits: Limits) -> None:
     sys.setrecursionlimit(RECURSION)
     limited = _limit(limits)
     judging = import_module("lyapcheck.check.judging")  # now: it must find room within the limits
+    if find_spec(DOUBTS):
+        import_module(DOUBTS).install()
     _send(answers, {"limited": limited})
     with judging.each_once():
         while line := requests.readline():

@@ -35,6 +35,7 @@ from lyapcheck.claims import (
 )
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
+from lyapcheck.rechecking import drawn_entries
 from tests.helpers.shares import one_in
 
 A, B, S = (any_matrix(name) for name in "ABS")
@@ -313,7 +314,18 @@ def test_words_that_entries_contradict_are_not_proposed(monkeypatch):
     monkeypatch.setattr(searched, "is_zero", lambda tree: True)
     found = searched.find_every_n(statement)
     assert found.proof is None
-    assert "report this" in str(found)
+    assert "words are at fault" in str(found)
+
+
+def test_words_that_entries_contradict_are_refused_where_certificates_are_judged(monkeypatch):
+    """The process that judges has this doubt, beside the rules."""
+    statement = every_n(dot(x, y), dot(x, z))
+    monkeypatch.setattr("lyapcheck.check.kinds.every_n.is_zero", lambda tree: True)
+    monkeypatch.setattr("lyapcheck.check.verify.DOUBTS", {})
+    assert verify(statement, NormalForm()).verdict == "proved"
+    drawn_entries.install()
+    with pytest.raises(Refused, match="words are at fault"):
+        verify(statement, NormalForm())
 
 
 def test_it_is_written_out_for_readers():

@@ -6,10 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lyapcheck.certificate import to_json
+from lyapcheck.certificate import Certificate, to_json
+from lyapcheck.check.certificate import About
 from lyapcheck.check.codec import from_json
+from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, Cover, CoveredTerms, terms_in_words
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.systems.system import minus
@@ -32,6 +35,7 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from tests.helpers.shares import one_in
 
 A, S = any_matrix("A"), any_matrix("S")
@@ -281,11 +285,25 @@ def exchanged(tree, old, new):
 
 def test_covers_that_entries_contradict_are_not_proposed(monkeypatch):
     """Were the words wrong, drawn entries would say so before a proof is handed over."""
-    from lyapcheck.claims.procedures import norm_bounds as searched
-
     statement = TRUE["a diagonal"]
-    assert searched.find_bound_every_n(statement).proof is not None
-    monkeypatch.setattr(searched, "drawn_entries", lambda *about: iter([(1, {}, 1), (2, {}, -1)]))
-    found = searched.find_bound_every_n(statement)
+    assert find_bound_every_n(statement).proof is not None
+    monkeypatch.setattr(
+        "lyapcheck.rechecking.drawn_entries.drawn_entries", lambda *about: iter([(1, {}, 1), (2, {}, -1)])
+    )
+    found = find_bound_every_n(statement)
     assert found.proof is None
     assert "words are at fault" in str(found)
+
+
+def test_the_process_that_judges_draws_entries_too(tmp_path):
+    """A bound whose suppositions nothing meets is true, and still refused."""
+    proof = propose(TRUE["a diagonal"]).proof
+    statement = replace(TRUE["a diagonal"], norms=(*NORMS, ((S.tree,), expr(-1).tree)))
+    assert verify(statement, proof).verdict == "proved"
+    about = About("empty", "nothing is so small", None, None, "own")
+    for name, one in (("good", TRUE["a diagonal"]), ("empty", statement)):
+        certificate = Certificate(about, one, "proved", "exact", proof)
+        (tmp_path / f"{name}.json").write_text(certificate.text(), encoding="utf-8")
+    empty, good = recheck(gather([str(tmp_path)])).checked
+    assert (empty.status, good.status) == ("refused", "accepted")
+    assert "that meet the bounds of the norms were not found" in empty.reason

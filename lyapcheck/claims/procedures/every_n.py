@@ -21,10 +21,10 @@ from lyapcheck.check.kinds.every_n import (
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.procedures.drawn_entries import drawn, signs_at_entries, solved_at
 from lyapcheck.claims.procedures.search import Point, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.rechecking.drawn_entries import doubt_identity, drawn, solved_at
 
 METHOD = "identity for every n"
 SIZES = (1, 2, 3)
@@ -60,11 +60,10 @@ def find_every_n(statement: EveryN) -> SearchResult:
 
 def _proved(statement: EveryN) -> SearchResult:
     """Equal words, unless entries that are drawn say otherwise, or none are found."""
-    for sign in signs_at_entries(statement):
-        if sign is None:
-            return still_open("no entries were found at which both sides can be compared", METHOD)
-        if sign != 0:
-            return still_open("entries make sides differ whose words are equal: report this", METHOD)
+    try:
+        doubt_identity(statement)
+    except Refused as doubt:
+        return still_open(str(doubt), METHOD)
     return shown(NormalForm(), f"{METHOD}: equal normal forms in words of vectors and matrices")
 
 

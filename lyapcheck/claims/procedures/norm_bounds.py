@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from itertools import chain, islice
+from itertools import chain
 
 from flint import arb, ctx
 
@@ -28,18 +28,16 @@ from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.procedures.drawn_entries import drawn_entries
 from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.output.digits import decimals
+from lyapcheck.rechecking.drawn_entries import doubt_bound, drawn_entries
 
 METHOD = "norms for every n"
 TRIES, TRIES_OF_ONE = 40, 1_000
 """How often entries are drawn for each n, and then for n = 1 alone: with one entry each no norms are lost, so
 that a false bound breaks most often there, and a draw takes a millisecond."""
-TRIES_TO_DOUBT, ENOUGH = 400, 4
-"""How often entries are drawn before a proof is handed over, and at how many the bound is evaluated."""
 MOST_SHOWN = 2
 Sizes = dict[tuple[int, ...], arb]
 """A ball for the coefficient of each monomial, by the exponents of all numbers of the statement."""
@@ -64,24 +62,16 @@ def find_bound_every_n(statement: BoundEveryN) -> SearchResult:
         return _against(statement) or still_open(advice, METHOD)
     for chosen in _chosen(options, spare):
         if within(statement, [bound for _, bound in chosen]):
-            if (doubt := _doubt(statement)) is not None:
-                return still_open(doubt, METHOD)
+            try:
+                doubt_bound(statement)
+            except Refused as doubt:
+                return still_open(str(doubt), METHOD)
             proof = CoveredTerms(tuple(cover for cover, _ in chosen))
             return shown(proof, f"{METHOD}: every term within its part of the bound")
     against = _against(statement)
     if against is not None:
         return against
     return still_open(_left_over(statement, result, options, spare), METHOD)
-
-
-def _doubt(statement: BoundEveryN) -> str | None:
-    """Why norms in words are not believed: entries that were drawn say otherwise, or none were found."""
-    signs = [sign for _, _, sign in islice(drawn_entries(statement, TRIES_TO_DOUBT), ENOUGH)]
-    if not signs:
-        return "entries that meet the bounds of the norms were not found"
-    if -1 in signs:
-        return "entries exceed the bound, though its words do not: the words are at fault"
-    return None
 
 
 def _left_over(statement: BoundEveryN, result: list[Term], options: list[list[Option]], spare: Sizes) -> str:

@@ -1,18 +1,21 @@
 """Random exact entries at one n that meet what a statement for every n supposes.
 
 Statements that words prove are evaluated here once more, entry by entry, by arithmetic that shares nothing
-with the words, before a proof is handed over; and where a statement is false, such entries may show it.
+with the words: before a proof is handed over, and whenever one is rechecked. A doubt refuses a proof, and
+accepts none. Where a statement is false, such entries may show it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import islice
 from math import isqrt, prod
 from random import Random
 
 from flint import arb, ctx, fmpq_mat
 
+from lyapcheck.check import verify
 from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, variables
 from lyapcheck.check.kinds import bound_every_n, every_n
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -22,6 +25,7 @@ from lyapcheck.check.letters.entries import compared as exactly_compared
 from lyapcheck.check.letters.grammar import letters as letters_of
 from lyapcheck.check.numbers.enclosure import ball_of
 from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.refusal import require
 
 Point = dict[str, Fraction]
 NEARLY = 1 - Fraction(1, 2**32)
@@ -31,6 +35,8 @@ MOST = 12
 SIZES = (1, 2, 3)
 TRIES = 12
 """How often entries are drawn for each n: some make a matrix singular."""
+TRIES_WITHIN, ENOUGH = 400, 4
+"""How often they are drawn where norms are bounded, and how many that meet the bounds are enough."""
 
 
 def drawn(names: Iterable[str], positive: Iterable[str], random: Random) -> Point:
@@ -227,3 +233,24 @@ def drawn_entries(
                 continue
             if sign is not None:
                 yield n, point, sign
+
+
+def doubt_identity(statement: EveryN) -> None:
+    """Refuse an identity where entries make its sides differ, or where none are found that it speaks of."""
+    for sign in signs_at_entries(statement):
+        require(sign is not None, "entries", "", "at which both sides can be compared were not found")
+        require(sign == 0, "entries", "", "make sides differ whose words are equal: the words are at fault")
+
+
+def doubt_bound(statement: BoundEveryN) -> None:
+    """Refuse a bound that entries exceed, or whose suppositions none are found to meet."""
+    signs = [sign for _, _, sign in islice(drawn_entries(statement, TRIES_WITHIN), ENOUGH)]
+    require(len(signs) > 0, "entries", "", "that meet the bounds of the norms were not found")
+    require(
+        -1 not in signs, "entries", "", "exceed the bound, though its words do not: the words are at fault"
+    )
+
+
+def install() -> None:
+    """Have what the checker proves doubted, in this process."""
+    verify.DOUBTS.update({EveryN: doubt_identity, BoundEveryN: doubt_bound})
