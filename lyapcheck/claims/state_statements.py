@@ -48,6 +48,4 @@ def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:
     Raises:
         Lacking: the gains are for another number of joints, or h is unbounded.
     """
-    base = decreasing(robot, gains, 1)
-    arm = (base.mass, base.viscous, base.parameters)
-    return DampingBelow(*arm, base.family, base.m, base.kp, base.kv, expr(bound).tree)
+    return DampingBelow.about(decreasing(robot, gains, 1).closed_loop, bound=expr(bound).tree)

@@ -7,13 +7,15 @@ beside the bounds have no certificate, and are made anew.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck.certificate import to_json
 from lyapcheck.check.codec import from_json
+from lyapcheck.check.kinds.decreasing import statement_of
+from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.kinds.phases import FallingPhases, StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import FallingLevels, Settling
@@ -126,8 +128,10 @@ class Asked:
             (left, self._begins | vars(self.acting)),
             (resting, {"torque": held, "dry": held}),
         ]
+        whole = statement_of(self.controlled.loop(Fraction(1)))
+        loop = {one.name: getattr(whole, one.name) for one in fields(OfLoop)}
         for pair, known in about:
-            if pair is not None and not (_is_about(pair[0], self._loop | known) and accepted(*pair, jobs)):
+            if pair is not None and not (_is_about(pair[0], loop | known) and accepted(*pair, jobs)):
                 return None
         if settling is not None and max(settling[0].errors) > self.delta:
             return None
@@ -145,13 +149,6 @@ class Asked:
                 resting and AtRest(*resting),
             ),
         )
-
-    @property
-    def _loop(self) -> dict[str, Any]:
-        loop = self.controlled.loop(Fraction(1))
-        own = {"family": loop.family, "m": loop.m, "kp": loop.kp, "kv": loop.kv}
-        arm = {"mass": loop.arm.mass, "viscous": loop.friction, "parameters": loop.parameters}
-        return arm | own
 
     @property
     def _begins(self) -> dict[str, Any]:

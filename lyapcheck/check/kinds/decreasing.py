@@ -162,17 +162,7 @@ def require_rising(statement: Decreasing, proof: StateWitness) -> None:
 
 def statement_of(loop: ClosedLoop) -> Decreasing:
     """What has to be proved of a closed loop."""
-    return Decreasing(
-        mass=loop.arm.mass,
-        viscous=loop.friction,
-        parameters=loop.parameters,
-        family=loop.family,
-        m=loop.m,
-        kp=loop.kp,
-        kv=loop.kv,
-        eps0=loop.eps0,
-        coupling=loop.coupling,
-    )
+    return Decreasing.about(loop, eps0=loop.eps0, coupling=loop.coupling)
 
 
 def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[Ends]) -> None:

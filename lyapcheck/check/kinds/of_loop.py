@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any, Self
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.granted import TORQUE
@@ -82,6 +83,20 @@ class OfLoop(Statement):
         """M(q) ≻ 0 less an inertia, kg·m², at one place of its diagonal, counted from 0."""
         diagonal = tuple(-inertia if i == joint else Fraction(0) for i in range(len(self.mass)))
         return MassAbove(shifted(self.mass, 1, diagonal, len(self.parameters)), self.parameters, Fraction(0))
+
+    @classmethod
+    def about(cls, loop: ClosedLoop, **rest: Any) -> Self:
+        """The statement about the arm and gains of a closed loop, with the other fields of its kind."""
+        return cls(
+            mass=loop.arm.mass,
+            viscous=loop.friction,
+            parameters=loop.parameters,
+            family=loop.family,
+            m=loop.m,
+            kp=loop.kp,
+            kv=loop.kv,
+            **rest,
+        )
 
     def loop(
         self, eps0: Fraction, coupling: tuple[Fraction, ...] = (), within: tuple[Fraction, ...] = ()

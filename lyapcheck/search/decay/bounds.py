@@ -174,14 +174,8 @@ class _Wanted:
             return None
         estimate, loop = Estimate(margin, self.acting), margin.loop
         largest, last = (_short(estimate.reach(level)) for level in (result.envelope[0][1], result.level))
-        statement = Settling(
-            mass=loop.arm.mass,
-            viscous=loop.friction,
-            parameters=loop.parameters,
-            family=loop.family,
-            m=loop.m,
-            kp=loop.kp,
-            kv=loop.kv,
+        statement = Settling.about(
+            loop,
             eps0=loop.eps0,
             torque=self.acting.torque,
             dry=self.acting.dry,

@@ -168,14 +168,8 @@ class Phases:
         n = self.controlled.n
         ends = [(Fraction(0), self.largest), *(phase.envelope[-1] for phase in self.made[:-1])]
         within = [(time, self._kept(level)) for time, level in ends]
-        statement = StaysWithin(
-            mass=loop.arm.mass,
-            viscous=loop.friction,
-            parameters=loop.parameters,
-            family=loop.family,
-            m=loop.m,
-            kp=loop.kp,
-            kv=loop.kv,
+        statement = StaysWithin.about(
+            loop,
             errors_at_start=self.start[0],
             rates_at_start=self.start[1],
             within=(*within, (self.time, (self.goal,) * n)),

@@ -33,9 +33,7 @@ def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence
         return None
     shown = AtRest(Resting(gains.family, gains.m, kp, held, errors), AtBounds())
     if not any(torque):
-        loop = controlled.loop(Fraction(1))
-        arm = loop.arm.mass, loop.friction, loop.parameters
-        whole = ComesToRest(*arm, gains.family, gains.m, kp, tuple(gains.kv), held, errors)
+        whole = ComesToRest.about(controlled.loop(Fraction(1)), dry=held, errors=errors)
         shown = AtRest(whole, EnergyFalls(controlled.inertia_proof))
     return shown if accepted(shown.statement, shown.proof) else None
 
