@@ -19,10 +19,12 @@ from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.constants.storage.bounds import Shown
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.verdicts import Verdict
 from tests.search.test_constants_storage import arm_of
 
 
@@ -127,3 +129,21 @@ def test_one_joint_has_no_such_proof_and_zero_is_refuted_of_two(tmp_path: Path) 
         verify(ChainCoriolisBelow(links, F(0)), replace(at, y=(F(1), F(1))))
     with pytest.raises(Refused):
         verify(ChainCoriolisBelow(links, F(-1)), at)
+
+
+@pytest.mark.parametrize("times", [F(1), F(101, 100), F(2), F(100)])
+def test_any_larger_bound_is_proved(times: F, tmp_path: Path) -> None:
+    statement, _ = shown_for("pelican2", tmp_path)
+    larger = replace(statement, high=statement.high * times)
+    result = propose(larger)
+    assert result.proof is not None
+    assert verify(larger, result.proof).verdict == "proved"
+
+
+def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path: Path) -> None:
+    statement, _ = shown_for("pelican2", tmp_path)
+    smaller = replace(statement, high=statement.high * F(9, 10))
+    result = propose(smaller)
+    assert result.verdict is Verdict.REFUTED
+    assert result.proof is not None
+    assert verify(smaller, result.proof).verdict == "refuted"

@@ -1,4 +1,4 @@
-"""Bounds along a chain of links: storage forms, else the posture at which the bound fails."""
+"""Bounds along a chain of links: forms that show them, else the posture at which the bound fails."""
 
 from __future__ import annotations
 
@@ -6,29 +6,48 @@ from fractions import Fraction
 
 from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage import storage_proof
+from lyapcheck.output.digits import decimals
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.number import Number
+from lyapcheck.robots.plant import Plant
 
 METHOD = "links"
 
 
 @procedure(ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBelow) -> SearchResult:
-    """The forms of the least bound, which hold for every larger one."""
-    fall, name = (
-        tuple([Fraction(0)] * 3),
-        "k_c" if isinstance(statement, ChainCoriolisBelow) else "lambda_max",
-    )
-    if isinstance(statement, ChainGravityBelow):
-        fall, name = statement.fall, "k_g"
+    """The posture at which local searches end, where it breaks the bound; else forms that show it."""
+    chain, name = Chain(statement.links, (Fraction(0),) * 3), "lambda_max"
+    if isinstance(statement, ChainCoriolisBelow):
+        name = "k_c"
+    elif isinstance(statement, ChainGravityBelow):
+        chain, name = Chain(statement.links, statement.fall), "k_g"
         if len(statement.joints) < len(statement.links):
             if len(statement.joints) > 1:
                 return still_open("bounds are looked for of one torque or of all", METHOD)
             name = f"k_g{statement.joints[0]}"
-    result = storage_proof(Chain(statement.links, fall), name)
+    joints = tuple(f"joint {i + 1}" for i in range(chain.n))
+    reached = extreme(
+        Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n), name
+    )
+    if reached.value > statement.high:
+        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(reached.q)}
+        point |= {f"x{i + 1}": str(x) for i, x in enumerate(reached.x)}
+        left, right = (list(decimals(Enclosure.exact(x), 12)) for x in (reached.value, statement.high))
+        witness = {"point": point, "left": left, "operator": "<=", "right": right}
+        return broken(PostureWitness(reached.q, (), reached.x), f"{METHOD}: a posture", witness)
+    result = storage_proof(chain, name, high=statement.high)
     if result is None or result.bound > statement.high:
         least = "none" if result is None else f"{float(result.bound):.6g}"
-        return still_open(f"the least bound that storage forms show is {least}; take a larger one", METHOD)
+        return still_open(
+            f"{float(reached.value):.6g} is reached, and the least bound that forms show is {least}; take a "
+            "larger one",
+            METHOD,
+        )
     return shown(result.proof, f"{METHOD}: {result.proof.rule}")

@@ -57,13 +57,19 @@ def _bound(chain: Chain, name: str) -> Fraction | None:
     return None if shown is None else shown.bound
 
 
-def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
+def storage_proof(
+    chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)
+) -> Shown | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
-    ``still`` says that no torque was seen: then it is shown to be 0.
+    Args:
+        chain: the arm.
+        name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
+        still: no torque was seen: then it is shown to be 0.
+        high: of k_c, whose forms show one bound alone: where the best one is smaller, this one is shown.
     """
     if name == "k_c":
-        return _coriolis_proof(chain)
+        return _coriolis_proof(chain, high)
     problem, statement = _question(chain, name)
     if still:
         return _accepted(Shown(statement, NoTorque()))
@@ -81,9 +87,9 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> Shown | None:
     return None
 
 
-def _coriolis_proof(chain: Chain) -> Shown | None:
+def _coriolis_proof(chain: Chain, high: Fraction) -> Shown | None:
     for margin in _MARGINS_OF_CORIOLIS:
-        forms = coriolis_forms(chain, margin, _above)
+        forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)))
         shown = (
             None if forms is None else _accepted(Shown(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
         )
