@@ -57,9 +57,7 @@ def _bound(chain: Chain, name: str) -> Fraction | None:
     return None if shown is None else shown.bound
 
 
-def storage_proof(
-    chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)
-) -> Shown | None:
+def storage_proof(chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)) -> Shown | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     Args:
