@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck.files.decimals import significant_down
-from lyapcheck.report.model import Data
+from lyapcheck.report.map_cell import MapCell
+from lyapcheck.report.plain import read
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
@@ -30,10 +31,49 @@ BOXES = 30_000
 DIGITS = 3
 
 
+@dataclass(frozen=True)
+class StartGains:
+    """A gain set to start from, N·m."""
+
+    name: str
+    m: int | None
+    kp: tuple[float, ...]
+    kv: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Numbers in floating point for the script of the page.
+
+    Args:
+        viscous: of B, (n,), N·m·s/rad.
+        torque: limits, (n,), N·m; none without.
+        gravity: bounds of |g_i|, (n,), N·m.
+        posture: the same angle of all joints, rad.
+        mass: M_ii at each posture, kg·m².
+        gamma: γ_m for m = 1, 2, …
+        goal: the step of each joint, rad.
+        sets: to start from.
+        map: over m and k_v.
+    """
+
+    robot: str
+    joints: tuple[str, ...]
+    viscous: tuple[float, ...]
+    torque: tuple[float | None, ...]
+    gravity: tuple[float, ...]
+    posture: tuple[float, ...]
+    mass: tuple[tuple[float, ...], ...]
+    gamma: tuple[float, ...]
+    goal: tuple[float, ...]
+    sets: tuple[StartGains, ...]
+    map: tuple[MapCell, ...]
+
+
 def bench(
-    model: RobotModel, sets: Sequence[GainSet], goal: Sequence[float], cells: Sequence[Data]
-) -> dict[str, Any]:
-    """Plain data for the page.
+    model: RobotModel, sets: Sequence[GainSet], goal: Sequence[float], cells: Sequence[MapCell]
+) -> Bench:
+    """What the page needs.
 
     Args:
         model: the arm.
@@ -51,29 +91,33 @@ def bench(
     posture = np.linspace(0.0, np.pi, POSTURES)
     mass = NumericModel(model).mass(np.repeat(posture[:, None], model.n, axis=1))
     gammas = [hyperbolic(m).constants().gamma for m in range(1, MOST + 1)]
-    return {
-        "robot": model.name,
-        "joints": list(model.joints),
-        "viscous": [float(number.value) for number in model.viscous],
-        "torque": [None if one is None else float(one) for one in limits.torque],
-        "gravity": [float(f"{float(one):.6g}") for one in limits.gravity],
-        "posture": [float(f"{x:.6g}") for x in posture],
-        "mass": [[float(f"{x:.6g}") for x in np.diag(one)] for one in mass],
-        "gamma": [float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None],
-        "goal": [float(f"{x:.6g}") for x in goal],
-        "sets": [
-            {"name": one.name, "m": one.m, "kp": [float(k) for k in one.kp], "kv": [float(k) for k in one.kv]}
-            for one in sets
-        ],
-        "map": list(cells),
-    }
+    starts = (
+        StartGains(one.name, one.m, tuple(map(float, one.kp)), tuple(map(float, one.kv))) for one in sets
+    )
+    return Bench(
+        robot=model.name,
+        joints=model.joints,
+        viscous=tuple(float(number.value) for number in model.viscous),
+        torque=tuple(None if one is None else float(one) for one in limits.torque),
+        gravity=_short(limits.gravity),
+        posture=_short(posture),
+        mass=tuple(_short(np.diag(one)) for one in mass),
+        gamma=tuple(float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None),
+        goal=_short(goal),
+        sets=tuple(starts),
+        map=tuple(cells),
+    )
+
+
+def _short(values: Iterable[float | Fraction]) -> tuple[float, ...]:
+    return tuple(float(f"{float(x):.6g}") for x in values)
 
 
 @dataclass(frozen=True)
-class Cell:
-    """A place of the map: what the page shows, and the text of the certificate of its ε₀ if one is proved."""
+class JudgedCell:
+    """A place of the map, and the text of the certificate of its ε₀ if one is proved."""
 
-    data: Data
+    cell: MapCell
     certificate: str | None
 
 
@@ -82,7 +126,7 @@ def gain_map(
     sets: Mapping[int, GainSet],
     goal: Sequence[float],
     scales: Sequence[str] = SCALES,
-) -> list[Cell]:
+) -> list[JudgedCell]:
     """For each m and k_v the ε₀ that is proved, and what the reference simulation does.
 
     Args:
@@ -94,19 +138,14 @@ def gain_map(
     return [cell for _, one in sorted(sets.items()) for cell in _row(model, one, scales, goal)]
 
 
-def map_path(cell: Data) -> str:
-    """Where the certificate of a place stands in a report."""
-    return f"certificates/map/m{cell['m']}.kv{cell['kv']}.json"
-
-
-def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[float]) -> list[Cell]:
+def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[float]) -> list[JudgedCell]:
     """The places of one m: what is proved for a k_v serves smaller ones that have no larger ε₀ of their own.
 
     So one tree of boxes is judged for many places.
     """
     from lyapcheck.answers.epsilon import epsilon
 
-    cells: list[Cell] = []
+    cells: list[JudgedCell] = []
     served: EpsilonProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
@@ -124,7 +163,7 @@ def _digits(result: EpsilonResult) -> Fraction:
     return Fraction(0) if result.certified is None else Fraction(map_eps0(result.certified))
 
 
-def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence[float]) -> Cell:
+def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence[float]) -> JudgedCell:
     from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.simulate.closed_loop import simulate
 
@@ -134,16 +173,19 @@ def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence
     settling = max(times) if all(map(math.isfinite, times)) else None
     peaks = zip(run.peak_torque, model.torque_limit, strict=True)
     shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
-    data = {
-        "m": gains.m,
-        "kv": f"{float(kv):g}",
-        "eps0": None if result.certified is None else map_eps0(result.certified),
-        "settling": None if settling is None else float(f"{settling:.{DIGITS}g}"),
-        "share": float(f"{max(shares):.{DIGITS}g}") if shares else None,
-        "within_19": result.published is not None,
-    }
+    assert gains.m is not None
+    cell = MapCell(
+        m=gains.m,
+        kv=f"{float(kv):g}",
+        eps0=None if result.certified is None else map_eps0(result.certified),
+        settling=None if settling is None else float(f"{settling:.{DIGITS}g}"),
+        share=float(f"{max(shares):.{DIGITS}g}") if shares else None,
+        within_19=result.published is not None,
+    )
     made = certificates(result).items()
-    return Cell(data, next((one.text() for name, one in made if name.endswith(".certified.json")), None))
+    return JudgedCell(
+        cell, next((one.text() for name, one in made if name.endswith(".certified.json")), None)
+    )
 
 
 def map_eps0(value: Fraction) -> str:
@@ -151,7 +193,7 @@ def map_eps0(value: Fraction) -> str:
     return f"{float(significant_down(value, DIGITS)):.{DIGITS}g}"
 
 
-def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[Cell]:
+def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]:
     """The map of the paper's arm as the study wrote it, where the checker accepts what it rests on.
 
     None for another arm or K_p; as of all gains, no ε₀ is shown that is not proved.
@@ -164,20 +206,20 @@ def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[Cell]:
     from lyapcheck.report.experiment import arm_digest, study_file
 
     path = study_file("gain_map")
-    result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    result = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     if not result or result["arm"] != arm_digest(model):
         return []
-    texts = result["certificates"]
-    cells = [Cell(data, texts.get(map_path(data))) for data in result["map"] if data["m"] in sets]
+    places = [read(MapCell, data) for data in result["map"] if data["m"] in sets]
+    cells = [JudgedCell(place, result["certificates"].get(place.path)) for place in places]
     holds = all(
-        holds_of(one.data, one.certificate, model, sets)
+        holds_of(one.cell, one.certificate, model, sets)
         and (one.certificate is None or judged(one.certificate.encode()).verdict == "proved")
         for one in cells
     )
     return cells if holds else []
 
 
-def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str, Certificate]:
+def for_the_sets(cells: Sequence[JudgedCell], sets: Mapping[int, GainSet]) -> dict[str, Certificate]:
     """By names of gain sets the ε₀ that the map proves with a larger k_v: no tree of boxes is judged twice.
 
     Args:
@@ -191,11 +233,11 @@ def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str
     from lyapcheck.check.refusal import Refused
 
     result: dict[str, Certificate] = {}
-    for cell in cells:
-        one = sets[cell.data["m"]]
-        if cell.certificate is None or one.name in result:
+    for judged_cell in cells:
+        one = sets[judged_cell.cell.m]
+        if judged_cell.certificate is None or one.name in result:
             continue
-        of_cell, _ = certificate_of(cell.certificate.encode())
+        of_cell, _ = certificate_of(judged_cell.certificate.encode())
         stated, proof = of_cell.statement, of_cell.proof
         if isinstance(stated, Decreasing) and isinstance(proof, PositiveAndDecreasing):
             for_set = replace(of_cell, statement=replace(stated, kv=one.kv), proof=LargerKv(stated.kv, proof))
@@ -205,18 +247,18 @@ def for_the_sets(cells: Sequence[Cell], sets: Mapping[int, GainSet]) -> dict[str
     return result
 
 
-def holds_of(cell: Data, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
+def holds_of(cell: MapCell, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
     """Whether a certificate, if it is one, is of the ε₀ that a place shows, for this arm and these gains."""
     from lyapcheck.certificate import to_json
     from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.controlled_arm import ControlledArm
 
-    if certificate is None or cell["m"] not in sets:
-        return cell["eps0"] is None
+    if certificate is None or cell.m not in sets:
+        return cell.eps0 is None
     stated = json.loads(certificate)["statement"]
     eps0 = Fraction(stated["eps0"])
-    loop = ControlledArm(_at(sets[cell["m"]], Fraction(cell["kv"]), model), model).loop(eps0)
-    return bool(map_eps0(eps0) == cell["eps0"] and to_json(statement_of(loop)) == stated)
+    loop = ControlledArm(_at(sets[cell.m], Fraction(cell.kv), model), model).loop(eps0)
+    return bool(map_eps0(eps0) == cell.eps0 and to_json(statement_of(loop)) == stated)
 
 
 def _at(one: GainSet, kv: Fraction, model: RobotModel) -> GainSet:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.report.compute import compute
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.model import Data, Report
+from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.subject import Subject
 
 if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.answers.gate import GateAnswer
 
 PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
 
@@ -31,10 +31,13 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
     Soundness: every verdict is the one of the command of the same name.
     """
+    from lyapcheck.answers.table import build_table
+    from lyapcheck.report.bench import bench
+    from lyapcheck.report.jobs import goal_of
     from lyapcheck.robots import load
 
     model, notes = load(subject.robot), published_notes()
-    gate = tuple(_gate(subject))
+    gate = _gate(subject)
     result = compute(subject, notes, gate, on_progress or silent)
     if subject.own:
         weighed = own_findings(gate, result.epsilon, result.claims)
@@ -43,9 +46,9 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     return Report(
         notes=notes,
         own=subject.own,
-        robot=_robot(model),
+        robot=model,
         ms=subject.ms,
-        table=tuple(_table(subject.ms)),
+        table=build_table(subject.ms),
         gate=gate,
         epsilon=result.epsilon,
         claims=result.claims,
@@ -53,7 +56,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         runs=result.runs,
         sensitivity=result.sensitivity,
         findings=weighed,
-        bench=_bench(subject, model, result.cells),
+        bench=bench(model, tuple(subject.of_family.values()), goal_of(model), result.cells),
         figures=dict(sorted(result.figures.items())),
         certificates=dict(sorted(result.certificates.items())),
         versions={name: version(name) for name in PACKAGES},
@@ -61,36 +64,13 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     )
 
 
-def _bench(subject: Subject, model: RobotModel, cells: Sequence[Data]) -> Data:
-    from lyapcheck.report.bench import bench
-    from lyapcheck.report.jobs import goal_of
+def _gate(subject: Subject) -> GateAnswer:
+    """What the gate says of the gain sets that the report is about, with the names of their files alone."""
+    from lyapcheck.answers.gate import GateAnswer, gate
 
-    return bench(model, tuple(subject.of_family.values()), goal_of(model), cells)
-
-
-def _gate(subject: Subject) -> list[Data]:
-    from lyapcheck.answers.gate import gate
-
-    result = [gate(file, subject.robot).data() for file in subject.gain_files]
-    rows = [row for data in result for row in data["results"] if row["m"] is None or row["m"] in subject.ms]
-    return [{**row, "file": row["file"].rsplit("/", 1)[-1]} for row in rows]
-
-
-def _table(ms: Sequence[int]) -> list[Data]:
-    from lyapcheck.answers.table import build_table
-
-    rows: list[Data] = build_table(ms).data()["rows"]
-    return rows
-
-
-def _robot(model: RobotModel) -> Data:
-    return {
-        "name": model.name,
-        "title": model.title,
-        "joints": list(model.joints),
-        "numbers": [
-            {"name": name, "value": str(number.value), "unit": number.unit, "source": number.source}
-            for name, number in model.numbers.items()
-        ],
-        "assumptions": list(model.assumptions),
-    }
+    results = [result for file in subject.gain_files for result in gate(file, subject.robot)]
+    return GateAnswer(
+        replace(result, file=replace(result.file, path=result.file.path.rsplit("/", 1)[-1]))
+        for result in results
+        if result.m is None or result.m in subject.ms
+    )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.report.plain import read
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -52,34 +53,16 @@ class ClaimRow:
     @classmethod
     def of(cls, claim: ClaimResult, result: ProofResult, path: str | None, digest: str | None) -> ClaimRow:
         """A claim of a proof, with the path and the digest of its certificate if it has one."""
-        return cls.read(
-            {
-                **claim.data(),
-                "proof": result.name,
-                "title": result.title,
-                "details": [claim.words, *claim.support],
-                "certificate": path,
-                "digest": digest,
-                "rules": claim.decision.rules,
-                "granted": claim.decision.granted,
-            }
-        )
-
-    @classmethod
-    def read(cls, data: Mapping[str, Any]) -> ClaimRow:
-        """What `data` returned.
-
-        Raises:
-            TypeError, ValueError: it has another form.
-        """
-        lists = {one.name: tuple(data[one.name]) for one in fields(cls) if one.type == "tuple[str, ...]"}
-        return cls(**{**data, **lists, "verdict": Verdict(data["verdict"])})
-
-    def data(self) -> dict[str, Any]:
-        """The fields by their names."""
-        return {
-            name: list(value) if isinstance(value, tuple) else value for name, value in vars(self).items()
+        own = {
+            "proof": result.name,
+            "title": result.title,
+            "details": [claim.words, *claim.support],
+            "certificate": path,
+            "digest": digest,
+            "rules": claim.decision.rules,
+            "granted": claim.decision.granted,
         }
+        return read(cls, claim.data() | own)
 
     @property
     def decided(self) -> bool:

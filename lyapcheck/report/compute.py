@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.processes import main_unnamed
-from lyapcheck.report.bench import map_path
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
@@ -29,11 +28,12 @@ from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
 from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.report.kept import question, read, written
-from lyapcheck.report.model import Data, behind
+from lyapcheck.report.model import behind
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.report.figures.plot import Files
     from lyapcheck.report.jobs import MapData, ProofsData
     from lyapcheck.report.notes import Notes
@@ -44,7 +44,7 @@ Job = Future[Any]
 WORKERS = 2
 
 
-def compute(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Progress) -> Computed:
+def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
     """The long computations, from the store if all that they decided is decided so again.
 
     Args:
@@ -61,7 +61,7 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     return result
 
 
-def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Progress) -> Computed:
+def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
     """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
@@ -74,12 +74,12 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
     mapped: MapData = jobs.map.result()
     parts = [with_the_map(job.result(), mapped.for_sets) for job in jobs.sets]
     proofs: ProofsData = jobs.proofs.result()
-    epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.facts for part in parts)
+    epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs.proofs), *(part.certificates for part in parts)]:
         certificates |= made
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
-    certificates |= {map_path(one.data): one.certificate for one in mapped.cells if one.certificate}
+    certificates |= {one.cell.path: one.certificate for one in mapped.cells if one.certificate}
     rows = tuple(row for part in proofs.proofs for row in part.rows)
     if subject.own:
         needed = {proof: _behind_own(proof, rows, notes) for proof in {row.proof for row in rows}}
@@ -94,7 +94,7 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[Data], progress: Prog
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
-        cells=[one.data for one in mapped.cells],
+        cells=tuple(one.cell for one in mapped.cells),
         figures=figures,
         certificates=certificates,
     )

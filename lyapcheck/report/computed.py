@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Data, Witness
+from lyapcheck.report.gain_rows import EpsilonRow, RunRow
+from lyapcheck.report.map_cell import MapCell
+from lyapcheck.report.model import Witness
+from lyapcheck.report.study import StudyRow
 
 
 @dataclass(frozen=True)
@@ -16,9 +19,9 @@ class Computed:
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
     small: Mapping[str, Witness]
-    epsilon: tuple[Data, ...]
-    runs: tuple[Data, ...]
-    sensitivity: Data | None
-    cells: Sequence[Data]
+    epsilon: tuple[EpsilonRow, ...]
+    runs: tuple[RunRow, ...]
+    sensitivity: StudyRow | None
+    cells: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes]
     certificates: Mapping[str, str]

@@ -10,7 +10,8 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
-from lyapcheck.report.model import WEIGHTS, Data, Finding, Report, Witness
+from lyapcheck.report.model import WEIGHTS, Finding, Report, Witness
+from lyapcheck.report.plain import plain
 from lyapcheck.report.text import (
     SYMBOLS,
     and_list,
@@ -20,6 +21,7 @@ from lyapcheck.report.text import (
     span_words,
 )
 from lyapcheck.report.verdict import badges, chain, route, sentences
+from lyapcheck.robots import RobotModel
 
 
 class ReportAnswer(Answer):
@@ -39,7 +41,7 @@ class ReportAnswer(Answer):
     def document(self) -> Document:
         """The verdict, findings by weight, ε₀; then, as an appendix, everything else."""
         report = self.report
-        subject = f"gains on {report.robot['name']}" if report.own else report.notes.paper.title
+        subject = f"gains on {report.robot.name}" if report.own else report.notes.paper.title
         blocks = (
             *_front(report),
             *_findings(report),
@@ -57,33 +59,41 @@ class ReportAnswer(Answer):
             "m": list(report.ms),
             "own": report.own,
             "paper": None if report.own else report.notes.paper.citation,
-            "robot": report.robot,
+            "robot": _robot(report.robot),
             "verdict": [{"subject": b.subject, "word": b.word, "tone": b.tone} for b in badges(report)],
             "sentences": list(sentences(report)),
             "counts": report.counts(),
-            "findings": [_finding_data(finding) for finding in report.findings],
-            "table": list(report.table),
-            "gate": list(report.gate),
-            "epsilon": list(report.epsilon),
-            "claims": [row.data() for row in report.claims],
-            "others": [row.data() for row in report.others],
-            "runs": list(report.runs),
-            "sensitivity": report.sensitivity,
+            "findings": [plain(finding) for finding in report.findings],
+            "table": report.table.data()["rows"],
+            "gate": report.gate.data()["results"],
+            "epsilon": [plain(row) for row in report.epsilon],
+            "claims": [plain(row) for row in report.claims],
+            "others": [plain(row) for row in report.others],
+            "runs": [plain(row) for row in report.runs],
+            "sensitivity": report.sensitivity and plain(report.sensitivity),
             "figures": sorted(report.figures),
             "certificates": sorted(report.certificates),
             "software": dict(report.versions),
             "seed": report.seed,
         }
 
-    def records(self) -> Sequence[Data]:
+    def records(self) -> Sequence[dict[str, Any]]:
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
         return [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
 
 
-def _finding_data(finding: Finding) -> dict[str, Any]:
-    result = {**vars(finding), "claims": list(finding.claims), "ms": list(finding.ms)}
-    return result | {"witness": vars(finding.witness) if finding.witness else None}
+def _robot(model: RobotModel) -> dict[str, Any]:
+    return {
+        "name": model.name,
+        "title": model.title,
+        "joints": list(model.joints),
+        "numbers": [
+            {"name": name, "value": str(number.value), "unit": number.unit, "source": number.source}
+            for name, number in model.numbers.items()
+        ],
+        "assumptions": list(model.assumptions),
+    }
 
 
 def _front(report: Report) -> Iterator[Block]:

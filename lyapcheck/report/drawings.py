@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lyapcheck.report.model import Data
+from lyapcheck.report.gain_rows import KINDS
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.jobs import GainData
-
-KINDS = ("published", "scalar", "certified", "falsified")
+    from lyapcheck.report.study import StudyRow
 
 
 def draw_family(ms: Sequence[int]) -> Files:
@@ -44,10 +45,10 @@ def draw_set(data: GainData) -> Files:
     from lyapcheck.report.figures.plot import Plot
 
     run = data.run
-    facts, name, joints = run.facts, file_stem(run.facts["name"]), run.facts["joints"]
-    label = facts["name"] if facts["m"] is None else f"{facts['name']} (m = {facts['m']})"
+    row, name, joints = run.row, file_stem(run.row.name), run.row.joints
+    label = row.name if row.m is None else f"{row.name} (m = {row.m})"
     errors = draw_errors(label, run.t, run.e, joints)
-    torques = draw_torques(label, run.t, run.tau, joints, facts["torque_limit"])
+    torques = draw_torques(label, run.t, run.tau, joints, row.torque_limit)
     falling = draw_lyapunov(label, run.t, run.V, run.dV)
     e, tau = (["t [s]", *(f"{joint} [{unit}]" for joint in joints)] for unit in ("deg", "N·m"))
     return {
@@ -59,56 +60,58 @@ def draw_set(data: GainData) -> Files:
     }
 
 
-def draw_comparisons(epsilon: Sequence[Data], runs: Sequence[Data], sensitivity: Data | None) -> Files:
+def draw_comparisons(
+    epsilon: Sequence[EpsilonRow], runs: Sequence[RunRow], sensitivity: StudyRow | None
+) -> Files:
     """Gain sets side by side; a comparison that has nothing to compare is left out."""
     from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
 
     figures: Files = {}
     if runs:
-        figures |= indices_plot([run["name"] for run in runs], _indices(runs, sensitivity)).files("indices")
-    known = [row for row in epsilon if any(row[kind] is not None for kind in KINDS)]
+        figures |= indices_plot([run.name for run in runs], _indices(runs, sensitivity)).files("indices")
+    known = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
     if known:
-        values = {kind: [_float(row[kind]) for row in known] for kind in KINDS}
-        figures |= epsilon_plot([row["name"] for row in known], values).files("epsilon")
+        values = {kind: [_float(row.eps0(kind)) for row in known] for kind in KINDS}
+        figures |= epsilon_plot([row.name for row in known], values).files("epsilon")
     return figures
 
 
-def draw_damping(gate: Sequence[Data]) -> Files:
+def draw_damping(gate: Sequence[GateResult]) -> Files:
     """Condition (19) of each gain set to which it applies; nothing where it applies to none."""
     from lyapcheck.report.figures.bars import damping_plot
 
     rows = {}
     for result in gate:
-        checks = [check for check in result["checks"] if check["id"] == "19" and check["limit"]]
-        if checks:
-            largest = max(float(check["value"]) for check in checks)
-            rows[result["name"]] = largest, float(checks[0]["limit"]["lower"])
+        checks = [check for check in result.checks if check.id == "19"]
+        admitted = [float(check.limit.lower) for check in checks if check.limit is not None]
+        if admitted:
+            rows[result.name] = max(float(check.value or 0) for check in checks), admitted[0]
     if not rows:
         return {}
     values, limits = zip(*rows.values(), strict=True)
     return damping_plot(list(rows), values, limits).files("damping")
 
 
-def draw_sensitivity(study: Data | None) -> Files:
+def draw_sensitivity(study: StudyRow | None) -> Files:
     """The printed numbers beside the spread, and what each assumption does alone; nothing without a study."""
     from lyapcheck.report.figures.sensitivity import alone_plot, spread_plot
 
     if study is None:
         return {}
-    words = {one["name"]: one["words"] for one in study["assumed"]}
+    words = {one.name: one.words for one in study.assumed}
     return {
-        **spread_plot(study["sets"]).files("spread"),
-        **alone_plot(study["sets"], words).files("assumptions"),
+        **spread_plot(study.sets).files("spread"),
+        **alone_plot(study.sets, words).files("assumptions"),
     }
 
 
-def _indices(runs: Sequence[Data], sensitivity: Data | None) -> dict[str, list[float | None]]:
+def _indices(runs: Sequence[RunRow], sensitivity: StudyRow | None) -> dict[str, list[float | None]]:
     """The L2 index of each run by where it is from; a source without any number is left out."""
-    bench = {one["name"]: one["numbers"][0]["nominal"] for one in (sensitivity or {"sets": ()})["sets"]}
+    bench = {one.name: one.numbers[0].nominal for one in (sensitivity.sets if sensitivity else ())}
     bars = {
-        "simulation of (11)": [run["L2"] for run in runs],
-        "bench with dry friction": [bench.get(run["name"]) for run in runs],
-        "measured in the paper": [run["printed"]["L2"] if run["printed"] else None for run in runs],
+        "simulation of (11)": [run.L2 for run in runs],
+        "bench with dry friction": [bench.get(run.name) for run in runs],
+        "measured in the paper": [run.printed.L2 if run.printed else None for run in runs],
     }
     return {source: values for source, values in bars.items() if any(value is not None for value in values)}
 

@@ -6,11 +6,16 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
+from lyapcheck.answers.gate.answer import DIGITS, MARGIN_DIGITS
+from lyapcheck.answers.gate.words import joint_name, largest_text, limit_ends, margin_text, value_text
 from lyapcheck.answers.tune.effect import Effect, effect_section
 from lyapcheck.kernel.record import GRADE
+from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.model import Data, Report, applies
+from lyapcheck.report.gain_rows import KINDS, RunRow
+from lyapcheck.report.model import Report, applies
+from lyapcheck.report.study import StudyRow
 from lyapcheck.report.text import SYMBOLS, bracket, fixed, joined, number
 from lyapcheck.report.words import (
     answer_cell,
@@ -33,8 +38,9 @@ def figure(report: Report, name: str, caption: str) -> Iterator[Figure]:
 
 def four_epsilons(report: Report) -> Iterator[Block]:
     """The four ε₀ of each gain set, why one is missing, and their drawing."""
-    kinds = ("published", "scalar", "certified", "falsified", "ratio")
-    rows = tuple((row["name"], *(row[kind] or "–" for kind in kinds)) for row in report.epsilon)
+    rows = tuple(
+        (row.name, *(row.eps0(kind) or "–" for kind in KINDS), row.ratio or "–") for row in report.epsilon
+    )
     heads = ("gains", "published (18)", "scalar", "certified", "falsified", "certified/falsified")
     yield Table(
         heads,
@@ -42,7 +48,7 @@ def four_epsilons(report: Report) -> Iterator[Block]:
         "Published: the end of (18). Scalar: from two norms. Certified: proved on this arm at every state. "
         "Falsified: a state with dV/dt > 0 is known. Certified ≤ true ≤ falsified; rounded to the safe side.",
     )
-    missing = [(row["name"], kind, text) for row in report.epsilon for kind, text in row["reasons"].items()]
+    missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
     if missing:
         yield Bullets(tuple(f"{name}, no {kind} ε₀: {text}" for name, kind, text in missing))
     yield from figure(report, "epsilon", "The four ε₀ of each gain set")
@@ -61,13 +67,11 @@ def evidence(report: Report) -> Iterator[Section]:
 def _constants(report: Report) -> Iterator[Block]:
     rows = tuple(
         (
-            str(row["m"]),
-            bracket(row["gamma"]),
-            bracket(row["rho"]),
-            bracket(row["L"]),
-            bracket(row["gamma_at"], 8) if row["gamma_at"] else "∞",
+            str(row.m),
+            *(bracket(decimals(value, report.table.digits)) for value in (row.gamma, row.rho, row.L)),
+            bracket(decimals(row.gamma_at, report.table.digits), 8) if row.gamma_at is not None else "∞",
         )
-        for row in report.table
+        for row in report.table.rows
     )
     caption = "γ = sup h, ρ = sup |h′|, L = sup h(x)/x: certified, digits cut off, all correct."
     yield Table(("m", "γ", "ρ", "L", "x of γ"), rows, caption)
@@ -77,34 +81,34 @@ def _constants(report: Report) -> Iterator[Block]:
 def _gate(report: Report) -> Iterator[Block]:
     for result in report.gate:
         if not applies(result):
-            yield Paragraph(f"{result['name']}: without a bound γ of h the conditions do not apply.")
+            yield Paragraph(f"{result.name}: without a bound γ of h the conditions do not apply.")
             continue
         rows = tuple(
             (
-                f"({check['id']}){'' if check['id'] in result['deciding'] else ' does not decide'}",
-                check["joint"] or "all",
-                f"{SYMBOLS[check['verdict']]} {check['verdict']}",
-                check["value"],
-                bracket(check["limit"], 7),
-                number(check["margin"], 4),
-                check["largest_admissible"] or "none",
+                f"({check.id}){'' if check.id in result.deciding else ' does not decide'}",
+                joint_name(result, check),
+                f"{SYMBOLS[check.verdict]} {check.verdict}",
+                value_text(check),
+                bracket(None if check.limit is None else limit_ends(check.limit, DIGITS), 7),
+                number(margin_text(check, MARGIN_DIGITS) or None, 4),
+                largest_text(check),
             )
-            for check in result["checks"]
+            for check in result.checks
         )
         heads = ("condition", "joint", "verdict", "value", "limit", "margin", "largest admissible")
-        yield Table(heads, rows, f"{result['name']}: {result['verdict']}", align="lllrrrr", keys=2)
+        yield Table(heads, rows, f"{result.name}: {result.verdict}", align="lllrrrr", keys=2)
 
 
 def _runs(report: Report) -> Iterator[Block]:
     rows = tuple(
         (
-            row["name"],
-            fixed(row["L2"], 3),
-            fixed(row["printed"]["L2"], 3) if row["printed"] else "–",
-            joined(row["settling"]),
-            joined(row["overshoot"], 1),
-            joined(row["peak_torque"], 1),
-            "never rose" if row["V_decreases"] else "rose",
+            row.name,
+            fixed(row.L2, 3),
+            fixed(row.printed.L2, 3) if row.printed else "–",
+            joined(row.settling),
+            joined(row.overshoot, 1),
+            joined(row.peak_torque, 1),
+            "never rose" if row.V_decreases else "rose",
         )
         for row in report.runs
     )
@@ -112,17 +116,16 @@ def _runs(report: Report) -> Iterator[Block]:
     yield Table(heads, rows, "Reference simulation of (11), in floating point")
     yield from figure(report, "indices", "The L2 index (20), simulated and measured")
     for row in report.runs:
-        yield from figure(report, f"{file_stem(row['name'])}_errors", f"{row['name']}: position errors")
+        yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
 
 
 def _members(report: Report) -> Iterator[Section]:
     """What m does in these runs, where each member has one gain set."""
-    members = sorted(
-        (row for row in report.runs if row["m"] is not None and row["complete"]), key=lambda row: row["m"]
-    )
-    if len(members) > 1 and len({row["m"] for row in members}) == len(members):
-        first = members[0]
-        section = effect_section([_effect(row) for row in members], first["target"], first["time"])
+    members = {row.m: row for row in report.runs if row.m is not None and row.complete}
+    if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
+        first = members[min(members)]
+        effects = [_effect(m, row) for m, row in sorted(members.items())]
+        section = effect_section(effects, first.target, first.time)
         yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
 
 
@@ -132,33 +135,33 @@ OWN_GAINS = (
 )
 
 
-def _effect(row: Data) -> Effect:
-    known = [peak / most for peak, most in zip(row["peak_torque"], row["torque_limit"], strict=True) if most]
+def _effect(m: int, row: RunRow) -> Effect:
+    known = [peak / most for peak, most in zip(row.peak_torque, row.torque_limit, strict=True) if most]
     return Effect(
-        row["m"],
-        row["L2"],
-        max(map(abs, row["final_error"])),
+        m,
+        math.nan if row.L2 is None else row.L2,
+        max(abs(error) for error in row.final_error if error is not None),
         max(known, default=math.nan),
-        row["top_speed"],
-        math.inf if row["rest"] is None else row["rest"],
+        row.top_speed,
+        math.inf if row.rest is None else row.rest,
     )
 
 
-def _study(report: Report, study: Data) -> Iterator[Block]:
-    said = [tally_words(study), *([together_words(study)] if study["together"] else [])]
-    said += [text for one in study["sets"] for text in (at_once_words(one), figure_gains_words(one))]
+def _study(report: Report, study: StudyRow) -> Iterator[Block]:
+    said = [tally_words(study), *([together_words(study, study.together)] if study.together else [])]
+    said += [text for one in study.sets for text in (at_once_words(one), figure_gains_words(one))]
     yield Bullets(tuple(said))
     yield from figure(report, "spread", "What is printed against what the assumed arms do")
     rows = tuple(
         (
-            f"{one['name']}: {quantity_words(entry)}",
+            f"{one.name}: {quantity_words(entry)}",
             printed_words(entry),
-            value_words(entry["nominal"], entry["unit"]),
-            span(entry["typical"]),
+            value_words(entry.nominal, entry.unit),
+            span(entry.typical),
             answer_cell(entry),
         )
-        for one in study["sets"]
-        for entry in one["numbers"]
+        for one in study.sets
+        for entry in one.numbers
     )
     heads = ("number", "printed", "nominal arm", "middle 90 %", "does an arm do it?")
     yield Table(heads, rows, align="lrrll")
@@ -168,15 +171,15 @@ def _study(report: Report, study: Data) -> Iterator[Block]:
 def rests(report: Report) -> Iterator[Section]:
     """What is assumed, certificates, versions and seed."""
     versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
-    assumed = tuple(report.robot["assumptions"])
+    assumed = tuple(report.robot.assumptions)
     blocks: list[Block] = [Bullets(assumed)] if assumed else [Paragraph("Nothing is assumed about the arm.")]
     if report.certificates:
         words = f"{len(report.certificates)} certificates; the small checker judges them again with"
         blocks += [Paragraph(words), Code("lyapcheck recheck certificates/"), *_kernel(report)]
-    boxes = {row["boxes"] for row in report.epsilon}
+    boxes = {row.boxes for row in report.epsilon}
     budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
     blocks.append(Paragraph(f"{versions}. Seed {report.seed}.{budget}"))
-    yield Section(f"What this rests on: {report.robot['title']}", tuple(blocks))
+    yield Section(f"What this rests on: {report.robot.title}", tuple(blocks))
 
 
 def known(report: Report) -> Iterator[Section]:

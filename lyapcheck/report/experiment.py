@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from dataclasses import replace
 from hashlib import sha256
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from lyapcheck.report.plain import read
+from lyapcheck.report.study import StudyRow
 from lyapcheck.simulate.printed import PRINTED, printed_entry
 
 if TYPE_CHECKING:
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 
-def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> dict[str, Any] | None:
+def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> StudyRow | None:
     """The part of the study that is about these gains, under their names.
 
     Args:
@@ -29,12 +32,12 @@ def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> dict[
     chosen = {entry.m: one.name for one in gain_sets if (entry := printed_entry(one, model))}
     if not chosen:
         return None
-    study: dict[str, Any] = json.loads(study_file("printed_experiment").read_text(encoding="utf-8"))
-    if study.pop("arm") != arm_digest(model):
+    written = json.loads(study_file("printed_experiment").read_text(encoding="utf-8"))
+    if written.pop("arm") != arm_digest(model):
         return None
-    sets = [one | {"name": chosen[one["m"]]} for one in study["sets"] if one["m"] in chosen]
-    together = study["together"] if len(sets) == len(PRINTED) else None
-    return study | {"sets": sets, "together": together}
+    study = read(StudyRow, written)
+    sets = tuple(replace(one, name=chosen[one.m]) for one in study.sets if one.m in chosen)
+    return replace(study, sets=sets, together=study.together if len(sets) == len(PRINTED) else None)
 
 
 def arm_digest(model: RobotModel) -> str:

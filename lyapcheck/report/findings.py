@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.words import advice
+from lyapcheck.control.conditions import REJECTED
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Data, Finding, Witness, applies, behind
+from lyapcheck.report.model import Finding, Witness, applies, behind
 from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
 from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.report.gain_rows import EpsilonRow
     from lyapcheck.report.notes import Notes
+    from lyapcheck.report.study import NumberRow, StudyRow
 
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
@@ -26,8 +31,8 @@ def findings(
     notes: Notes,
     claims: Sequence[ClaimRow],
     small: Small,
-    epsilon: Sequence[Data] = (),
-    sensitivity: Data | None = None,
+    epsilon: Sequence[EpsilonRow] = (),
+    sensitivity: StudyRow | None = None,
 ) -> tuple[Finding, ...]:
     """About the paper: refuted claims by weight, ε₀ that (18) allows and a state refutes, the experiment.
 
@@ -40,10 +45,10 @@ def findings(
 
 
 def own_findings(
-    gate: Sequence[Data], epsilon: Sequence[Data], claims: Sequence[ClaimRow]
+    gate: Sequence[GateResult], epsilon: Sequence[EpsilonRow], claims: Sequence[ClaimRow]
 ) -> tuple[Finding, ...]:
     """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
-    stable = {row["name"] for row in epsilon if row["certified"] is not None}
+    stable = {row.name for row in epsilon if row.certified is not None}
     result = [*_rejected(gate, stable), *_contradicted(epsilon)]
     for row in claims:
         if row.verdict == "refuted" and row.section.startswith("Section 2"):
@@ -135,53 +140,55 @@ def _ordinary(row: ClaimRow) -> Witness | None:
     return Witness(row.m, row.n, data["point"], *sides, row.certificate, False, "")
 
 
-def _rejected(gate: Sequence[Data], stable: Collection[str]) -> Iterator[Finding]:
+def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[Finding]:
     """What breaks; where that is (19) alone and stability is proved, the gate that asks for the proof."""
     for result in gate:
-        deciding = [check for check in result["checks"] if check["id"] in result["deciding"]]
-        broken = [check for check in deciding if check["message"]]
-        if result["verdict"] == "rejected" and applies(result) and broken:
-            first, rest = broken[0]["message"], len(broken) - 1
+        broken = result.failures
+        if result.verdict == REJECTED and applies(result):
+            first, rest = advice(result, broken[0]), len(broken) - 1
             more = f" (and {rest} more)" if rest else ""
-            title = f"{result['name']} breaks ({broken[0]['id']})"
-            if result["name"] in stable and {check["id"] for check in broken} == {"19"}:
+            title = f"{result.name} breaks ({broken[0].id})"
+            if result.name in stable and {check.id for check in broken} == {"19"}:
                 more += (
                     ". (19) is only sufficient, and dV/dt < 0 is proved for these gains: "
                     "lyapcheck gate --condition 10p --condition global asks for that proof instead"
                 )
-            yield Finding("B", f"gains {result['name']}", (), (result["m"],), title, first + more)
+            yield Finding("B", f"gains {result.name}", (), _member(result.m), title, first + more)
 
 
-def _contradicted(epsilon: Sequence[Data]) -> Iterator[Finding]:
+def _contradicted(epsilon: Sequence[EpsilonRow]) -> Iterator[Finding]:
     for row in epsilon:
-        published, falsified = row["published"], row["falsified"]
+        published, falsified = row.published, row.falsified
         if published is not None and falsified is not None and float(published) > float(falsified):
             text = (
                 f"(18) allows ε₀ up to {float(published):.4g}, but dV/dt > 0 at a state found for "
                 f"ε₀ = {float(falsified):.4g}"
             )
-            title = f"(18) allows an ε₀ for {row['name']} that a state refutes"
-            yield Finding("A", f"ε₀ of {row['name']}", (), (row["m"],), title, text)
+            title = f"(18) allows an ε₀ for {row.name} that a state refutes"
+            yield Finding("A", f"ε₀ of {row.name}", (), _member(row.m), title, text)
 
 
-def _experiment(study: Data) -> Iterator[Finding]:
+def _member(m: int | None) -> tuple[int, ...]:
+    return () if m is None else (m,)
+
+
+def _experiment(study: StudyRow) -> Iterator[Finding]:
     """What the bench does with the nominal arm, and whether any assumed arm does what is printed."""
-    for one in study["sets"]:
-        ms = () if one["m"] is None else (one["m"],)
-        for number in one["numbers"]:
+    for one in study.sets:
+        for number in one.numbers:
             text = _apart(number, study)
             if text:
-                subject = f"{quantity_words(number)} of {one['name']}"
-                yield Finding("D", subject, (), ms, subject, text)
-    if study["together"] and study["together"]["worst"] > SAME:
+                subject = f"{quantity_words(number)} of {one.name}"
+                yield Finding("D", subject, (), _member(one.m), subject, text)
+    if study.together and study.together.worst > SAME:
         subject = "indices of all gains"
-        yield Finding("D", subject, (), (), subject, together_words(study))
+        yield Finding("D", subject, (), (), subject, together_words(study, study.together))
 
 
-def _apart(number: Data, study: Data) -> str:
+def _apart(number: NumberRow, study: StudyRow) -> str:
     """Empty where the nominal arm is near what is printed, and for torques: these are claims of the paper."""
-    if number["quantity"] == "L2" and abs(number["nominal"] / number["printed"] - 1) > SAME:
+    if number.quantity == "L2" and abs((number.nominal or 0.0) / number.printed - 1) > SAME:
         return f"{beside_words(number)}; {hangs_words(number, study)}; {answer_words(number)}"
-    if number["quantity"] in ("settling", "final_error") and number["answer"] == "no":
+    if number.quantity in ("settling", "final_error") and number.answer == "no":
         return f"{beside_words(number)}; {answer_words(number)}"
     return ""

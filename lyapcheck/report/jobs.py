@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
+from lyapcheck.report.plain import read
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import SmallWitness
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.report.bench import Cell
+    from lyapcheck.report.bench import JudgedCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -36,8 +38,6 @@ OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.fa
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
-BOTH_ENDS = ("certified", "falsified")
-"""The ε₀ that rest on certificates."""
 SHOWN = 6
 """Significant digits of what floating point computes."""
 
@@ -52,10 +52,9 @@ class ProofData:
 
 @dataclass(frozen=True)
 class RunData:
-    """One simulated run: its facts as plain data, its top speed, its signals as arrays for the figures."""
+    """One simulated run, with its signals as arrays for the figures."""
 
-    facts: dict[str, Any]
-    speed: float
+    row: RunRow
     t: Any
     e: Any
     tau: Any
@@ -67,7 +66,7 @@ class RunData:
 class GainData:
     """What was computed for one gain set, with the certificates of its ε₀ by their paths in a report."""
 
-    epsilon: dict[str, Any]
+    epsilon: EpsilonRow
     run: RunData
     certificates: Mapping[str, str]
 
@@ -132,40 +131,43 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
     model = load(robot)
     row, files = _epsilon(gain_set, model, seed)
-    eps0 = float(row["certified"] or row["scalar"] or 0.0)
-    run = _run_data(_simulated(gain_set, model, eps0))
-    return GainData(row, replace(run, facts=run.facts | _at_the_bench(run, gain_set, model)), files)
+    eps0 = float(row.certified or row.scalar or 0.0)
+    return GainData(row, _run_data(_simulated(gain_set, model, eps0), _rest(gain_set, model)), files)
 
 
-def _at_the_bench(run: RunData, gain_set: GainSet, model: RobotModel) -> dict[str, float | None]:
-    """The top speed of a run, rad/s, and how far off dry friction may hold a joint, degrees or anywhere."""
+def _rest(gain_set: GainSet, model: RobotModel) -> float | None:
+    """How far off dry friction may hold a joint, degrees; none for anywhere."""
     from lyapcheck.answers.gate.bench import rest_errors
 
-    rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gain_set, model))
-    shown = {"top_speed": run.speed, "rest": None if math.isinf(rest) else rest}
-    result: dict[str, float | None] = shortened(shown)
-    return result
+    errors = rest_errors(gain_set, model)
+    return None if None in errors else max(math.degrees(e) for e in errors if e is not None)
 
 
-def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[dict[str, Any], dict[str, str]]:
+def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:
     """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
     from lyapcheck.answers.epsilon import epsilon
     from lyapcheck.answers.epsilon.certificates import certificates
-    from lyapcheck.answers.epsilon.data import result_data
-    from lyapcheck.answers.epsilon.words import KINDS
 
     result = epsilon(gain_set, model, max_boxes=BOXES, seed=seed)
-    values: dict[str, Fraction | None] = {kind: getattr(result, kind) for kind in KINDS}
-    shown = {kind: rounded(value, up=kind == "falsified") for kind, value in values.items()}
-    low, high = shown["certified"], shown["falsified"]
-    ratio = f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None
-    data = result_data(result)
-    kept = {key: data[key] for key in ("name", "m", "robot", "certified_by", "assumptions", "seed")}
-    missing = {kind: text for kind, text in data["reasons"].items() if shown.get(kind) is None}
+    low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
-    paths = {path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS}
-    more = {"ratio": ratio, "boxes": BOXES, "reasons": missing, "certificates": paths}
-    return {**kept, **shown, **more}, files
+    row = EpsilonRow(
+        name=result.name,
+        m=result.m,
+        robot=result.robot,
+        certified_by=result.certified_by or None,
+        assumptions=tuple(result.assumptions),
+        seed=result.seed,
+        published=rounded(result.published, up=False),
+        scalar=rounded(result.scalar, up=False),
+        certified=low,
+        falsified=high,
+        ratio=f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None,
+        boxes=BOXES,
+        reasons=dict(result.reasons),
+        certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS},
+    )
+    return replace(row, reasons={k: text for k, text in row.reasons.items() if row.eps0(k) is None}), files
 
 
 def rounded(value: Fraction | None, up: bool) -> str | None:
@@ -199,7 +201,7 @@ def goal_of(model: RobotModel) -> list[float]:
 class MapData:
     """The places of the map, and by names of gain sets the certificates of ε₀ that it proves for them."""
 
-    cells: list[Cell]
+    cells: list[JudgedCell]
     for_sets: Mapping[str, Certificate]
 
 
@@ -219,21 +221,22 @@ def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
     """The same, resting on what the map proves where that is as good to the digits shown."""
     from lyapcheck.check.kinds.decreasing import Decreasing
 
-    path, one = part.epsilon["certificates"].get("certified"), known.get(part.epsilon["name"])
+    path, one = part.epsilon.certificates.get("certified"), known.get(part.epsilon.name)
     if path is None or one is None or not isinstance(one.statement, Decreasing):
         return part
-    if rounded(one.statement.eps0, up=False) != part.epsilon["certified"]:
+    if rounded(one.statement.eps0, up=False) != part.epsilon.certified:
         return part
     return replace(part, certificates={**part.certificates, path: one.text()})
 
 
-def _run_data(run: Run) -> RunData:
+def _run_data(run: Run, rest: float | None) -> RunData:
     from lyapcheck.answers.simulate.runs import SetPointRuns
 
-    (facts,) = SetPointRuns((run,)).data()["results"]
+    facts = SetPointRuns((run,)).plain_data(run)
     for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
         del facts[name]
-    return RunData(shortened(facts), float(abs(run.w).max()), run.t, run.e, run.tau, run.V, run.dV)
+    facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
+    return RunData(read(RunRow, shortened(facts)), run.t, run.e, run.tau, run.V, run.dV)
 
 
 def shortened(value: Any) -> Any:

@@ -8,7 +8,6 @@ from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,11 +20,12 @@ from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
-from lyapcheck.report.bench import holds_of, map_path
+from lyapcheck.report.bench import holds_of
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.jobs import BOXES, rounded
-from lyapcheck.report.model import Witness
+from lyapcheck.report.plain import plain
+from lyapcheck.report.plain import read as read_row
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.temporary import temporary_folder
@@ -37,7 +37,6 @@ HALF = ("published", "scalar", "tracking", "every_function")
 """The folders of certificates that one process judges while another judges the rest, about as long."""
 JUDGED = ("verdict", "id", "m", "rules", "granted")
 """What a row has from the checker."""
-CLAIMS = ("claims", "others")
 
 
 def question(subject: Subject) -> dict[str, Any]:
@@ -54,9 +53,7 @@ def written(result: Computed) -> dict[str, Any]:
         name: drawing if isinstance(drawing, str) else {"base64": b64encode(drawing).decode()}
         for name, drawing in result.figures.items()
     }
-    small = {name: asdict(one) for name, one in result.small.items()}
-    rows = {name: [row.data() for row in getattr(result, name)] for name in CLAIMS}
-    return {**vars(result), **rows, "figures": figures, "small": small}
+    return plain(result) | {"figures": figures}
 
 
 def read(kept: Any, subject: Subject) -> Computed | None:
@@ -71,17 +68,11 @@ def read(kept: Any, subject: Subject) -> Computed | None:
             name: drawing if isinstance(drawing, str) else b64decode(drawing["base64"])
             for name, drawing in kept["figures"].items()
         }
-        small = {
-            name: Witness(**{**one, "left": tuple(one["left"]), "right": tuple(one["right"])})
-            for name, one in kept["small"].items()
-        }
-        lists = {name: tuple(kept[name]) for name in ("epsilon", "runs")}
-        lists |= {name: tuple(map(ClaimRow.read, kept[name])) for name in CLAIMS}
-        result = Computed(**{**kept, **lists, "figures": figures, "small": small})
+        result = read_row(Computed, {**kept, "figures": figures})
         with _judging(result.certificates) as judged:
             said = _of(subject, result) and _as_said(result)
             return result if said and _decided(result, judged()) else None
-    except (InputError, KeyError, TypeError, ValueError):
+    except (InputError, AttributeError, KeyError, TypeError, ValueError):
         return None
 
 
@@ -96,8 +87,8 @@ def _of(subject: Subject, result: Computed) -> bool:
 
     texts, family = result.certificates, subject.of_family
     return all(
-        stated(path, row["name"]) for row in result.epsilon for path in row["certificates"].values()
-    ) and all(holds_of(cell, texts.get(map_path(cell)), arm, family) for cell in result.cells)
+        stated(path, row.name) for row in result.epsilon for path in row.certificates.values()
+    ) and all(holds_of(cell, texts.get(cell.path), arm, family) for cell in result.cells)
 
 
 def _as_said(result: Computed) -> bool:
@@ -124,24 +115,24 @@ def _decided(result: Computed, judged: Mapping[str, Any]) -> bool:
 
     for row in _decided_rows(result):
         answer = judged.get(row.digest or "", {})
-        if _said(answer) != _said(row.data()):
+        if [answer.get(name) for name in JUDGED] != [_as_json(getattr(row, name)) for name in JUDGED]:
             return False
         if row.grade not in (GRADE, answer["grade"]):
             return False
     if any(verdict(one.certificate) != "refuted" for one in result.small.values()):
         return False
-    if any(cell["eps0"] is not None and verdict(map_path(cell)) != "proved" for cell in result.cells):
+    if any(cell.eps0 is not None and verdict(cell.path) != "proved" for cell in result.cells):
         return False
     return all(
         verdict(path) == ("refuted" if kind == "falsified" else "proved")
-        and rounded(_eps0(result.certificates[path]), up=kind == "falsified") == row[kind]
+        and rounded(_eps0(result.certificates[path]), up=kind == "falsified") == row.eps0(kind)
         for row in result.epsilon
-        for kind, path in row["certificates"].items()
-    ) and all(row["certified"] is None or "certified" in row["certificates"] for row in result.epsilon)
+        for kind, path in row.certificates.items()
+    ) and all(row.certified is None or "certified" in row.certificates for row in result.epsilon)
 
 
-def _said(row: Mapping[str, Any]) -> list[Any]:
-    return [row.get(key) for key in JUDGED]
+def _as_json(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _eps0(certificate: str) -> Fraction:

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck.report.claim_row import ClaimRow
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate.answer import GateAnswer
+    from lyapcheck.answers.gate.judge import GateResult
+    from lyapcheck.answers.table import Table
+    from lyapcheck.report.bench import Bench
+    from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.notes import Notes
-
-Data = Mapping[str, Any]
+    from lyapcheck.report.study import StudyRow
+    from lyapcheck.robots import RobotModel
 
 WEIGHTS = {
     "A": "breaks the proof",
@@ -80,16 +85,16 @@ class Finding:
 
 @dataclass(frozen=True)
 class Report:
-    """Everything that was found out about one arm and its gain sets, as plain data and finished figures.
+    """Everything that was found out about one arm and its gain sets, with finished figures.
 
     Args:
         notes: what the paper prints and argues.
         own: whether it is about another arm or other gains than the paper's.
-        robot: name, title, joints, numbers and assumptions of the arm.
+        robot: the arm.
         ms: the members of the family that were asked for.
-        table: rows of the constants table.
-        gate: gate results, one a gain set.
-        epsilon: the four ε₀, one entry a gain set.
+        table: the constants of these members.
+        gate: what the gate says of each gain set.
+        epsilon: the four ε₀ of each gain set.
         claims: decided claims of the paper, one row a claim and m.
         others: those of the proofs of what the paper concludes.
         runs: simulated runs, one a gain set, the PD baseline last.
@@ -104,17 +109,17 @@ class Report:
 
     notes: Notes
     own: bool
-    robot: Data
+    robot: RobotModel
     ms: tuple[int, ...]
-    table: tuple[Data, ...]
-    gate: tuple[Data, ...]
-    epsilon: tuple[Data, ...]
+    table: Table
+    gate: GateAnswer
+    epsilon: tuple[EpsilonRow, ...]
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
-    runs: tuple[Data, ...]
-    sensitivity: Data | None
+    runs: tuple[RunRow, ...]
+    sensitivity: StudyRow | None
     findings: tuple[Finding, ...]
-    bench: Data
+    bench: Bench
     figures: Mapping[str, str | bytes] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
@@ -156,6 +161,6 @@ def behind(claim: str, rows: Iterable[ClaimRow]) -> set[str]:
     return result
 
 
-def applies(result: Data) -> bool:
+def applies(result: GateResult) -> bool:
     """Whether the conditions of the gate are about gains at all: without γ they have no limit."""
-    return any(check["limit"] is not None for check in result["checks"])
+    return any(check.limit is not None for check in result.checks)

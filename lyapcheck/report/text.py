@@ -23,11 +23,11 @@ def fixed(value: Any, places: int = 2) -> str:
     return "–" if value is None else f"{float(value):.{places}f}"
 
 
-def bracket(ends: Any, digits: int = 12) -> str:
+def bracket(ends: tuple[str, str] | None, digits: int = 12) -> str:
     """The digits that both ends of an enclosure share, cut off; a dash where there is none."""
     if ends is None:
         return "–"
-    low, high = ends["lower"], ends["upper"]
+    low, high = ends
     if low == high:
         return str(low)
     shared = ""

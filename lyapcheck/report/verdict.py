@@ -9,9 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS
-from lyapcheck.report.model import Data, Report, applies, behind
+from lyapcheck.report.model import Report, applies, behind
 from lyapcheck.report.notes import Box
 from lyapcheck.report.text import and_list
 
@@ -57,8 +59,8 @@ def badges(report: Report) -> tuple[Badge, ...]:
         held = set(report.verdicts((report.notes.paper.theorem,), "published")) == {"proved"}
         proof = Badge("printed proof", "holds", "good") if held else Badge("printed proof", "open", "open")
     judged = [row for row in report.gate if applies(row)]
-    passed = [row for row in judged if row["verdict"] == "accepted"]
-    failed = [row for row in judged if row not in passed]
+    passed = [row for row in judged if row.verdict == ACCEPTED]
+    failed = [row for row in judged if row.verdict != ACCEPTED]
     tone = "warn" if failed else "good"
     slips = len(report.weighing("C"))
     parts = (passed, "passes", "pass"), (failed, "does not", "do not")
@@ -133,7 +135,7 @@ def _theorem(report: Report) -> str:
             members += ", whose bounds h_m keeps for every real m ≥ 1"
     arm = ""
     if set(report.verdicts((THIS_ARM,), "scalar")) == {"proved"}:
-        name, n = report.robot["name"], len(report.robot["joints"])
+        name, n = report.robot.name, report.robot.n
         arm = f"; on {name} (n = {n}) with the gains of Table 2, with an explicit ε₀"
     return (
         f"The proposition is true: proved with certificates for every arm with Properties 2.1 to 2.7, {size},"
@@ -152,20 +154,20 @@ def _proof(report: Report) -> str:
 
 def _gains(report: Report) -> tuple[str, ...]:
     judged = [row for row in report.gate if applies(row)]
-    others = [row["name"] for row in report.gate if not applies(row)]
-    passed = [row for row in judged if row["verdict"] == "accepted"]
-    failed = [row for row in judged if row["verdict"] == "rejected"]
+    others = [row.name for row in report.gate if not applies(row)]
+    passed = [row for row in judged if row.verdict == ACCEPTED]
+    failed = [row for row in judged if row.verdict == REJECTED]
     parts = []
     if passed:
         parts.append(f"{_named(passed)} meet{'s' if len(passed) == 1 else ''} (10p) and (19)")
     if failed:
-        ids = (c["id"] for r in failed for c in r["checks"] if c["message"] and c["id"] in r["deciding"])
+        ids = (check.id for result in failed for check in result.failures)
         broken = and_list([f"({one})" for one in dict.fromkeys(ids)])
         parts.append(f"{_named(failed)} break{'s' if len(failed) == 1 else ''} {broken}")
     if not parts:
         return ()
-    stable = {row["name"]: row["certified"] for row in report.epsilon}
-    proved = [row["name"] for row in judged if stable.get(row["name"])]
+    stable = {row.name for row in report.epsilon if row.certified}
+    proved = [row.name for row in judged if row.name in stable]
     tail = ""
     if proved and len(proved) == len(judged):
         tail = "; dV/dt < 0 at every state is proved for " + ("it" if len(proved) == 1 else "all of them")
@@ -177,18 +179,18 @@ def _gains(report: Report) -> tuple[str, ...]:
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
 
 
-def _members(rows: Sequence[Data]) -> str:
-    return f"m = {and_list([str(row['m']) for row in rows])}"
+def _members(rows: Sequence[GateResult]) -> str:
+    return f"m = {and_list([str(row.m) for row in rows])}"
 
 
-def _named(rows: Sequence[Data]) -> str:
-    return and_list([f"{row['name']} (m = {row['m']})" for row in rows])
+def _named(rows: Sequence[GateResult]) -> str:
+    return and_list([f"{row.name} (m = {row.m})" for row in rows])
 
 
-def _of_gains(row: Data, report: Report) -> Badge:
+def _of_gains(row: GateResult, report: Report) -> Badge:
     if not applies(row):
-        return Badge(row["name"], "conditions do not apply", "open")
-    eps0 = next((one["certified"] for one in report.epsilon if one["name"] == row["name"]), None)
+        return Badge(row.name, "conditions do not apply", "open")
+    eps0 = next((one.certified for one in report.epsilon if one.name == row.name), None)
     stable = ", proved stable" if eps0 else ""
-    tones = {"accepted": "good", "rejected": "warn" if eps0 else "bad"}
-    return Badge(row["name"], f"{row['verdict']}{stable}", tones.get(row["verdict"], "open"))
+    tones = {ACCEPTED: "good", REJECTED: "warn" if eps0 else "bad"}
+    return Badge(row.name, f"{row.verdict}{stable}", tones.get(row.verdict, "open"))

@@ -7,8 +7,9 @@ from pathlib import Path
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.json import laid_out
-from lyapcheck.report.bench import BOXES, gain_map, map_path
+from lyapcheck.report.bench import BOXES, gain_map
 from lyapcheck.report.experiment import arm_digest
+from lyapcheck.report.plain import plain
 from lyapcheck.robots import load
 from lyapcheck.simulate.printed import PAPER_ARM
 from lyapcheck.simulate.task import PAPER_TASK
@@ -21,11 +22,11 @@ def main() -> None:
     model = load(PAPER_ARM)
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
     cells = gain_map(model, sets, PAPER_TASK.q_d)
-    certificates = {map_path(cell.data): cell.certificate for cell in cells if cell.certificate}
+    certificates = {one.cell.path: one.certificate for one in cells if one.certificate}
     result = {
         "arm": arm_digest(model),
         "boxes": BOXES,
-        "map": [cell.data for cell in cells],
+        "map": [plain(one.cell) for one in cells],
         "certificates": certificates,
     }
     RESULTS.write_text(laid_out(result) + "\n", encoding="utf-8")

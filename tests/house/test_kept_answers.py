@@ -28,6 +28,7 @@ from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
 from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.gain_rows import EpsilonRow
 from lyapcheck.report.jobs import rounded
 from lyapcheck.report.subject import Subject
 from lyapcheck.robots import RobotModel, load
@@ -205,7 +206,7 @@ def reported() -> tuple[Subject, dict[str, Any]]:
     files[PATH] = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
     with kept_report._judging({PATH: files[PATH]}) as judged:
         answer = judged()[json.loads(files[PATH])["digest"]]
-    row: dict[str, Any] = {field.name: () for field in fields(ClaimRow)}
+    row: dict[str, Any] = {field.name: () for field in fields(ClaimRow)} | {"witness": None, "evidence": {}}
     row |= {name: value for name, value in answer.items() if name in row}
     shown, _ = certificate_of(files[PATH].encode())
     if accepted_before(shown.statement, shown.proof, shown.verdict):
@@ -214,9 +215,10 @@ def reported() -> tuple[Subject, dict[str, Any]]:
         kind: rounded(getattr(result, kind), up=kind == "falsified") for kind in ("certified", "falsified")
     }
     own = {path.split(".")[-2]: path for path in files if path != PATH}
+    shown_row = dict.fromkeys(field.name for field in fields(EpsilonRow)) | {"assumptions": (), "reasons": {}}
     rest: dict[str, Any] = dict.fromkeys(("others", "runs", "cells"), ())
     rest |= {"small": {}, "figures": {}, "sensitivity": None}
-    kept = {**rest, "claims": [row], "epsilon": [{"name": "one", "certificates": own, **ends}]}
+    kept = {**rest, "claims": [row], "epsilon": [shown_row | {"name": "one", "certificates": own, **ends}]}
     gains = GainFile("gains.toml", "pendulum1", (GAINS,))
     return Subject("pendulum1", (1,), (gains,), own=True), {**kept, "certificates": files}
 

@@ -18,9 +18,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.check.files import gather
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.recheck import recheck
-from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.conditions import Check
+from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
@@ -32,9 +35,11 @@ from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
 from lyapcheck.report.figures.motion import draw_errors, draw_torques
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.findings import findings, own_findings
+from lyapcheck.report.gain_rows import EpsilonRow
 from lyapcheck.report.model import Report, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
+from lyapcheck.report.plain import read
 from lyapcheck.report.subject import Subject
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
@@ -85,11 +90,11 @@ def test_every_figure_is_there_in_three_forms(everything: dict[str, str | bytes]
 def test_the_data_beside_a_figure_are_those_of_the_run(report: Report, files: dict[str, str]) -> None:
     run = report.runs[0]
     rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
-    for joint, peak in zip(run["joints"], run["peak_torque"], strict=True):
+    for joint, peak in zip(run.joints, run.peak_torque, strict=True):
         sampled = max(abs(float(row[f"{joint} [N·m]"])) for row in rows)  # the peak may lie between two
         assert sampled <= peak * (1 + 1e-5)
         assert sampled == pytest.approx(peak, rel=1e-3)
-    assert float(rows[-1]["t [s]"]) == run["time"]
+    assert float(rows[-1]["t [s]"]) == run.time
 
 
 def test_pages_are_balanced_and_their_links_lead_somewhere(files: dict[str, str]) -> None:
@@ -201,7 +206,7 @@ def test_every_claim_has_its_equation_certificate_and_trust(report: Report, file
 
 def test_assumptions_versions_and_seed_are_said(report: Report, files: dict[str, str]) -> None:
     for page in (files["report.md"], files["index.html"]):
-        assert all(html_text(text) in page or text in page for text in report.robot["assumptions"])
+        assert all(html_text(text) in page or text in page for text in report.robot.assumptions)
         assert f"casadi {report.versions['casadi']}" in page
         assert f"Seed {report.seed}" in page
 
@@ -217,7 +222,7 @@ def claim_row(name: str, **about: Any) -> ClaimRow:
     """A claim of the paper of which nothing else is known."""
     blank = {field.name: () if "tuple" in str(field.type) else None for field in fields(ClaimRow)}
     words = {"section": "Section 3", "place": "", "comment": "one is small", "verdict": "proved"}
-    return ClaimRow.read({**blank, **words, "id": name, **about})
+    return read(ClaimRow, {**blank, "evidence": {}, **words, "id": name, **about})
 
 
 def claim(claim_id: str, m: int | None, verdict: str, uses: tuple[str, ...] = ()) -> ClaimRow:
@@ -240,9 +245,9 @@ def test_a_refuted_claim_breaks_the_proof_where_the_proposition_rests_on_it() ->
     assert [item.weight for item in findings(NOTES, rows, {})] == ["A"]
 
 
-def epsilon_row(**numbers: str | None) -> dict[str, Any]:
-    blank = {"published": None, "scalar": None, "certified": None, "falsified": None}
-    return {"name": "a", "m": 2, **blank, **numbers}
+def epsilon_row(**about: Any) -> EpsilonRow:
+    blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
+    return EpsilonRow(**(blank | {"name": "a", "m": 2} | about))
 
 
 @pytest.mark.parametrize(
@@ -253,7 +258,7 @@ def epsilon_row(**numbers: str | None) -> dict[str, Any]:
         (epsilon_row(certified="0.2", falsified="0.3"), 0),
     ],
 )
-def test_published_epsilons_are_held_against_the_others(row: dict[str, Any], count: int) -> None:
+def test_published_epsilons_are_held_against_the_others(row: EpsilonRow, count: int) -> None:
     assert len(findings(NOTES, [], {}, [row])) == count
 
 
@@ -270,18 +275,25 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None
     assert all(text not in page for text in ("Fig. 4", "Table 2 "))
 
 
+def gate_result(kp: int = 1, kv: Fraction = Fraction(1, 100)) -> GateResult:
+    """What the gate says of gains on the paper's arm."""
+    gains = GainSet("a", 1, (Fraction(kp), *[Fraction(1)] * 2), (kv, *[Fraction(1, 100)] * 2))
+    (result,) = judged_sets(GainFile("gains.toml", "buap3", (gains,)))
+    return result
+
+
 def test_conditions_without_a_limit_do_not_apply() -> None:
-    check = {"limit": None, "id": "19", "message": "", "value": "1"}
-    assert not applies({"checks": [check]})
-    assert applies({"checks": [check, {**check, "limit": {"lower": "1", "upper": "1"}}]})
+    free, bound = Check("19"), Check("19", limit=Enclosure.exact(Fraction(1)))
+    assert not applies(replace(gate_result(), checks=(free,)))
+    assert applies(replace(gate_result(), checks=(free, bound)))
 
 
 @pytest.mark.parametrize(
     ("ends", "expected"),
     [
-        ({"lower": "1.0535692", "upper": "1.0535693"}, "1.053569"),
-        ({"lower": "1", "upper": "1"}, "1"),
-        ({"lower": "0.1", "upper": "0.2"}, "[0.1, 0.2]"),
+        (("1.0535692", "1.0535693"), "1.053569"),
+        (("1", "1"), "1"),
+        (("0.1", "0.2"), "[0.1, 0.2]"),
         (None, "–"),
     ],
 )
@@ -407,17 +419,17 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
 def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None:
     assert not [one for one in evidence(report) if one.title == "What m does"]
     (first,) = report.runs
-    slower = {**first, "name": "another", "m": 2, "L2": 77.0, "top_speed": 0.125, "rest": None}
+    slower = replace(first, name="another", m=2, L2=77.0, top_speed=0.125, rest=None)
     (section,) = (
         one for one in evidence(replace(report, runs=(slower, first))) if one.title == "What m does"
     )
     table, *_ = section.blocks
     assert isinstance(table, Table)
     assert [row[0] for row in table.rows] == ["1", "2"]
-    assert table.rows[0][1] == f"{first['L2']:.2f}"
-    assert table.rows[0][4] == f"{first['top_speed']:.2f}"
+    assert table.rows[0][1] == f"{first.L2:.2f}"
+    assert table.rows[0][4] == f"{first.top_speed:.2f}"
     assert table.rows[1][1::4] == ("77.00", "anywhere")
-    twice = replace(report, runs=(slower, {**first, "m": 2}))
+    twice = replace(report, runs=(slower, replace(first, m=2)))
     assert not [one for one in evidence(twice) if one.title == "What m does"]
 
 
@@ -425,8 +437,6 @@ def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None
 def test_gains_that_break_19_alone_are_told_of_the_proof_where_there_is_one(
     broken: str, certified: str | None
 ) -> None:
-    check = {"id": broken, "message": "k_v = 1 breaks", "limit": {"lower": "1", "upper": "1"}}
-    row = {"name": "a", "m": 1, "verdict": "rejected", "deciding": ["10p", "19"], "checks": [check]}
-    eps0 = {"name": "a", "m": 1, "certified": certified, "published": None, "falsified": None}
-    (finding,) = own_findings([row], [eps0], [])
+    result = gate_result(1, Fraction(9, 10)) if broken == "19" else gate_result(99)
+    (finding,) = own_findings([result], [epsilon_row(m=1, certified=certified)], [])
     assert ("--condition global" in finding.text) == (broken == "19" and certified is not None)

@@ -11,13 +11,14 @@ from typing import Any
 import pytest
 
 from lyapcheck.answers.check.run import paper_case_data
+from lyapcheck.answers.table import build_table
 from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import Request
 from lyapcheck.claims.script import find_script
 from lyapcheck.cli.commands.report import _subject
-from lyapcheck.report.build import _gate, _table
+from lyapcheck.report.build import _gate
 from lyapcheck.report.jobs import BOXES, OTHERS, PROOF
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import raw
@@ -58,8 +59,10 @@ def decided(row: Mapping[str, Any]) -> list[Any]:
 def test_arm_gains_gate_and_table_are_those_of_today() -> None:
     subject, arm = _subject("", None, None), load(REPORT["robot"]["name"])
     assert (subject.robot, list(subject.ms)) == (arm.name, REPORT["m"])
-    assert [decided(row) for row in REPORT["gate"]] == [decided(row) for row in _gate(subject)], REPAIR
-    assert REPORT["table"] == json.loads(json.dumps(_table(subject.ms))), REPAIR
+    assert [decided(row) for row in REPORT["gate"]] == [
+        decided(row) for row in _gate(subject).data()["results"]
+    ], REPAIR
+    assert REPORT["table"] == json.loads(json.dumps(build_table(subject.ms).data()["rows"])), REPAIR
 
 
 def test_every_eps0_is_of_the_arm_and_gains_of_today() -> None:

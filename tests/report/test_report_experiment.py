@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import csv
 import json
-from copy import deepcopy
-from dataclasses import replace
+from dataclasses import fields, replace
 from io import StringIO
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
+from lyapcheck.answers.gate import GateAnswer
+from lyapcheck.answers.table import build_table
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.report.bench import bench
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import findings
+from lyapcheck.report.gain_rows import PrintedRow, RunRow
 from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes
+from lyapcheck.report.plain import read
+from lyapcheck.report.study import AssumedRow, NumberRow, StudyRow
 from lyapcheck.report.words import (
     answer_cell,
     answer_words,
@@ -37,69 +42,72 @@ NOTES = published_notes()
 
 
 @pytest.fixture(scope="module")
-def found() -> dict[str, Any]:
+def found() -> StudyRow:
     """A small study of m = 1 and PD, as it stands in a report."""
     sets = [read_gain_file(paper_gain_file(name)).gains[0] for name in ("table2", "table2_pd")]
     small = study(sets, load("buap3"), spread=32, corners=16, seed=1)
     assert small is not None
-    document: dict[str, Any] = json.loads(json.dumps(study_json(small), allow_nan=False))
-    return document
+    return read(StudyRow, json.loads(json.dumps(study_json(small), allow_nan=False)))
 
 
 @pytest.fixture(scope="module")
-def files(found: dict[str, Any]) -> dict[str, str | bytes]:
-    robot = {"name": "buap3", "title": "the arm", "joints": [], "numbers": [], "assumptions": []}
-    empty: dict[str, Any] = dict.fromkeys(
-        ("table", "gate", "epsilon", "claims", "others", "runs", "findings"), ()
-    )
+def files(found: StudyRow) -> dict[str, str | bytes]:
+    model = load("buap3")
+    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs"), ())
     found_out = findings(NOTES, (), {}, (), found)
     report = Report(
-        robot=robot,
+        robot=model,
         ms=(1,),
         notes=NOTES,
         own=False,
-        bench={"map": []},
+        table=build_table((1,)),
+        gate=GateAnswer(()),
+        bench=bench(model, (), (0.5,) * model.n, ()),
         sensitivity=found,
         figures=draw_sensitivity(found),
-        **(empty | {"findings": found_out}),
+        findings=found_out,
+        **empty,
     )
     return render(report)
 
 
-def number(**changed: Any) -> dict[str, Any]:
+def number(**changed: Any) -> NumberRow:
+    blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(NumberRow))
     plain = {"quantity": "settling", "joint": "base", "unit": "s", "printed": 1.0, "at_most": False}
-    return {**plain, "nearest": 1.2, "answer": "no", "runs": 10, "nominal": None, "shares": None} | changed
+    return NumberRow(**(blank | plain | {"nearest": 1.2, "answer": "no", "runs": 10} | changed))
+
+
+def run_row(**about: Any) -> RunRow:
+    return RunRow(**(dict.fromkeys(field.name for field in fields(RunRow)) | about))
 
 
 @pytest.mark.slow
-def test_the_pages_show_every_printed_number(found: dict[str, Any], files: dict[str, str | bytes]) -> None:
-    for one in found["sets"]:
-        for entry in one["numbers"]:
+def test_the_pages_show_every_printed_number(found: StudyRow, files: dict[str, str | bytes]) -> None:
+    for one in found.sets:
+        for entry in one.numbers:
             assert f">{_shown(entry)}<" in str(files["index.html"])
-        assert str(files["report.md"]).count(f"| {one['name']}: ") == len(one["numbers"])
+        assert str(files["report.md"]).count(f"| {one.name}: ") == len(one.numbers)
 
 
-def _shown(entry: dict[str, Any]) -> str:
-    unit = "°" if entry["unit"] == "°" else f" {entry['unit']}"
-    return f"{'below ' if entry['at_most'] else ''}{entry['printed']:g}{unit}"
+def _shown(entry: NumberRow) -> str:
+    unit = "°" if entry.unit == "°" else f" {entry.unit}"
+    return f"{'below ' if entry.at_most else ''}{entry.printed:g}{unit}"
 
 
-def test_json_carries_the_study(found: dict[str, Any], files: dict[str, str | bytes]) -> None:
-    assert json.loads(str(files["report.json"]))["sensitivity"] == found
+def test_json_carries_the_study(found: StudyRow, files: dict[str, str | bytes]) -> None:
+    assert read(StudyRow, json.loads(str(files["report.json"]))["sensitivity"]) == found
 
 
 @pytest.mark.slow
-def test_figures_draw_what_the_data_beside_them_say(
-    found: dict[str, Any], files: dict[str, str | bytes]
-) -> None:
+def test_figures_draw_what_the_data_beside_them_say(found: StudyRow, files: dict[str, str | bytes]) -> None:
     for stem in ("spread", "assumptions"):
         ElementTree.fromstring(str(files[f"figures/{stem}.svg"]))
         assert f"figures/{stem}.csv" in str(files["index.html"])
     rows = list(csv.DictReader(StringIO(str(files["figures/spread.csv"]))))
-    assert len(rows) == sum(len(one["numbers"]) for one in found["sets"])
-    index = found["sets"][0]["numbers"][0]
-    assert float(rows[0]["printed"]) == index["printed"] == 25.4006
-    assert float(rows[0]["least seen"]) == pytest.approx(index["low"])
+    assert len(rows) == sum(len(one.numbers) for one in found.sets)
+    index = found.sets[0].numbers[0]
+    assert float(rows[0]["printed"]) == index.printed == 25.4006
+    assert float(rows[0]["least seen"]) == pytest.approx(index.low)
     unsettled = [row for row in rows if row["quantity"] == "settling" and row["nominal"] == ""]
     assert unsettled
     assert draw_sensitivity(found) == draw_sensitivity(found)
@@ -107,37 +115,36 @@ def test_figures_draw_what_the_data_beside_them_say(
 
 
 @pytest.mark.slow
-def test_indices_stand_beside_the_bench(found: dict[str, Any]) -> None:
+def test_indices_stand_beside_the_bench(found: StudyRow) -> None:
     runs = [
-        {"name": "tau_m1", "L2": 31.0, "printed": {"L2": 25.4}},
-        {"name": "other", "L2": 9.0, "printed": None},
+        run_row(name="tau_m1", L2=31.0, printed=PrintedRow(25.4, None, ())),
+        run_row(name="other", L2=9.0),
     ]
     rows = list(csv.reader(StringIO(str(draw_comparisons((), runs, found)["indices.csv"]))))
     assert rows[0] == [
         "gains", "simulation of (11) [deg]", "bench with dry friction [deg]", "measured in the paper [deg]"
     ]  # fmt: skip
     assert rows[1][:2] == ["tau_m1", "31"]
-    assert float(rows[1][2]) == pytest.approx(found["sets"][0]["numbers"][0]["nominal"], rel=1e-5)
+    assert float(rows[1][2]) == pytest.approx(found.sets[0].numbers[0].nominal, rel=1e-5)
     assert rows[2] == ["other", "9", "", ""]
 
 
-def test_findings_follow_the_answers(found: dict[str, Any]) -> None:
+def test_findings_follow_the_answers(found: StudyRow) -> None:
     subjects = [item.subject for item in findings(NOTES, (), {}, (), found)]
     assert subjects[0] == "L2 index of tau_m1"
     assert "indices of all gains" in subjects
-    changed = deepcopy(found)
-    for one in changed["sets"]:
-        for entry in one["numbers"]:
-            entry.update(answer="yes", nominal=entry["printed"])
-    changed["together"].update(worst=0.0)
-    assert findings(NOTES, (), {}, (), changed) == ()
+    sets = tuple(
+        replace(one, numbers=tuple(replace(x, answer="yes", nominal=x.printed) for x in one.numbers))
+        for one in found.sets
+    )
+    assert findings(NOTES, (), {}, (), with_together(replace(found, sets=sets), worst=0.0)) == ()
 
 
 @pytest.mark.parametrize(("nominal", "count"), [(25.4, 0), (25.8, 0), (31.0, 1), (20.0, 1)])
-def test_indices_near_the_print_are_no_finding(found: dict[str, Any], nominal: float, count: int) -> None:
-    index = {**found["sets"][0]["numbers"][0], "nominal": nominal}
-    alone = {**found, "sets": [{**found["sets"][0], "numbers": [index]}], "together": None}
-    assert len(findings(NOTES, (), {}, (), alone)) == count
+def test_indices_near_the_print_are_no_finding(found: StudyRow, nominal: float, count: int) -> None:
+    first = found.sets[0]
+    alone = replace(first, numbers=(replace(first.numbers[0], nominal=nominal),))
+    assert len(findings(NOTES, (), {}, (), replace(found, sets=(alone,), together=None))) == count
 
 
 @pytest.mark.parametrize(
@@ -156,7 +163,8 @@ def test_answers_in_words(changed: dict[str, Any], cell: str, sentence: str) -> 
 
 
 def test_small_shares_are_not_what_a_number_hangs_on() -> None:
-    about = {"assumed": [{"name": name, "words": name} for name in ("a", "b", "c")]}
+    assumed = tuple(AssumedRow(name, name, "", 0.0, 0.0, 0.0) for name in ("a", "b", "c"))
+    about = StudyRow("arm", "", 0, 0, 0, False, 0, assumed, (), None)
     assert leading(number(shares={"a": 0.05, "b": 0.6, "c": 0.2}), about) == "b 60 %, c 20 %"
     assert leading(number(shares={"a": 0.05, "b": 0.06, "c": 0.0}), about) == ""
     assert leading(number(), about) == ""
@@ -170,18 +178,19 @@ def test_ranges_and_values_in_words() -> None:
     assert value_words(None, "s") == "not settled"
 
 
-def test_counts_are_counted(found: dict[str, Any]) -> None:
-    entries = [entry for one in found["sets"] for entry in one["numbers"]]
-    yes = sum(entry["answer"] == "yes" for entry in entries)
+def test_counts_are_counted(found: StudyRow) -> None:
+    yes = sum(entry.answer == "yes" for one in found.sets for entry in one.numbers)
     assert f"{yes} are what some arm in range does" in tally_words(found)
     assert "on 6 the arm has no influence" in tally_words(found)
-    assert "none of them puts" in together_words(found)
-    ordered = replace_together(found, ordered=0.25)
-    assert "25 % of them put the gain sets" in together_words(ordered)
+    for ordered, words in ((0.0, "none of them puts"), (0.25, "25 % of them put the gain sets")):
+        changed = with_together(found, ordered=ordered)
+        assert changed.together is not None
+        assert words in together_words(changed, changed.together)
 
 
-def replace_together(found: dict[str, Any], **changed: Any) -> dict[str, Any]:
-    return {**found, "together": {**found["together"], **changed}}
+def with_together(found: StudyRow, **changed: Any) -> StudyRow:
+    assert found.together is not None
+    return replace(found, together=replace(found.together, **changed))
 
 
 def test_an_arm_that_the_paper_did_not_run_has_no_such_part() -> None:
@@ -196,8 +205,8 @@ def test_a_report_takes_the_sets_that_it_is_about_from_the_study() -> None:
     (first, *_, last) = read_gain_file(paper_gain_file("table2")).gains
     both = printed_experiment([replace(last, name="mine"), first], model)
     assert both is not None
-    assert [(one["name"], one["m"]) for one in both["sets"]] == [("tau_m1", 1), ("mine", 3)]
-    assert both["together"] is None
+    assert [(one.name, one.m) for one in both.sets] == [("tau_m1", 1), ("mine", 3)]
+    assert both.together is None
 
 
 def test_another_arm_of_that_name_has_no_such_part() -> None:

@@ -15,7 +15,7 @@ from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import experiment, kept
-from lyapcheck.report.bench import gain_map, kept_map, map_eps0, map_path
+from lyapcheck.report.bench import gain_map, kept_map, map_eps0
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.experiment import study_file
 from lyapcheck.report.model import Report
@@ -28,15 +28,15 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> No
     """Each place that names an ε₀: the checker proves it, for that m and that k_v."""
     model, gains = load("pendulum1"), {1: GainSet("g", 1, (Fraction(4),), (Fraction(1),))}
     cells = gain_map(model, gains, [0.5], scales=("0.2", "1"))
-    assert [(cell.data["m"], cell.data["kv"], cell.data["within_19"]) for cell in cells] == [
+    assert [(one.cell.m, one.cell.kv, one.cell.within_19) for one in cells] == [
         (1, "0.2", True), (1, "1", False)
     ]  # fmt: skip
-    for cell in cells:
-        assert cell.certificate is not None
-        (tmp_path / Path(map_path(cell.data)).name).write_text(cell.certificate, encoding="utf-8")
-        statement = json.loads(cell.certificate)["statement"]
-        assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(cell.data["kv"])]
-        assert map_eps0(Fraction(statement["eps0"])) == cell.data["eps0"]
+    for one in cells:
+        assert one.certificate is not None
+        (tmp_path / Path(one.cell.path).name).write_text(one.certificate, encoding="utf-8")
+        statement = json.loads(one.certificate)["statement"]
+        assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(one.cell.kv)]
+        assert map_eps0(Fraction(statement["eps0"])) == one.cell.eps0
     outcome = recheck(gather([str(tmp_path)]))
     assert [one.verdict for one in outcome.checked] == ["proved", "proved"]
 
@@ -48,7 +48,7 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
     small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
     computed = Computed(
         report.claims, report.others, small, report.epsilon, report.runs, report.sensitivity,
-        report.bench["map"], report.figures, report.certificates,
+        report.bench.map, report.figures, report.certificates,
     )  # fmt: skip
     text = json.dumps(kept.written(computed))
     found = kept.read(json.loads(text), subject)
@@ -77,7 +77,7 @@ def test_the_map_of_the_papers_arm_is_shown_where_the_checker_accepts_it(
     model = load("buap3")
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
     cells = kept_map(model, sets)
-    assert {cell.data["m"] for cell in cells} == {1, 2, 3}
+    assert {one.cell.m for one in cells} == {1, 2, 3}
     assert all(cell.certificate for cell in cells)
     other = {1: replace(sets[1], kp=sets[2].kp)}
     assert kept_map(model, other) == []

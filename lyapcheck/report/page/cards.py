@@ -57,7 +57,10 @@ def _card(report: Report, finding: Finding) -> Markup:
     tone = "bad" if finding.weight == "A" else "warn"
     head = [
         element(
-            "p", [[_claim_link(name), " "] for name in finding.claims], member_words(finding.ms), class_="ids"
+            "p",
+            [[_claim_link(name), " "] for name in finding.claims],
+            member_words(finding.ms) if finding.ms or finding.claims else None,
+            class_="ids",
         ),
         element("h4", finding.title, id=f"finding-{finding.subject.replace(' ', '-')}"),
     ]

@@ -33,8 +33,8 @@ def _certificates(report: Report) -> Markup | None:
     """Links to what each ε₀ rests on."""
     parts: list[Markup | str] = []
     for row in report.epsilon:
-        for kind, path in row["certificates"].items():
-            parts += [", " if parts else "", element("a", f"{row['name']} {kind}", href=path)]
+        for kind, path in row.certificates.items():
+            parts += [", " if parts else "", element("a", f"{row.name} {kind}", href=path)]
     return element("p", "Certificates: ", parts, ".") if parts else None
 
 

@@ -31,9 +31,9 @@ def verdict_section(report: Report) -> Markup:
 def _title(report: Report) -> list[Markup]:
     paper = report.notes.paper
     if report.own:
-        about = element("p", f"{report.robot['title']}, m = {', '.join(map(str, report.ms))}.", class_="cite")
+        about = element("p", f"{report.robot.title}, m = {', '.join(map(str, report.ms))}.", class_="cite")
         link = element("p", "Controller and conditions: ", paper.citation, ".", class_="cite")
-        return [element("h1", f"Gains on {report.robot['name']}"), about, link]
+        return [element("h1", f"Gains on {report.robot.name}"), about, link]
     cite = element("p", paper.authors, ", ", paper.source, class_="cite")
     formula = element("div", [latex(part) for part in paper.controller.split(r"\qquad")], class_="controller")
     return [element("p", "Proof check of", class_="eyebrow"), element("h1", paper.title), cite, formula]

@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 
 from lyapcheck.output.elements import Markup, element
-from lyapcheck.report.bench import BOXES, map_path
-from lyapcheck.report.model import Data, Report
+from lyapcheck.report.bench import BOXES
+from lyapcheck.report.map_cell import MapCell
+from lyapcheck.report.model import Report
+from lyapcheck.report.plain import plain
 
 DRAWN = {
     "h": "The function h_m and its bound γ_m.",
@@ -19,8 +21,7 @@ DRAWN = {
 
 def gains_section(report: Report) -> Markup:
     """Sliders with live curves, and the map; without a script the map alone."""
-    bench = report.bench
-    data = json.dumps(bench, ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
+    data = json.dumps(plain(report.bench), ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
     plots = [
         element(
             "figure",
@@ -60,13 +61,13 @@ def gains_section(report: Report) -> Markup:
 
 
 def _map(report: Report) -> Markup | None:
-    cells = report.bench["map"]
+    cells = report.bench.map
     if not cells:
         return None
-    scales = list(dict.fromkeys(cell["kv"] for cell in cells))
-    ms = list(dict.fromkeys(cell["m"] for cell in cells))
-    at = {(cell["m"], cell["kv"]): cell for cell in cells}
-    largest = max((float(cell["eps0"] or 0) for cell in cells), default=0.0) or 1.0
+    scales = list(dict.fromkeys(cell.kv for cell in cells))
+    ms = list(dict.fromkeys(cell.m for cell in cells))
+    at = {(cell.m, cell.kv): cell for cell in cells}
+    largest = max((float(cell.eps0 or 0) for cell in cells), default=0.0) or 1.0
     heads = [element("th", f"k_v = {kv}", scope="col") for kv in scales]
     rows = [
         element(
@@ -76,7 +77,7 @@ def _map(report: Report) -> Markup | None:
     ]
     caption = (
         "Certified ε₀ over m and k_v (N·m, the same in every joint, k_p as in the gain set of each m) on "
-        f"{report.robot['name']}, each a link to its certificate, found with {BOXES:,} boxes, so a little "
+        f"{report.robot.name}, each a link to its certificate, found with {BOXES:,} boxes, so a little "
         "below what more boxes give; below it the settling time of the slowest joint and the largest share "
         "of a motor's torque in the reference simulation, in floating point. A frame: (19) holds."
     )
@@ -90,13 +91,13 @@ def _map(report: Report) -> Markup | None:
     return element("div", element("h3", "The map of m and k_v"), element("div", table, class_="scroll"))
 
 
-def _cell(report: Report, cell: Data, largest: float) -> Markup:
-    eps0 = element("b", f"{float(cell['eps0']):.3g}") if cell["eps0"] else element("b", "none proved")
-    if map_path(cell) in report.certificates:
-        eps0 = element("a", eps0, href=map_path(cell))
-    settling = "not settled" if cell["settling"] is None else f"{cell['settling']:.2f} s"
-    share = "" if cell["share"] is None else f", {100 * cell['share']:.0f} %"
-    shade = round(45 * float(cell["eps0"] or 0) / largest)
+def _cell(report: Report, cell: MapCell, largest: float) -> Markup:
+    eps0 = element("b", f"{float(cell.eps0):.3g}") if cell.eps0 else element("b", "none proved")
+    if cell.path in report.certificates:
+        eps0 = element("a", eps0, href=cell.path)
+    settling = "not settled" if cell.settling is None else f"{cell.settling:.2f} s"
+    share = "" if cell.share is None else f", {100 * cell.share:.0f} %"
+    shade = round(45 * float(cell.eps0 or 0) / largest)
     style = f"background:color-mix(in srgb,var(--good) {shade}%,var(--paper))"
     return element(
         "td",
@@ -104,5 +105,5 @@ def _cell(report: Report, cell: Data, largest: float) -> Markup:
         element("br"),
         f"{settling}{share}",
         style=style,
-        class_="within" if cell["within_19"] else None,
+        class_="within" if cell.within_19 else None,
     )

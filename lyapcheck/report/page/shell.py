@@ -24,7 +24,7 @@ SECTIONS = {
 def render(report: Report) -> str:
     """The whole page: no file, no network and no script is needed to read it."""
     paper = report.notes.paper
-    title = f"Gains on {report.robot['name']}" if report.own else paper.title
+    title = f"Gains on {report.robot.name}" if report.own else paper.title
     sections = (
         verdict_section(report),
         findings_section(report),
