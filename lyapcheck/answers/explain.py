@@ -10,7 +10,7 @@ from typing import Any
 
 from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.claims.ask import ask
-from lyapcheck.claims.handover import CaseData, ClaimData, Request
+from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
 from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
 from lyapcheck.claims.statements import AllOf, Missing, Statement
@@ -154,7 +154,7 @@ def list_claims(script: str | None = None) -> ClaimList:
     proofs = []
     for name in SHIPPED if script is None else (script,):
         path = find_script(name)
-        handover = ask(Request(str(path), path.name))
+        handover = ask(ScriptRequest(str(path), path.name))
         proofs.append((path.name, handover.title, tuple(_named(claim) for claim in handover.claims)))
     return ClaimList(tuple(proofs))
 
@@ -179,7 +179,7 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
     """
     script_path, meant = _making(claim_id, script)
     case = paper_case_data(SHOWN_MEMBER)
-    handover = ask(Request(str(script_path), script_path.name, (case,), only=(meant,)))
+    handover = ask(ScriptRequest(str(script_path), script_path.name, (case,), only=(meant,)))
     claims = {claim.id: claim for claim in handover.claims}
     claim = claims[meant]
     answer = claim.answers[0]
@@ -223,7 +223,7 @@ def _making(claim_id: str, script: str | None) -> tuple[Path, str]:
     paths = [find_script(name) for name in (SHIPPED if script is None else (script,))]
     known: list[str] = []
     for path in paths:
-        ids = [claim.id for claim in ask(Request(str(path), path.name)).claims]
+        ids = [claim.id for claim in ask(ScriptRequest(str(path), path.name)).claims]
         meant = _meant(claim_id, ids)
         if meant is not None:
             return path, meant

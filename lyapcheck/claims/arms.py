@@ -12,7 +12,7 @@ from lyapcheck.claims.products import Matrix, Vector, vector
 
 if TYPE_CHECKING:
     from lyapcheck.robots import Number, RobotModel
-    from lyapcheck.robots.dynamics import Place
+    from lyapcheck.robots.dynamics import ArmAtAngles
 
 
 def mass_matrix(robot: RobotModel) -> Matrix:
@@ -35,7 +35,7 @@ def rate_of(a: Matrix, w: Sequence[Expr]) -> Matrix:
     return [[total(diff(entry, f"q{k + 1}") * w[k] for k in range(len(w))) for entry in row] for row in a]
 
 
-def _place(robot: RobotModel) -> Place:
+def _place(robot: RobotModel) -> ArmAtAngles:
     """The polynomials, written out, at the angles q1, …, qn."""
     q = vector("q", robot.n)
     sines, cosines = [sin(angle) for angle in q], [cos(angle) for angle in q]

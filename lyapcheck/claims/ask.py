@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lyapcheck.check.refusal import Refused
-from lyapcheck.claims.handover import Handover, Request, read
+from lyapcheck.claims.handover import Handover, ScriptRequest, read
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.claims.script import check_ids
@@ -22,7 +22,7 @@ MAX_BYTES = 400_000_000
 STANDARD_ERROR = 2
 
 
-def ask(request: Request) -> Handover:
+def ask(request: ScriptRequest) -> Handover:
     """What a script hands over; it is over, with all it has started, when this returns.
 
     Soundness: nothing comes back but claims in words and statements as data, which are read strictly.
@@ -42,7 +42,7 @@ def ask(request: Request) -> Handover:
     return handover
 
 
-def _run(request: Request) -> int:
+def _run(request: ScriptRequest) -> int:
     """The exit code of the process of the script.
 
     It has a session of its own, so that what it leaves running can be ended; and as long as its standard
@@ -69,7 +69,7 @@ def _run(request: Request) -> int:
     return process.returncode
 
 
-def _read(answer: Path, request: Request, code: int) -> Handover:
+def _read(answer: Path, request: ScriptRequest, code: int) -> Handover:
     try:
         if code or not answer.is_file():
             raise Refused("process", _ending(code), "must end with its claims handed over")

@@ -32,7 +32,7 @@ class Judged:
     granted: tuple[str, ...] = ()
 
 
-class Alarm(Exception):
+class ContradictionError(Exception):
     """One statement is both proved and refuted: the checker is wrong, and no verdict of this run counts."""
 
     def __init__(self, result: list[tuple[str, list[str], list[str]]]) -> None:
@@ -49,7 +49,7 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
 
     Raises:
-        Alarm: it proves and refutes one statement.
+        ContradictionError: it proves and refutes one statement.
         RuntimeError: the checker does not answer, or answers about something else.
     """
     if not certificates:
@@ -65,7 +65,9 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
     except ValueError as error:
         raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}") from error
     if answer["alarms"]:
-        raise Alarm([(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]])
+        raise ContradictionError(
+            [(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]]
+        )
     rows = {row["file"]: row for row in answer["certificates"]}
     return {key: _judged(rows[name], certificates[key].claim) for name, key in files.items()}
 

@@ -30,7 +30,7 @@ Key = tuple[str, int | None]
 
 
 @dataclass(frozen=True)
-class Request:
+class ScriptRequest:
     """What a script is asked for.
 
     Args:
@@ -51,7 +51,7 @@ class Request:
 
 
 @dataclass(frozen=True)
-class Answer:
+class ScriptAnswer:
     """The statement for one case by its number, or why there is none, and what the function looked at."""
 
     statement: int | None
@@ -68,7 +68,7 @@ class ClaimData:
     place: str
     section: str
     uses: tuple[str, ...]
-    answers: tuple[Answer, ...] = ()
+    answers: tuple[ScriptAnswer, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Handover:
     problems: tuple[tuple[str, int | None, str, str, str, str], ...] = ()
     statements: tuple[Statement | Missing, ...] = ()
 
-    def stated(self, answer: Answer) -> Statement | Missing:
+    def stated(self, answer: ScriptAnswer) -> Statement | Missing:
         """What an answer states."""
         return Missing(answer.lacking) if answer.statement is None else self.statements[answer.statement]
 

@@ -18,7 +18,7 @@ from lyapcheck.claims.arms import gravity_vector
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.case import lacking
 from lyapcheck.claims.statements import bounded
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooLong
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def coriolis_bounded(robot: RobotModel) -> Statement:
     """
     try:
         return ArmBounds(robot).coriolis_below()
-    except TooLong as error:
+    except TooManyTerms as error:
         raise lacking(str(error)) from None
 
 

@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 from lyapcheck.errors import InputError, Problem
 
 
-class Step(Protocol):
+class Ordered(Protocol):
     """What has an id and uses others."""
 
     @property
@@ -22,7 +22,7 @@ class Step(Protocol):
         ...
 
 
-S = TypeVar("S", bound=Step)
+S = TypeVar("S", bound=Ordered)
 
 
 def in_order(claims: Mapping[str, S], file: str) -> list[S]:

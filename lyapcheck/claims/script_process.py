@@ -21,11 +21,11 @@ from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.handover import (
     TOO_DEEP,
-    Answer,
     CaseData,
     ClaimData,
     Handover,
-    Request,
+    ScriptAnswer,
+    ScriptRequest,
     statement_json,
     write,
 )
@@ -71,7 +71,7 @@ def _end_with(stream: BinaryIO) -> None:
     os.killpg(os.getpid(), signal.SIGKILL)
 
 
-def answer(request: Request) -> str:
+def answer(request: ScriptRequest) -> str:
     """The handover of the script as JSON: its claims with their statements, or what is wrong with it."""
     try:
         return _handover(request)
@@ -80,7 +80,7 @@ def answer(request: Request) -> str:
         return write(Handover(problems=problems), [])
 
 
-def _handover(request: Request) -> str:
+def _handover(request: ScriptRequest) -> str:
     proof = load_proof(Path(request.path), request.shown)
     check_ids(proof.claims, request.only, request.shown)
     in_order(proof.claims, request.shown)
@@ -96,31 +96,31 @@ def _handover(request: Request) -> str:
     )
 
 
-def _answers(claim: Claim, request: Request, statements: Lines) -> Iterator[Answer]:
+def _answers(claim: Claim, request: ScriptRequest, statements: Lines) -> Iterator[ScriptAnswer]:
     for case_data in request.asked:
         yield _answer(claim, case_data, statements, request.shown)
     for case_data in request.others:
         try:
             yield _answer(claim, case_data, statements, request.shown)
         except InputError as error:
-            yield Answer(None, str(error), ())
+            yield ScriptAnswer(None, str(error), ())
 
 
-def _answer(claim: Claim, case_data: CaseData, statements: Lines, shown: str) -> Answer:
+def _answer(claim: Claim, case_data: CaseData, statements: Lines, shown: str) -> ScriptAnswer:
     case = Case(*case_data)
     try:
         statement = _statement(claim, case, shown)
         if statement not in statements:
             statements[statement] = len(statements), statement_json(statement)
     except Lacking as lack:
-        return Answer(None, str(lack), tuple(sorted(case.read)))
+        return ScriptAnswer(None, str(lack), tuple(sorted(case.read)))
     except RecursionError:
-        return Answer(None, f"its statement {TOO_DEEP}", tuple(sorted(case.read)))
+        return ScriptAnswer(None, f"its statement {TOO_DEEP}", tuple(sorted(case.read)))
     except (TypeError, ValueError, AttributeError) as error:
         rule = f"its statement is not plain data ({type(error).__name__}: {error})"
         repair = "build it with the functions of lyapcheck.claims"
         raise InputError(Problem(shown, None, claim.id, "", rule, repair)) from error
-    return Answer(statements[statement][0], "", tuple(sorted(case.read)))
+    return ScriptAnswer(statements[statement][0], "", tuple(sorted(case.read)))
 
 
 def _statement(claim: Claim, case: Case, shown: str) -> Statement:

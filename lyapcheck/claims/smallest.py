@@ -27,7 +27,7 @@ from lyapcheck.check.statement import Proof, Relation, Statement, Variable
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.certificates import versions
 from lyapcheck.claims.fresh_check import judge_afresh
-from lyapcheck.claims.handover import CaseData, Key, Request
+from lyapcheck.claims.handover import CaseData, Key, ScriptRequest
 from lyapcheck.claims.procedures.implication import bound_of
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
 from lyapcheck.claims.script import find_script
@@ -47,7 +47,7 @@ Hand = Mapping[str, Sequence[Fraction]]
 
 
 @dataclass(frozen=True)
-class SmallWitness:
+class RefutedBelow:
     """A refuted statement with its witness, accepted by the checker.
 
     Args:
@@ -73,7 +73,7 @@ class SmallWitness:
 
 def smallest_witnesses(
     script: str, wanted: Mapping[str, Sequence[int]], model: Any, gain_sets: Mapping[int, Any]
-) -> dict[str, SmallWitness]:
+) -> dict[str, RefutedBelow]:
     """For each claim the fewest joints, and the roundest point, at which it fails.
 
     Args:
@@ -93,8 +93,8 @@ def smallest_witnesses(
         for n in range(1, joints + 1)
         for m, gains in sorted(gain_sets.items())
     ]
-    handover = ask(Request(str(path), path.name, tuple(cases), only=tuple(wanted)))
-    result: dict[Key, SmallWitness] = {}
+    handover = ask(ScriptRequest(str(path), path.name, tuple(cases), only=tuple(wanted)))
+    result: dict[Key, RefutedBelow] = {}
     for claim in handover.claims:
         if claim.id not in wanted:
             continue
@@ -156,7 +156,7 @@ def rounded_up(bound: Fraction) -> Fraction:
     return -(-bound * 100 // 1) / Fraction(100)
 
 
-def _smallest(statement: Statement, hand: Hand, about: About) -> SmallWitness | None:
+def _smallest(statement: Statement, hand: Hand, about: About) -> RefutedBelow | None:
     for inner, wrap in _parts(statement):
         for relation, known, points in _tries(inner, hand):
             failure = first_refutation(relation.comparison, points, known)
@@ -165,7 +165,7 @@ def _smallest(statement: Statement, hand: Hand, about: About) -> SmallWitness | 
                 for part in reversed(wrap):
                     proof = OnePart(part, proof)
                 certificate = Certificate(about, statement, "refuted", "enclosure", proof, {}, versions())
-                return SmallWitness(
+                return RefutedBelow(
                     id=about.id,
                     m=about.m,
                     n=about.n or 1,

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.starts import Starts, Sweep
     from lyapcheck.simulate.task import Task
     from lyapcheck.tracking.reference import Reference
-    from lyapcheck.tracking.request import Request
+    from lyapcheck.tracking.request import TrackingRequest
     from lyapcheck.tracking.run import TrackingRun
 
 
@@ -137,7 +137,7 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
     return job.output.write(answer, lambda: runs_csv(runs))
 
 
-def follow(job: Job, reference: Reference, request: Request, *, stop: bool) -> Exit:
+def follow(job: Job, reference: Reference, request: TrackingRequest, *, stop: bool) -> Exit:
     """The tracking scheme (21) along a reference."""
     from lyapcheck.answers.simulate.samples import tracking_csv
     from lyapcheck.answers.simulate.tracking import TrackingRuns

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.starts import Starts
     from lyapcheck.simulate.task import Task
     from lyapcheck.tracking.reference import Reference
-    from lyapcheck.tracking.request import Request
+    from lyapcheck.tracking.request import TrackingRequest
 
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
@@ -83,7 +83,7 @@ def task_of(
 
 
 @dataclass(frozen=True)
-class Asked:
+class TypedTask:
     """What ``lyapcheck simulate`` was asked for, as it was typed."""
 
     target: str | None
@@ -97,7 +97,7 @@ class Asked:
         time = SECONDS if self.time is None else self.time
         return task_of(model, self.target, self.start, time, self.eps0.number, self.velocity)
 
-    def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> Request:
+    def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> TrackingRequest:
         """The tracking request; without a reference only its problems are of interest.
 
         Raises:

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from lyapcheck.compiled.plain_arrays import PlainArrays
-from lyapcheck.compiled.straight_line import Code
+from lyapcheck.compiled.straight_line import StraightLine
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.elementary import ElementaryFamily, NumericForms
@@ -26,7 +26,7 @@ _LN2 = 0.6931471805599453
 class PlainForms:
     """What formulas ask of an arithmetic, for one family: terms of one piece of code, or arrays."""
 
-    code: Code | PlainArrays
+    code: StraightLine | PlainArrays
     family: Family
 
     def sin(self, x: Any) -> Any:
@@ -59,7 +59,7 @@ class PlainForms:
 
     def _forms(self, x: Any) -> Any:
         if self.family.name in _WITH_POWERS:
-            return Hyperbolic(self.code, self.family.m or 1, x)
+            return HyperbolicForms(self.code, self.family.m or 1, x)
         if isinstance(self.family, ElementaryFamily):
             return self.family.numeric(_arithmetic(self.code), x)
         return NumericForms(h=x, dh=self.code.term(1), potential=0.5 * x * x, secant=self.code.term(1))
@@ -74,7 +74,7 @@ def has_plain_forms(family: Family) -> bool:
     return known and (family.m or 1) <= LARGEST_MEMBER
 
 
-def _arithmetic(code: Code | PlainArrays) -> Arithmetic:
+def _arithmetic(code: StraightLine | PlainArrays) -> Arithmetic:
     """The operations of families in plain doubles."""
 
     def of(function: str) -> Callable[..., Any]:
@@ -93,7 +93,7 @@ def _arithmetic(code: Code | PlainArrays) -> Arithmetic:
     )
 
 
-class Hyperbolic:
+class HyperbolicForms:
     """h_m, h_m' and U_m from t = e^(−|x|), which never overflows.
 
     With sinh|x| = u(1 + t)/(2t), u = 1 − t, let p be the smaller of sinh|x| and its inverse, P = p^(2m) and
@@ -110,7 +110,7 @@ class Hyperbolic:
     bound of its relative error.
     """
 
-    def __init__(self, code: Code | PlainArrays, m: int, x: Any) -> None:
+    def __init__(self, code: StraightLine | PlainArrays, m: int, x: Any) -> None:
         self.code, self.m, self.x = code, m, x
         self.a = code.call("fabs", x)
         self.t = code.call("exp_of_negative", self.a)

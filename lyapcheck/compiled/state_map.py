@@ -10,11 +10,11 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.compiled.library import library, resource
-from lyapcheck.compiled.straight_line import Code, Term, TooLong
+from lyapcheck.compiled.straight_line import StraightLine, Term, TooLong
 from lyapcheck.compiled.threads import over_shares
 
 Columns = list[Term]
-Formula = Callable[[Code, Columns, Columns, Columns, Columns], Sequence[Any]]
+Formula = Callable[[StraightLine, Columns, Columns, Columns, Columns], Sequence[Any]]
 """(code, q, e, w, parameters) ↦ the outputs."""
 
 LANES = 64
@@ -79,7 +79,7 @@ def state_map(formula: Formula, n: int, parameters: int, outputs: int) -> StateM
 
 
 def _source(formula: Formula, n: int, parameters: int, outputs: int) -> str:
-    code = Code()
+    code = StraightLine()
     q, e, w = ([code.name(f"{x}[{i}][l]") for i in range(n)] for x in "qew")
     values = formula(code, q, e, w, [code.name(f"p[{i}]") for i in range(parameters)])
     body = code.store([f"out[{k}][l]" for k in range(outputs)], values)

@@ -26,7 +26,7 @@ class TooLong(Exception):
 class Term:
     """A double in recorded code: ``text`` is a C name or literal, ``value`` is known for literals only."""
 
-    code: Code
+    code: StraightLine
     text: str
     value: float | None = None
 
@@ -73,7 +73,7 @@ class Term:
 
 
 @dataclass(eq=False)
-class Code:
+class StraightLine:
     """The statements recorded so far."""
 
     lines: list[str] = field(default_factory=list)

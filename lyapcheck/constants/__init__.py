@@ -3,6 +3,6 @@
 from lyapcheck._types import SEED
 from lyapcheck.constants.arm import arm_constants
 from lyapcheck.constants.bounds import RobotConstants, robot_bounds, robot_constants
-from lyapcheck.constants.constant import Constant
+from lyapcheck.constants.constant import ConstantResult
 
-__all__ = ["SEED", "Constant", "RobotConstants", "arm_constants", "robot_bounds", "robot_constants"]
+__all__ = ["SEED", "ConstantResult", "RobotConstants", "arm_constants", "robot_bounds", "robot_constants"]

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from lyapcheck._types import Progress
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.chain import chain_constant
-from lyapcheck.constants.constant import Constant, Task
+from lyapcheck.constants.constant import ConstantResult, SupremumTask
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
@@ -37,7 +37,7 @@ def arm_constants(
     gap: float | None = None,
     on_progress: Progress | None = None,
     names: Sequence[str] | None = None,
-) -> tuple[Constant, ...]:
+) -> tuple[ConstantResult, ...]:
     """λmin(M), λmax(M), k_c, k_g and every k_gi of an arm whose parameters stand at their nominal values.
 
     Args:
@@ -77,13 +77,13 @@ def arm_constants(
     return tuple(result)
 
 
-def _makers(n: int) -> dict[str, Callable[[ArmHarmonics], Task]]:
+def _makers(n: int) -> dict[str, Callable[[ArmHarmonics], SupremumTask]]:
     """How each constant becomes a task, in the order in which they are reported."""
 
-    def component(i: int) -> Callable[[ArmHarmonics], Task]:
+    def component(i: int) -> Callable[[ArmHarmonics], SupremumTask]:
         return lambda arm: gravity_task(arm, f"k_g{i + 1}", [i])
 
-    makers: dict[str, Callable[[ArmHarmonics], Task]] = {
+    makers: dict[str, Callable[[ArmHarmonics], SupremumTask]] = {
         "lambda_min": lambda_min_task,
         "lambda_max": lambda_max_task,
         "k_c": coriolis_task,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.constants.constant import Constant
+from lyapcheck.constants.constant import ConstantResult
 from lyapcheck.constants.coriolis_chain import coriolis_bound
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.outside import from_distances
@@ -12,7 +12,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
 
-def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Constant:
+def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> ConstantResult:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Args:
@@ -42,4 +42,4 @@ def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Const
         )
     low, high = sorted((inner.value, outer))
     unit = "N·m" if name.startswith("k_g") else "kg·m²"
-    return Constant(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)
+    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)

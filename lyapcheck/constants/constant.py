@@ -12,7 +12,7 @@ from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.outside import ceiling
-from lyapcheck.constants.storage.bounds import Shown
+from lyapcheck.constants.storage.bounds import BoundWithProof
 from lyapcheck.constants.torus import PI_ABOVE, AffineForms, Torus
 
 _SAMPLES = 1024
@@ -21,7 +21,7 @@ _ROUNDS = 40
 
 
 @dataclass(frozen=True)
-class Constant:
+class ConstantResult:
     """One constant of an arm: its enclosure, a state that shows the inside end, and the boxes it took.
 
     Args:
@@ -38,7 +38,7 @@ class Constant:
     enclosure: Enclosure
     state: tuple[float, ...]
     boxes: int
-    shown: Shown | None = None
+    shown: BoundWithProof | None = None
 
     @property
     def gap(self) -> float:
@@ -48,7 +48,7 @@ class Constant:
 
 
 @dataclass(frozen=True)
-class Task:
+class SupremumTask:
     """A constant as the supremum over all angles of a function of some polynomials.
 
     Args:
@@ -92,7 +92,7 @@ class Task:
         gap: float,
         on_progress: Progress | None = None,
         known: Fraction | None = None,
-    ) -> Constant:
+    ) -> ConstantResult:
         """The constant between the value at a state and a bound over all of them.
 
         Args:
@@ -118,7 +118,7 @@ class Task:
         state = tuple(self.torus.angles_at(coordinates).tolist())
         if self.shown is not None:
             state = self.shown(coordinates)
-        return Constant(self.name, self.unit, Enclosure(low, high), state, result.boxes)
+        return ConstantResult(self.name, self.unit, Enclosure(low, high), state, result.boxes)
 
 
 def climb(merit: Callable[[Array], Array], half: Array) -> Array:

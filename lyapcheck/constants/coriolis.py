@@ -18,7 +18,7 @@ import numpy as np
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.constant import Task
+from lyapcheck.constants.constant import SupremumTask
 from lyapcheck.constants.quartic import quartic
 from lyapcheck.constants.spectrum import ROUNDING, eigenvalues, largest_norm
 from lyapcheck.constants.torus import AffineForms
@@ -27,7 +27,7 @@ _TURNS = 6
 _STARTS = 3
 
 
-def coriolis_task(arm: ArmHarmonics) -> Task:
+def coriolis_task(arm: ArmHarmonics) -> SupremumTask:
     """k_c as a supremum over the angles."""
     torus = arm.symbols
 
@@ -39,7 +39,7 @@ def coriolis_task(arm: ArmHarmonics) -> Task:
         return (*torus.angles_at(q).tolist(), *_pushed(tensor)[1][0].tolist())
 
     weight = np.ones(len(arm.triples))
-    return Task(
+    return SupremumTask(
         "k_c", "kg·m²", torus, value, lambda affine: _most(arm, affine), weight, shown=shown, cost=arm.n
     )
 

@@ -14,7 +14,7 @@ from lyapcheck._types import SEED, Array
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.vectors import Algebra
-from lyapcheck.robots.chain import MovingPosture
+from lyapcheck.robots.chain import ChainInMotion
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.plant import Plant
 
@@ -95,7 +95,7 @@ def _in_balls(
     with ctx.workprec(BITS):
         angles, direction = [to_arb(a) for a in q], [to_arb(a) for a in x]
         sines, cosines = [a.sin() for a in angles], [a.cos() for a in angles]
-        posture = MovingPosture(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
+        posture = ChainInMotion(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
         if name.startswith("k_g"):
             torque = posture.gravity()
             counted = torque if name == "k_g" else [torque[int(name.removeprefix("k_g")) - 1]]

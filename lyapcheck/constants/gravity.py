@@ -11,11 +11,11 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.constant import Task
+from lyapcheck.constants.constant import SupremumTask
 from lyapcheck.constants.torus import AffineForms, Torus
 
 
-def gravity_task(arm: ArmHarmonics, name: str, joints: Sequence[int]) -> Task:
+def gravity_task(arm: ArmHarmonics, name: str, joints: Sequence[int]) -> SupremumTask:
     """sup (Σ g_i(q)²)^½ over some joints, counted from 0."""
     torus = Torus([arm.gravity[i] for i in joints], arm.n)
 
@@ -26,4 +26,4 @@ def gravity_task(arm: ArmHarmonics, name: str, joints: Sequence[int]) -> Task:
         squares = (np.abs(affine.corners()) + affine.radius[:, None]) ** 2
         return np.asarray(np.max(np.sqrt(np.sum(squares, axis=2)), axis=1) * (1 + 1e-14))
 
-    return Task(name, "N·m", torus, value, most, np.ones(len(joints)))
+    return SupremumTask(name, "N·m", torus, value, most, np.ones(len(joints)))

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, Judgement
+from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, JudgedStatement
 from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.control.threshold import Threshold, norms, number, scaled
 from lyapcheck.errors import argument_error
@@ -59,7 +59,7 @@ class Check:
 
     id: str
     joint: int | None = None
-    judgement: Judgement | None = None
+    judgement: JudgedStatement | None = None
     value: Fraction | None = None
     limit: Enclosure | None = None
     largest_admissible: Written | None = None

@@ -11,7 +11,7 @@ from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.kinds import GAINS, require_kind
 from lyapcheck.files.place import KeyPath, Place
-from lyapcheck.files.toml import Document, open_document
+from lyapcheck.files.toml import TomlFile, open_document
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class GainFile:
     robot: str | None
     gains: tuple[GainSet, ...]
     bounds: Bounds = Bounds()
-    document: Document | None = None
+    document: TomlFile | None = None
 
     def place(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> Place | None:
         """Where a gain of a set stands; ``joint`` counts from 0."""

@@ -14,7 +14,7 @@ VERDICTS = {"proved": ACCEPTED, "refuted": REJECTED}
 
 
 @dataclass(frozen=True)
-class Judgement:
+class JudgedStatement:
     """A statement with the verdict of ``lyapcheck.check.verify``; no proof where none was accepted.
 
     Args:
@@ -37,7 +37,7 @@ class Judgement:
         return VERDICTS.get(self.shown, UNDECIDED)
 
 
-def judged(statement: Statement, proofs: Iterable[Proof]) -> Judgement:
+def judged_statement(statement: Statement, proofs: Iterable[Proof]) -> JudgedStatement:
     """The verdict on a statement.
 
     Soundness: that of ``lyapcheck.check.verify``.
@@ -49,5 +49,5 @@ def judged(statement: Statement, proofs: Iterable[Proof]) -> Judgement:
         except Refused as refused:
             reason = str(refused)
         else:
-            return Judgement(statement, proof, result.verdict, result.grade, "")
-    return Judgement(statement, None, UNDECIDED, "", reason)
+            return JudgedStatement(statement, proof, result.verdict, result.grade, "")
+    return JudgedStatement(statement, None, UNDECIDED, "", reason)

@@ -17,7 +17,7 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.replay import MAX_BITS
 from lyapcheck.check.statement import Relation
-from lyapcheck.control.judgement import Judgement, judged
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.files.decimals import Written, exact_decimal, scaled_text
 
 if TYPE_CHECKING:
@@ -47,19 +47,21 @@ class Threshold:
     def __init__(self, budget: Tree, n: int, gamma: Tree | None, operator: str = "<") -> None:
         self.bounded, self.operator = gamma is not None, operator
         self.limit = _quotient(budget, (root(Fraction(n)), gamma or ONE))
-        self._known: dict[tuple[int, int], Judgement] = {}
+        self._known: dict[tuple[int, int], JudgedStatement] = {}
         self._near: dict[int, Enclosure] = {}
         self._largest: dict[int, Written | None] = {}
 
-    def judged(self, value: Fraction, places: int = 0) -> Judgement:
+    def judged(self, value: Fraction, places: int = 0) -> JudgedStatement:
         """What the checker says of a positive value with so many decimal places."""
         key = value.as_integer_ratio()  # hashing a fraction takes longer
         known = self._known.get(key)
         if known is None:
             if self.bounded:
-                known = judged(Constant(Relation(number(value), self.operator, self.limit)), _proofs(places))
+                known = judged_statement(
+                    Constant(Relation(number(value), self.operator, self.limit)), _proofs(places)
+                )
             else:
-                known = judged(*self._against(value))
+                known = judged_statement(*self._against(value))
             self._known[key] = known
         return known
 

@@ -21,7 +21,7 @@ LARGEST_FILE = 20_000_000
 
 
 @dataclass(frozen=True)
-class Document:
+class TomlFile:
     """A TOML file: its data, floats as exact ``Written`` rationals, and the place of each key."""
 
     name: str
@@ -56,7 +56,7 @@ class Document:
         return None if place is None else place.line
 
 
-def open_document(path: Path, shown: str | None = None) -> Document:
+def open_document(path: Path, shown: str | None = None) -> TomlFile:
     """Read a TOML file; ``shown`` is the name that messages use, as the user wrote it.
 
     Raises:
@@ -65,7 +65,7 @@ def open_document(path: Path, shown: str | None = None) -> Document:
     name = _sayable(str(path) if shown is None else shown)
     text = _text(path, name)
     try:
-        return Document(name, text, tomllib.loads(text, parse_float=written))
+        return TomlFile(name, text, tomllib.loads(text, parse_float=written))
     except tomllib.TOMLDecodeError as error:
         raise _syntax(name, str(error), text) from None
     except RecursionError:

@@ -17,7 +17,7 @@ from lyapcheck.intervals.interval import Interval
 
 
 @dataclass(frozen=True)
-class Extreme:
+class TurningPoint:
     """An x ≥ 0 at which a function may turn, and its value there, each between two doubles."""
 
     where: tuple[float, float]
@@ -28,7 +28,9 @@ def h_range(family: Family, x: Interval) -> Interval:
     """All values of h over the intervals: h is odd and monotone between its extremes."""
     extrema = _turning_points(family)[0]
     mirrored = [
-        Extreme((-p.where[1], -p.where[0]), (-p.value[1], -p.value[0])) for p in extrema if p.where[1] > 0
+        TurningPoint((-p.where[1], -p.where[0]), (-p.value[1], -p.value[0]))
+        for p in extrema
+        if p.where[1] > 0
     ]
     return _range(family.h, [*extrema, *mirrored], x)
 
@@ -36,11 +38,11 @@ def h_range(family: Family, x: Interval) -> Interval:
 def dh_range(family: Family, x: Interval) -> Interval:
     """All values of h' over the intervals: h' is even and monotone between its extremes."""
     extrema = _turning_points(family)[1]
-    mirrored = [Extreme((-p.where[1], -p.where[0]), p.value) for p in extrema if p.where[1] > 0]
+    mirrored = [TurningPoint((-p.where[1], -p.where[0]), p.value) for p in extrema if p.where[1] > 0]
     return _range(family.dh, [*extrema, *mirrored], x)
 
 
-def _range(function: Callable[[Array], Array], extrema: list[Extreme], x: Interval) -> Interval:
+def _range(function: Callable[[Array], Array], extrema: list[TurningPoint], x: Interval) -> Interval:
     a, b = _at_ends(function, x)
     result = widened(np.minimum(a, b), np.maximum(a, b))
     low, high = result.lo, result.hi
@@ -61,13 +63,13 @@ def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Ar
 
 
 @lru_cache(maxsize=256)
-def _turning_points(family: Family) -> tuple[tuple[Extreme, ...], tuple[Extreme, ...]]:
+def _turning_points(family: Family) -> tuple[tuple[TurningPoint, ...], tuple[TurningPoint, ...]]:
     """The x ≥ 0 at which h, and at which h', may stop being monotone."""
     h_turns, dh_turns = family.turning_points()
     h = tuple(_extreme(family.ball_h, where) for where in h_turns)
     return h, tuple(_extreme(family.ball_dh, where) for where in (arb(0), *dh_turns))
 
 
-def _extreme(function: Callable[[arb], arb], where: arb) -> Extreme:
+def _extreme(function: Callable[[arb], arb], where: arb) -> TurningPoint:
     place, value = Enclosure.from_arb(where), Enclosure.from_arb(function(where))
-    return Extreme((place.float_lower, place.float_upper), (value.float_lower, value.float_upper))
+    return TurningPoint((place.float_lower, place.float_upper), (value.float_lower, value.float_upper))

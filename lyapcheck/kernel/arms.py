@@ -32,7 +32,7 @@ from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.search.cover import cover
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.sides import Splitter
 
 FUEL = 30
@@ -79,7 +79,7 @@ def _finer(loop: ClosedLoop, tree: str) -> str:
                 known[np.array(box).T.tobytes()] = side
     except BrokenTree:
         return tree
-    problem = Problem(loop)
+    problem = SchurProblem(loop)
     splitter = Splitter.of(problem)
 
     def sides(boxes: Array) -> NDArray[np.intp]:

@@ -41,7 +41,7 @@ class Forms(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class LyapunovFunction:
     """What V and dV/dt are made of besides the state.
 
     Args:

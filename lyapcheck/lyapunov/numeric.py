@@ -12,9 +12,9 @@ from lyapcheck._types import Array
 from lyapcheck.compiled.columns import ColumnForms
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.state_map import StateMap, state_map
-from lyapcheck.compiled.straight_line import Code, Term
+from lyapcheck.compiled.straight_line import StraightLine, Term
 from lyapcheck.family import Family
-from lyapcheck.lyapunov.along import Certificate
+from lyapcheck.lyapunov.along import LyapunovFunction
 from lyapcheck.robots.plant import Plant
 
 Columns = list[Array]
@@ -92,8 +92,10 @@ class LyapunovNumeric:
         return np.array([[*self.kp, *self.kv, *self.viscous, self.eps0]])
 
     @cached_property
-    def _columns(self) -> Certificate:
-        return Certificate(self.model, ColumnForms(self.family), self.kp, self.kv, self.viscous, self.eps0)
+    def _columns(self) -> LyapunovFunction:
+        return LyapunovFunction(
+            self.model, ColumnForms(self.family), self.kp, self.kv, self.viscous, self.eps0
+        )
 
 
 def _blocks(value: Callable[[Columns, Columns, Columns], Array], states: list[Array]) -> Array:
@@ -111,9 +113,9 @@ def _compiled(model: Plant, family: Family, name: Name) -> StateMap | None:
     """The loop over states; gains, B and ε₀ are its parameters."""
     n = model.n
 
-    def formula(code: Code, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
+    def formula(code: StraightLine, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
         forms = PlainForms(code, family)
-        certificate = Certificate(model, forms, p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n])
+        certificate = LyapunovFunction(model, forms, p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n])
         return [getattr(certificate, name)(q, e, w)]
 
     return state_map(formula, n, 3 * n + 1, 1)

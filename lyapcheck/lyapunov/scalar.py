@@ -35,7 +35,7 @@ _PER_DEGREE = (Fraction(57295779513082, 10**12), Fraction(57295779513083, 10**12
 """180/π = 57.2957795130823…, from below and from above."""
 
 
-class Constants(Protocol):
+class FamilyConstants(Protocol):
     """γ, ρ and L of a family."""
 
     @property
@@ -51,7 +51,7 @@ class Constants(Protocol):
         """sup h(x)/x."""
 
 
-class Gains(Protocol):
+class DiagonalGains(Protocol):
     """Diagonal gains."""
 
     @property
@@ -93,7 +93,7 @@ def root_above(n: int) -> Fraction:
     return Fraction(root if root * root == n * scale * scale else root + 1, scale)
 
 
-def scalar_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> ScalarForm | None:
+def scalar_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm | None:
     """Θ' with every irrational constant replaced by a rational on the safe side; ``None`` if h is unbounded.
 
     Soundness: c and d enter det Θ' with a minus sign, so each is rounded up; G grows with √n γ and with L.
@@ -111,7 +111,7 @@ def scalar_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> Scal
     )
 
 
-def sharp_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> ScalarForm:
+def sharp_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm:
     """The form whose check at ε₀ proves dV/dt < 0 with less loss than ``scalar_form``, bounded h or not.
 
     Its drift is β_M (ρ + G) + k_c G instead of β_M (ρ + G) + k_c √n γ, and G < √n γ.
@@ -137,7 +137,9 @@ def sharp_form(gains: Gains, constants: Constants, bounds: RobotBounds) -> Scala
     )
 
 
-def published_limit(gains: Gains, constants: Constants, bounds: RobotBounds) -> Enclosure | None:
+def published_limit(
+    gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds
+) -> Enclosure | None:
     """The end of the interval (18) for ε₀, or ``None`` where (19) fails and the interval is empty.
 
     N [λmin(B) − √n γ λmax(K_v)] / (N [β_M (ρ+γ) + γ k_c] + ¼ [√n γ λmax(B) + n ρ γ λmax(K_v)]²) with

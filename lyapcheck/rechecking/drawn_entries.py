@@ -88,7 +88,7 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | No
         return 0 if abs(gap) < (1 + size) * arb(2) ** (-BITS // 2) else None
 
 
-class Bounds:
+class DrawnBounds:
     """The bounds of a statement at one n, and points put where they are met."""
 
     def __init__(self, statement: BoundEveryN, n: int) -> None:
@@ -219,7 +219,7 @@ def drawn_entries(
     only_bounds = numbers - written
     at = {}
     for n in sizes:
-        bounds, (sides, equations) = Bounds(statement, n), bound_every_n.at_size(statement, n)
+        bounds, (sides, equations) = DrawnBounds(statement, n), bound_every_n.at_size(statement, n)
         names = bound_every_n.names_at(statement, n, [sides, *equations, *bounds.pairs])
         at[n] = sides, equations, bounds, names
     for _ in range(tries):

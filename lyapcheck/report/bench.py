@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.search.proof import Proof as EpsilonProof
+    from lyapcheck.search.proof import DecreaseProof
 
 MOST = 8
 """The largest m of the sliders."""
@@ -146,7 +146,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
     from lyapcheck.answers.epsilon import epsilon
 
     cells: list[JudgedCell] = []
-    served: EpsilonProof | None = None
+    served: DecreaseProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
         result = epsilon(gains, model, max_boxes=BOXES)

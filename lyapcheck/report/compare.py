@@ -21,7 +21,7 @@ NUMBERS = ("published", "scalar", "certified", "falsified")
 
 
 @dataclass(frozen=True)
-class Change:
+class ReportChange:
     """One thing that is not as it was.
 
     Args:
@@ -39,7 +39,7 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Comparison(Answer):
+class ReportComparison(Answer):
     """Two reports side by side.
 
     Args:
@@ -49,7 +49,7 @@ class Comparison(Answer):
 
     schema = "lyapcheck/report-comparison/1"
 
-    changes: tuple[Change, ...]
+    changes: tuple[ReportChange, ...]
     old: str
 
     @property
@@ -92,7 +92,7 @@ class Comparison(Answer):
         ]
 
 
-def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> Comparison:
+def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> ReportComparison:
     """What changed from one report's data to another's.
 
     Args:
@@ -100,7 +100,7 @@ def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> Compar
         name: how the older is called.
     """
     changes = [*_verdicts(old, new), *_gates(old, new), *_epsilons(old, new)]
-    return Comparison(tuple(sorted(changes, key=lambda change: not change.worse)), name)
+    return ReportComparison(tuple(sorted(changes, key=lambda change: not change.worse)), name)
 
 
 def read_report(path: Path) -> dict[str, Any]:
@@ -124,7 +124,7 @@ def read_report(path: Path) -> dict[str, Any]:
     return dict(result)
 
 
-def _table(changes: list[Change]) -> Table:
+def _table(changes: list[ReportChange]) -> Table:
     rows = tuple((change.what, change.subject, change.old, change.new) for change in changes)
     return Table(("what", "of", "was", "is"), rows, align="llll", keys=2)
 
@@ -134,7 +134,7 @@ def _pairs(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> Iterator[tuple[Any
         yield key, old.get(key), new.get(key)
 
 
-def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change]:
+def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
     def rows(report: Mapping[str, Any]) -> dict[tuple[str, str, Any], str]:
         every = (*report["claims"], *report["others"])
         return {(row["proof"], row["id"], row["m"]): f"{row['verdict']} [{row['grade']}]" for row in every}
@@ -145,7 +145,7 @@ def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change
             yield _change("claim", f"{proof}: {claim}{member}", was, now)
 
 
-def _gates(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change]:
+def _gates(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
     def rows(report: Mapping[str, Any]) -> dict[str, Any]:
         return {row["name"]: row for row in report["gate"]}
 
@@ -158,20 +158,20 @@ def _gates(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change]:
             for (check, joint), before, after in _pairs(*margins):
                 if before != after:
                     subject = f"{name}: ({check}) {joint or 'all'}"
-                    yield Change("margin", subject, before or "none", after or "none", False)
+                    yield ReportChange("margin", subject, before or "none", after or "none", False)
 
 
-def _epsilons(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change]:
+def _epsilons(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
     def rows(report: Mapping[str, Any]) -> dict[tuple[str, str], str]:
         return {(row["name"], kind): row[kind] or "none" for row in report["epsilon"] for kind in NUMBERS}
 
     for (name, kind), was, now in _pairs(rows(old), rows(new)):
         if was != now:
             lost = kind == "certified" and was not in (None, "none") and now in (None, "none")
-            yield Change("ε₀", f"{name}: {kind}", was or "absent", now or "absent", lost)
+            yield ReportChange("ε₀", f"{name}: {kind}", was or "absent", now or "absent", lost)
 
 
-def _change(what: str, subject: str, was: str | None, now: str | None) -> Change:
+def _change(what: str, subject: str, was: str | None, now: str | None) -> ReportChange:
     before, after = was or "absent", now or "absent"
     ranks = [ORDER.index(word.split()[0]) if word.split()[0] in ORDER else 0 for word in (before, after)]
-    return Change(what, subject, before, after, ranks[1] < ranks[0])
+    return ReportChange(what, subject, before, after, ranks[1] < ranks[0])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import EpsilonRow, RunRow
 from lyapcheck.report.map_cell import MapCell
-from lyapcheck.report.model import Witness
+from lyapcheck.report.model import WitnessRow
 from lyapcheck.report.study import StudyRow
 
 
@@ -18,7 +18,7 @@ class Computed:
 
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
-    small: Mapping[str, Witness]
+    small: Mapping[str, WitnessRow]
     epsilon: tuple[EpsilonRow, ...]
     runs: tuple[RunRow, ...]
     sensitivity: StudyRow | None

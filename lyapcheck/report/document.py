@@ -10,7 +10,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
-from lyapcheck.report.model import WEIGHTS, Finding, Report, Witness
+from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
 from lyapcheck.report.plain import plain
 from lyapcheck.report.text import (
     SYMBOLS,
@@ -157,7 +157,7 @@ def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
         drawn.add(finding.figure)
 
 
-def witness_sentence(witness: Witness) -> str:
+def witness_sentence(witness: WitnessRow) -> str:
     """Where it fails, and both sides there."""
     where = [f"n = {witness.n}"] if witness.n else []
     where += [f"m = {witness.m}"] if witness.m else []

@@ -9,7 +9,7 @@ from lyapcheck.report.gain_rows import KINDS
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.figures.plot import Files
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.jobs import GainData
@@ -24,7 +24,7 @@ def draw_family(ms: Sequence[int]) -> Files:
     return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
 
 
-def draw_sides(small: Mapping[str, SmallWitness]) -> Files:
+def draw_sides(small: Mapping[str, RefutedBelow]) -> Files:
     """Both sides of what fails, over the letter that is worth moving."""
     from lyapcheck.report.figures.sides import sides_plot
     from lyapcheck.report.findings import sides_name

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.words import advice
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Finding, Witness, applies, behind
+from lyapcheck.report.model import Finding, WitnessRow, applies, behind
 from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
 from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.gain_rows import EpsilonRow
     from lyapcheck.report.notes import Notes
     from lyapcheck.report.study import NumberRow, StudyRow
@@ -24,7 +24,7 @@ SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
 """What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
-Small = Mapping[str, Witness]
+Small = Mapping[str, WitnessRow]
 
 
 def findings(
@@ -110,14 +110,14 @@ def _ms(rows: Sequence[ClaimRow]) -> tuple[int, ...]:
     return tuple(sorted({row.m for row in rows if row.m is not None}))
 
 
-def light(own: SmallWitness) -> Witness:
+def light(own: RefutedBelow) -> WitnessRow:
     """A small witness as findings show it."""
     data = own.data
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return Witness(own.m, own.n, data["point"], *sides, small_path(own.id), True, sides_name(own))
+    return WitnessRow(own.m, own.n, data["point"], *sides, small_path(own.id), True, sides_name(own))
 
 
-def sides_name(own: SmallWitness) -> str:
+def sides_name(own: RefutedBelow) -> str:
     """The drawing of both sides; empty where no letter is worth moving."""
     return f"sides_{own.id.replace('.', '_')}" if own.moved else ""
 
@@ -132,12 +132,12 @@ def small_path(claim: str) -> str:
     return f"certificates/small/{claim}.json"
 
 
-def _ordinary(row: ClaimRow) -> Witness | None:
+def _ordinary(row: ClaimRow) -> WitnessRow | None:
     data = row.witness
     if data is None or "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return Witness(row.m, row.n, data["point"], *sides, row.certificate, False, "")
+    return WitnessRow(row.m, row.n, data["point"], *sides, row.certificate, False, "")
 
 
 def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[Finding]:

@@ -15,7 +15,7 @@ from lyapcheck.report.plain import read
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
-    from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainSet
     from lyapcheck.report.bench import JudgedCell
     from lyapcheck.report.notes import Notes
@@ -92,7 +92,7 @@ class ProofsData:
     """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
 
     proofs: tuple[ProofData, ...]
-    small: Mapping[str, SmallWitness]
+    small: Mapping[str, RefutedBelow]
 
 
 def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> ProofsData:

@@ -27,7 +27,7 @@ WEIGHTS = {
 
 
 @dataclass(frozen=True)
-class Witness:
+class WitnessRow:
     """Where a relation fails.
 
     Args:
@@ -79,7 +79,7 @@ class Finding:
     fails: str = ""
     consequence: str = ""
     repair: str = ""
-    witness: Witness | None = None
+    witness: WitnessRow | None = None
     figure: str = ""
 
 

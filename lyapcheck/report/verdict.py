@@ -31,7 +31,7 @@ class Badge:
 
 
 @dataclass(frozen=True)
-class Step:
+class VerdictBox:
     """A box of the picture with what became of its claims; ``tone`` as of badges."""
 
     box: Box
@@ -76,13 +76,13 @@ def badges(report: Report) -> tuple[Badge, ...]:
     return theorem, proof, tables, experiment
 
 
-def chain(report: Report) -> tuple[Step, ...]:
+def chain(report: Report) -> tuple[VerdictBox, ...]:
     """The printed proof, box by box."""
     carrying = behind(report.notes.paper.theorem, report.claims)
     return tuple(_step(box, report, carrying) for box in report.notes.chain)
 
 
-def route(report: Report) -> tuple[Step, ...]:
+def route(report: Report) -> tuple[VerdictBox, ...]:
     """The way round; empty where a part of it is not proved."""
     steps = tuple(_step(box, report, set()) for box in report.notes.route)
     return steps if all(step.tone == "good" for step in steps) else ()
@@ -96,16 +96,16 @@ def break_places(report: Report) -> list[str]:
     return list(dict.fromkeys(refuted[name].place or f"claim {name}" for name in first))
 
 
-def _step(box: Box, report: Report, carrying: set[str]) -> Step:
+def _step(box: Box, report: Report, carrying: set[str]) -> VerdictBox:
     rows = [r for r in report.every_claim if r.proof == box.proof and r.id in box.claims]
     refuted = {row.id for row in rows if row.verdict == "refuted"}
     if refuted & carrying and box.proof == "published":
-        return Step(box, "bad", "breaks")
+        return VerdictBox(box, "bad", "breaks")
     if refuted:
-        return Step(box, "warn", "wrong, repairable")
+        return VerdictBox(box, "warn", "wrong, repairable")
     if rows and all(row.verdict == "proved" for row in rows):
-        return Step(box, "good", "proved")
-    return Step(box, "open", "not shown")
+        return VerdictBox(box, "good", "proved")
+    return VerdictBox(box, "open", "not shown")
 
 
 def _is_true(report: Report) -> bool:

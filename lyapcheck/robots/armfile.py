@@ -79,7 +79,7 @@ from lyapcheck.robots.document import open_arm
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.physics import check_positive_definite
-from lyapcheck.robots.plans import Plan, read_plan
+from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
 
 EXACT = Fraction(0)
@@ -146,7 +146,7 @@ def _model(
     name: str,
     title: str,
     remarks: tuple[str, ...],
-    plan: Plan,
+    plan: ModelPlan,
     spread: Fraction,
     vary: tuple[Vary, ...],
 ) -> RobotModel:

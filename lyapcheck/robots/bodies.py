@@ -18,7 +18,7 @@ _ZERO = Number(Fraction(0))
 
 
 @dataclass(frozen=True)
-class Body:
+class BodyEntry:
     """One link as read; ``inertia`` has the six entries of a tensor, or only ``planar``."""
 
     axis: tuple[Number, ...]
@@ -41,7 +41,7 @@ def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:
     return {key: x for key, x in named.items() if x.value or x.ranged or x.assumed}
 
 
-def read_bodies(tables: list[ArmFields]) -> list[Body | None]:
+def read_bodies(tables: list[ArmFields]) -> list[BodyEntry | None]:
     """The links, base first; ``None`` for a link with a problem."""
     bodies = [_read_body(table) for table in tables]
     axes = [[x.value for x in body.axis] for body in bodies if body is not None]
@@ -54,14 +54,14 @@ def read_bodies(tables: list[ArmFields]) -> list[Body | None]:
     return bodies
 
 
-def _read_body(fields: ArmFields) -> Body | None:
+def _read_body(fields: ArmFields) -> BodyEntry | None:
     axis = _read_axis(fields)
     origin, com = fields.vector("origin", "m"), fields.vector("com", "m")
     mass = fields.quantity("mass", "kg", Sign.POSITIVE, required=True)
     inertia = _read_inertia(fields)
     if axis is None or origin is None or com is None or mass is None or inertia is None:
         return None
-    return Body(axis, origin, mass, com, inertia)
+    return BodyEntry(axis, origin, mass, com, inertia)
 
 
 def _read_axis(fields: ArmFields) -> tuple[Number, ...] | None:

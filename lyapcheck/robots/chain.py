@@ -34,7 +34,7 @@ class _Moving:
     momentum: Vector
 
 
-class MovingPosture(Posture):
+class ChainInMotion(Posture):
     """A chain with its joints at some angles, and in motion.
 
     Args:

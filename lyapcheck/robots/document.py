@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.toml import Document, open_document
+from lyapcheck.files.toml import TomlFile, open_document
 
 LARGEST_ARM_FILE = 1_000_000
 """Bytes; an arm of nine joints with a page of notes has about twenty thousand."""
 
 
-def open_arm(path: Path, shown: str) -> Document:
+def open_arm(path: Path, shown: str) -> TomlFile:
     """The TOML document of an arm file; ``shown`` is the name that messages use.
 
     Raises:

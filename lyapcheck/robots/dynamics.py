@@ -20,7 +20,7 @@ from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.numbers.vectors import Algebra, Entry
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.robots import trig
-from lyapcheck.robots.chain import MovingPosture
+from lyapcheck.robots.chain import ChainInMotion
 
 T = TypeVar("T")
 Lift = Callable[[Fraction], T]
@@ -36,11 +36,11 @@ MOST_TERMS = 2_500
 """Terms of one polynomial beyond which M(q) is not written out; a Panda has 805, a skew chain 5ⁿ⁻¹."""
 
 
-class TooLong(InputError):
+class TooManyTerms(InputError):
     """M(q) has more terms than are worth writing out."""
 
 
-class Place(Protocol):
+class ArmAtAngles(Protocol):
     """An arm at some angles, in the arithmetic of their sines and cosines.
 
     Soundness: with containing ``+``, ``-``, ``*`` and numbers the results contain the exact ones.
@@ -71,7 +71,7 @@ class Dynamics(ABC):
     names: tuple[str, ...]
 
     @abstractmethod
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> Place:
+    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
         """The arm at some angles.
 
         Args:
@@ -84,7 +84,7 @@ class Dynamics(ABC):
     @property
     @abstractmethod
     def polynomials(self) -> Polynomials:
-        """The same as polynomials; raises `TooLong` where those are not worth writing out."""
+        """The same as polynomials; raises `TooManyTerms` where those are not worth writing out."""
 
     @abstractmethod
     def fixed(self, values: Mapping[str, Fraction]) -> Dynamics:
@@ -148,7 +148,7 @@ class Polynomials(Dynamics):
         """g."""
         return [trig.to_terms(entry) for entry in self.gravity]
 
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> Place:
+    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
         """The values of the polynomials."""
         return _Evaluated(self, [*sin, *cos, *(values[name] for name in self.names)], lift)
 
@@ -171,7 +171,7 @@ class Polynomials(Dynamics):
         self.__dict__.update(mass=mass, potential=potential, names=state["names"])
 
 
-class _Evaluated(Place):
+class _Evaluated(ArmAtAngles):
     """The values of polynomials; each monomial is computed once for each question."""
 
     def __init__(self, of: Polynomials, point: Sequence[Any], lift: Lift[Any]) -> None:
@@ -201,7 +201,7 @@ class _Evaluated(Place):
 
 
 @dataclass(frozen=True)
-class Share:
+class ParameterShare:
     """A number of a link that is ``factor`` times a parameter."""
 
     name: str
@@ -213,7 +213,7 @@ class Chain(Dynamics):
     """A serial chain of links.
 
     Args:
-        links: base first; a number is exact, or a ``Share`` of a parameter.
+        links: base first; a number is exact, or a ``ParameterShare`` of a parameter.
         fall: acceleration of free fall in the base frame, (3,), m/s²; likewise.
         names: of the parameters.
     """
@@ -236,7 +236,7 @@ class Chain(Dynamics):
             if len(poly) > MOST_TERMS:
                 rule = f"has more than {MOST_TERMS} terms for these {self.n} links, too many to write out"
                 repair = "give an arm of fewer joints, or with axes along or across each other"
-                raise TooLong(Problem("arm", None, "M(q)", "", rule, repair))
+                raise TooManyTerms(Problem("arm", None, "M(q)", "", rule, repair))
             return trig.normal_form(poly)
 
         gens, n = ring.gens(), self.n
@@ -246,7 +246,7 @@ class Chain(Dynamics):
         mass = tuple(tuple(map(trig.normal_form, row)) for row in posture.mass())
         return Polynomials(mass, trig.normal_form(posture.potential()), self.names)
 
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> Place:
+    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
         """The polynomials of few joints, else the chain."""
         if self.n <= FEW_JOINTS:
             return self.polynomials.at(sin, cos, values, lift)
@@ -256,8 +256,8 @@ class Chain(Dynamics):
         """The links with numbers for their parameters."""
         return Chain(*self._with(values, Algebra(Fraction)))
 
-    def _posture(self, sin: Sequence[Any], cos: Sequence[Any], values: Values, of: Algebra) -> MovingPosture:
-        return MovingPosture(*self._with(values, of), sin, cos, of)
+    def _posture(self, sin: Sequence[Any], cos: Sequence[Any], values: Values, of: Algebra) -> ChainInMotion:
+        return ChainInMotion(*self._with(values, of), sin, cos, of)
 
     def _with(self, values: Values, of: Algebra) -> tuple[tuple[RigidLink, ...], tuple[Entry, ...]]:
         """Links and free fall with values for the parameters."""
@@ -275,4 +275,4 @@ def _filled(part: Any, values: Values, of: Algebra) -> Any:
     """A number, vector or matrix with the values of the parameters in it."""
     if isinstance(part, tuple):
         return tuple(_filled(x, values, of) for x in part)
-    return of.times(part.factor, values[part.name]) if isinstance(part, Share) else part
+    return of.times(part.factor, values[part.name]) if isinstance(part, ParameterShare) else part

@@ -12,7 +12,7 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
 
 
 @dataclass(frozen=True)
-class Joint:
+class JointEntry:
     """One joint as read; ``None`` where the file says nothing (or nothing usable)."""
 
     name: str
@@ -29,7 +29,7 @@ class Joint:
         return {name: number for name, number in result.items() if number is not None}
 
 
-def read_joints(tables: list[ArmFields]) -> list[Joint]:
+def read_joints(tables: list[ArmFields]) -> list[JointEntry]:
     """The joints of ``[[links]]`` or ``[[joints]]``, base first; names must differ."""
     joints = [_read_joint(table) for table in tables]
     for i, joint in enumerate(joints):
@@ -38,7 +38,7 @@ def read_joints(tables: list[ArmFields]) -> list[Joint]:
     return joints
 
 
-def _read_joint(fields: ArmFields) -> Joint:
+def _read_joint(fields: ArmFields) -> JointEntry:
     name = fields.text("name", required=True)
     if name and not _NAME.fullmatch(name):
         rule = "must be up to 31 small letters, digits and underscores, a letter first"
@@ -47,9 +47,9 @@ def _read_joint(fields: ArmFields) -> Joint:
     return read_motor(name, fields, required=True)
 
 
-def read_motor(name: str, fields: ArmFields, required: bool) -> Joint:
+def read_motor(name: str, fields: ArmFields, required: bool) -> JointEntry:
     """Friction, limits and encoder of a joint."""
-    return Joint(
+    return JointEntry(
         name,
         fields.quantity("viscous", "N·m·s/rad", Sign.NONNEGATIVE, required=required),
         fields.quantity("coulomb", "N·m", Sign.NONNEGATIVE),

@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import ArmFields
-from lyapcheck.robots.joints import Joint, read_motor
+from lyapcheck.robots.joints import JointEntry, read_motor
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.urdf import read_urdf
@@ -47,7 +47,7 @@ def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmField
     )
 
 
-def _read_motors(top: ArmFields) -> list[Joint]:
+def _read_motors(top: ArmFields) -> list[JointEntry]:
     tables = top.tables("joints")
     motors = [read_motor(table.text("name", required=True), table, required=False) for table in tables]
     for i, (table, motor) in enumerate(zip(tables, motors, strict=True)):
@@ -57,7 +57,7 @@ def _read_motors(top: ArmFields) -> list[Joint]:
     return motors
 
 
-def _completed(model: RobotModel, motors: list[Joint]) -> RobotModel:
+def _completed(model: RobotModel, motors: list[JointEntry]) -> RobotModel:
     """The model with the numbers of the motors in place of its own."""
     parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in _PARTS}
     numbers: dict[str, Number] = dict(model.numbers)

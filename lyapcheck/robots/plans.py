@@ -10,12 +10,12 @@ from typing import Any, ClassVar, Protocol
 
 from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots import trig
-from lyapcheck.robots.bodies import Body, components, read_bodies
-from lyapcheck.robots.dynamics import Chain, Dynamics, Polynomials, Share
+from lyapcheck.robots.bodies import BodyEntry, components, read_bodies
+from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare, Polynomials
 from lyapcheck.robots.fields import ArmFields
-from lyapcheck.robots.joints import Joint, read_joints
+from lyapcheck.robots.joints import JointEntry, read_joints
 from lyapcheck.robots.number import Number
-from lyapcheck.robots.printed import Printed, is_angle, read_printed
+from lyapcheck.robots.printed import PrintedTerms, is_angle, read_printed
 from lyapcheck.robots.printed_torques import PrintedTorques, read_torques
 
 MOST_JOINTS = 12
@@ -24,14 +24,14 @@ MOST_PRINTED = 9
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
 
 
-class Plan(Protocol):
+class ModelPlan(Protocol):
     """A checked description of M and the potential."""
 
     place: ClassVar[str]
     """The key of the file that holds it."""
 
     @property
-    def joints(self) -> list[Joint]:
+    def joints(self) -> list[JointEntry]:
         """The joints, base first."""
 
     @property
@@ -53,8 +53,8 @@ class ChainPlan:
     """A serial chain of links."""
 
     place: ClassVar[str] = "links"
-    joints: list[Joint]
-    bodies: list[Body]
+    joints: list[JointEntry]
+    bodies: list[BodyEntry]
     gravity: tuple[Number, ...]
     torques: None = None
 
@@ -74,7 +74,7 @@ class ChainPlan:
 
         def entry(name: str) -> Any:
             if name in parameters:
-                return Share(name)
+                return ParameterShare(name)
             return numbers[name].value if name in numbers else Fraction(0)
 
         bodies = zip(self.joints, self.bodies, strict=True)
@@ -87,9 +87,9 @@ class PrintedPlan:
     """M and the potential in print."""
 
     place: ClassVar[str] = "model"
-    joints: list[Joint]
+    joints: list[JointEntry]
     entries: dict[str, Number]
-    printed: Printed
+    printed: PrintedTerms
     torques: PrintedTorques | None
 
     def numbers(self) -> dict[str, Number]:
@@ -109,7 +109,7 @@ class PrintedPlan:
         return Polynomials(*self.printed.build(ring, polys), parameters)
 
 
-def read_plan(top: ArmFields) -> Plan | None:
+def read_plan(top: ArmFields) -> ModelPlan | None:
     """The model of an arm file, ``None`` when it has none that can be built; problems are noted."""
     links, joints = top.tables("links"), top.tables("joints")
     numbers, model, torques = top.table("numbers"), top.table("model"), top.table("printed")
@@ -139,7 +139,9 @@ def _note_missing(top: ArmFields) -> None:
             top.fail(key, "is missing", f"a printed model needs {form} as well")
 
 
-def _read_chain(top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None) -> Plan | None:
+def _read_chain(
+    top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None
+) -> ModelPlan | None:
     joints, bodies = _read_joints(top, "links", tables), read_bodies(tables)
     _close(tables)
     sound = [body for body in bodies if body is not None]
@@ -152,7 +154,7 @@ def _read_printed(
     numbers: ArmFields | None,
     model: ArmFields,
     torques: ArmFields | None,
-) -> Plan:
+) -> ModelPlan:
     joints = _read_joints(top, "joints", tables)
     taken = {name for joint in joints for name in joint.numbers()}
     entries = {} if numbers is None else _read_numbers(numbers, taken)
@@ -164,7 +166,7 @@ def _read_printed(
     return PrintedPlan(joints, entries, printed, compared)
 
 
-def _read_joints(top: ArmFields, key: str, tables: list[ArmFields]) -> list[Joint]:
+def _read_joints(top: ArmFields, key: str, tables: list[ArmFields]) -> list[JointEntry]:
     most = MOST_JOINTS if key == "links" else MOST_PRINTED
     if len(tables) > most:
         top.fail(key, f"has more than {most} joints", "give an arm of fewer joints")
@@ -187,7 +189,7 @@ def _close(tables: list[ArmFields]) -> None:
         table.close()
 
 
-def _link(name: str, body: Body, entry: Callable[[str], Any]) -> RigidLink:
+def _link(name: str, body: BodyEntry, entry: Callable[[str], Any]) -> RigidLink:
     axis = tuple(x.value for x in body.axis)
     if "inertia" in body.inertia:
         own = entry(f"{name}_inertia")
@@ -200,7 +202,7 @@ def _link(name: str, body: Body, entry: Callable[[str], Any]) -> RigidLink:
 
 def _times(number: Any, factor: Fraction) -> Any:
     """The multiple of an exact number or of a parameter."""
-    if isinstance(number, Share):
+    if isinstance(number, ParameterShare):
         return replace(number, factor=factor) if factor else factor
     return number * factor
 

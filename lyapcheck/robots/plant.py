@@ -12,7 +12,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
-from lyapcheck.robots.dynamics import Chain, Dynamics, Lift, Place
+from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift
 from lyapcheck.robots.number import Number
 
 P = TypeVar("P", bound="Plant")
@@ -81,7 +81,7 @@ class Plant:
 
     def at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> Place:
+    ) -> ArmAtAngles:
         """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
         known = parameters or {}
         values = {

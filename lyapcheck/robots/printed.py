@@ -30,7 +30,7 @@ Terms = tuple[tuple[Fraction, tuple[tuple[str, int], ...]], ...]
 
 
 @dataclass(frozen=True)
-class Printed:
+class PrintedTerms:
     """The terms of M on and above the diagonal, and of the potential, as read."""
 
     mass: Mapping[tuple[int, int], Terms]
@@ -60,7 +60,7 @@ def is_angle(name: str) -> bool:
     return _ANGLE.fullmatch(name) is not None
 
 
-def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed:
+def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> PrintedTerms:
     """The ``[model]`` table of an arm with n joints; problems are noted in ``fields``."""
     mass = {(i, j): read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)}
     potential = read_terms(fields, "potential", n, numbers)
@@ -69,7 +69,7 @@ def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed
         if i != j and mirror in fields.data:
             fields.raw(mirror)
             fields.fail(mirror, "M is symmetric: its entries below the diagonal are not given", "remove it")
-    return Printed(mass, potential)
+    return PrintedTerms(mass, potential)
 
 
 def read_terms(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Terms:

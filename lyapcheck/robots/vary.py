@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots.dynamics import Chain, Share
+from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.number import Number
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def varied(
         chain = model.dynamics
         assert isinstance(chain, Chain)
         links = tuple(
-            replace(link, mass=cast(Any, Share(key))) if (key := f"{joint}_mass") in masses else link
+            replace(link, mass=cast(Any, ParameterShare(key))) if (key := f"{joint}_mass") in masses else link
             for joint, link in zip(model.joints, chain.links, strict=True)
         )
         changed["dynamics"] = Chain(links, chain.fall, (*chain.names, *masses))

@@ -20,17 +20,17 @@ from lyapcheck._types import Progress
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.search import shared
 from lyapcheck.search.centred import judge_of
-from lyapcheck.search.cover import Outcome, cover
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.cover import CoverOutcome, cover
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.shared import share_of
 
 
 def certify(
-    problem: Problem,
+    problem: SchurProblem,
     max_boxes: int,
     on_progress: Progress | None = None,
     deadline: float = math.inf,
-) -> Outcome:
+) -> CoverOutcome:
     """Look for a tree of boxes that proves dV/dt < 0 everywhere for one ε₀, or say why there is none.
 
     Args:
@@ -43,7 +43,7 @@ def certify(
     """
     loop = problem.loop
     if certifies(loop.tail, loop.eps0):
-        return Outcome(True, 0, tree=".")
+        return CoverOutcome(True, 0, tree=".")
     start = np.array(loop.start).T[None]
     prove, sides = judge_of(problem)
     return cover(start, prove, sides, max_boxes, on_progress, deadline, share_of(loop), shared.WORTH)

@@ -22,7 +22,7 @@ from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmBox, combine
 from lyapcheck.search.cover import Chooser, Prover
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.sides import Splitter
 
 SURELY = 1e-9
@@ -68,7 +68,7 @@ class Disc:
         return Disc(0.5 * (low + high), 0.5 * (high - low))
 
 
-def judge_of(problem: Problem) -> tuple[Prover, Chooser]:
+def judge_of(problem: SchurProblem) -> tuple[Prover, Chooser]:
     """What says of boxes whether P ≻ 0, and which side of the others should be halved."""
     sides = Splitter.of(problem).sides
     if problem.loop.n > MOST_CENTRED or problem.loop.member.d2h is None:
@@ -85,7 +85,7 @@ class CentredProblem:
         otherwise: the side of each box that should be halved where there are no slopes.
     """
 
-    def __init__(self, problem: Problem, otherwise: Chooser) -> None:
+    def __init__(self, problem: SchurProblem, otherwise: Chooser) -> None:
         self.problem, self.loop, self.otherwise = problem, problem.loop, otherwise
         self.kept: dict[tuple[float, float], Array] = {}
         self.last: tuple[Array, Array] = np.empty((0, 2, 0)), np.empty((0, 0))

@@ -16,8 +16,8 @@ from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.link_bounds import linked_epsilon
-from lyapcheck.search.proof import Proof
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.shared import boxes_shared
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
@@ -33,10 +33,10 @@ _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far a
 
 
 @dataclass(frozen=True)
-class Certified:
+class CertifiedEpsilon:
     """The proof of the largest ε₀, how many boxes all attempts looked at, and why ε₀ is not larger."""
 
-    proof: Proof | None
+    proof: DecreaseProof | None
     looked_at: int
     reason: str
 
@@ -54,7 +54,7 @@ def certified_epsilon(
     seconds: float | None = None,
     on_progress: Progress | None = None,
     shares: Sequence[Fraction] = SHARES,
-) -> Certified:
+) -> CertifiedEpsilon:
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
 
     Args:
@@ -72,11 +72,11 @@ def certified_epsilon(
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``, in balls.
     """
     if not controlled.family.bounded:
-        return Certified(None, 0, _UNBOUNDED)
+        return CertifiedEpsilon(None, 0, _UNBOUNDED)
     progress = on_progress or silent
     if controlled.n > FEW_JOINTS:
         deadline = monotonic() + (math.inf if seconds is None else seconds)
-        return Certified(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
+        return CertifiedEpsilon(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
     search = _Search(controlled, ceiling, progress)
     began, seconds = monotonic(), math.inf if seconds is None else seconds
     with boxes_shared(jobs):
@@ -89,9 +89,9 @@ def certified_epsilon(
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
         if proof.accepted(jobs):
-            return Certified(proof, search.looked_at, search.reason)
+            return CertifiedEpsilon(proof, search.looked_at, search.reason)
         search.reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
-    return Certified(None, search.looked_at, search.reason)
+    return CertifiedEpsilon(None, search.looked_at, search.reason)
 
 
 @dataclass
@@ -105,9 +105,9 @@ class _Search:
     attempts: int = 0
     reason: str = ""
 
-    def climb(self, shares: Sequence[Fraction], max_boxes: int, deadline: float) -> list[Proof]:
+    def climb(self, shares: Sequence[Fraction], max_boxes: int, deadline: float) -> list[DecreaseProof]:
         """What the search believes to be proofs, up to the first share for which there is none."""
-        result: list[Proof] = []
+        result: list[DecreaseProof] = []
         for share in shares:
             loop = self.controlled.loop(_rounded_down(self.ceiling * share))
             if not loop.admissible:
@@ -115,7 +115,7 @@ class _Search:
                 return result
             advance = _part(self.progress, self.attempts, f"{float(share):.1%} of falsified")
             advance(0.0, "")
-            outcome = certify(Problem(loop), max_boxes - self.looked_at, advance, deadline)
+            outcome = certify(SchurProblem(loop), max_boxes - self.looked_at, advance, deadline)
             self.attempts += 1
             self.looked_at += outcome.boxes
             if not outcome.proved:

@@ -25,7 +25,7 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
-from lyapcheck.search.proof import Proof, RateData
+from lyapcheck.search.proof import DecreaseProof, RateData
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -170,9 +170,9 @@ class ControlledArm:
             repair = "state it in the arm file (robot --export writes one), or ask gate --condition lasalle"
             raise argument_error("arm", self.model.name, rule, repair)
 
-    def proof(self, loop: ClosedLoop, by: RateData) -> Proof:
+    def proof(self, loop: ClosedLoop, by: RateData) -> DecreaseProof:
         """What is to be judged, with untrusted data for dV/dt < 0."""
-        return Proof(loop, by, self.inertia_proof)
+        return DecreaseProof(loop, by, self.inertia_proof)
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
         unit = math.degrees(1.0) if self.per_degree else 1.0

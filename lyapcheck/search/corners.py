@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck._types import Progress, silent
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.falsify import Witness
+from lyapcheck.search.falsify import RisingState
 from lyapcheck.search.sample import States, quadratic
 
 ROUNDS = 4
@@ -27,9 +27,9 @@ Arm = TypeVar("Arm", bound=ControlledArm)
 
 def falsify_corners(
     controlled: Arm,
-    look: Callable[[Arm, Progress], Witness | None],
+    look: Callable[[Arm, Progress], RisingState | None],
     on_progress: Progress | None = None,
-) -> tuple[Arm, Witness | None]:
+) -> tuple[Arm, RisingState | None]:
     """The smallest ε₀ that a state refutes at some corner of the arm's ranges, and the arm at that corner.
 
     From the nominal arm: find a witness, move every uncertain number to the end at which that state refutes
@@ -53,7 +53,7 @@ def _part(progress: Progress, turn: int) -> Progress:
     return lambda fraction, note: progress((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
 
 
-def worst_corner(model: Plant, at: ControlledArm, witness: Witness) -> Plant:
+def worst_corner(model: Plant, at: ControlledArm, witness: RisingState) -> Plant:
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
     states = _states(witness)
     corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
@@ -92,7 +92,7 @@ def _moves(model: Plant, corner: Corner) -> Iterator[Corner]:
                 yield {f"viscous {i}": end}
 
 
-def _states(witness: Witness) -> States:
+def _states(witness: RisingState) -> States:
     parts = (witness.state.q, witness.state.e, witness.state.w)
     return States(*(np.array([[float(x) for x in part]]) for part in parts))
 

@@ -41,7 +41,7 @@ LATE = "the time is up"
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class CoverOutcome:
     """How a search over boxes ended.
 
     Args:
@@ -79,7 +79,7 @@ class Branches:
     waiting: tuple[Boxes, Indices] | None = None
 
 
-class Share(Protocol):
+class SharedSearch(Protocol):
     """Has others look below the boxes of a level."""
 
     @property
@@ -130,9 +130,9 @@ def cover(
     max_boxes: int,
     on_progress: Progress | None = None,
     deadline: float = math.inf,
-    share: Share | None = None,
+    share: SharedSearch | None = None,
     worth: float = math.inf,
-) -> Outcome:
+) -> CoverOutcome:
     """Prove a property of every point of a box, halving it where it is not proved as a whole.
 
     It ends early at a point, or a very small box, on which the property is not proved: halving would not help
@@ -158,23 +158,23 @@ def cover(
     hand = Hand(start, names)
     hand.take(top, nodes)
     if top.late or top.point is not None:
-        return Outcome(False, seen, LATE if top.late else RESISTS, top.point)
+        return CoverOutcome(False, seen, LATE if top.late else RESISTS, top.point)
     if seen + len(hand.boxes) > max_boxes:
-        return Outcome(False, seen + len(hand.boxes), EXHAUSTED)
+        return CoverOutcome(False, seen + len(hand.boxes), EXHAUSTED)
     if hand.open and share is not None:
         return _shared(hand, nodes, share, seen, max_boxes, deadline, on_progress)
-    return Outcome(True, seen, tree=nodes.preorder()[0])
+    return CoverOutcome(True, seen, tree=nodes.preorder()[0])
 
 
 def _shared(
     top: Hand,
     nodes: Nodes,
-    share: Share,
+    share: SharedSearch,
     seen: int,
     max_boxes: int,
     deadline: float,
     on_progress: Progress | None,
-) -> Outcome:
+) -> CoverOutcome:
     """How the search goes on where others look below boxes: it ends at the level where one process ends.
 
     No hand runs far ahead: each first has its share of the budget, and a quarter of that.
@@ -188,7 +188,7 @@ def _shared(
             hand.take(part, nodes)
             total = seen + sum(sum(one.levels) for one in hands)
             if part.late:
-                return Outcome(False, total, LATE)
+                return CoverOutcome(False, total, LATE)
             if on_progress is not None:
                 done = 1 - sum(one.open for one in hands) / len(hands)
                 on_progress(done, f"{total} boxes below {len(top.boxes)}")
@@ -196,14 +196,14 @@ def _shared(
         for depth in range(max(len(hand.levels) for hand in hands) + 1):
             total += sum(hand.count(depth) for hand in hands)
             if total > max_boxes:
-                return Outcome(False, total, EXHAUSTED)
+                return CoverOutcome(False, total, EXHAUSTED)
             if any(hand.open and len(hand.levels) == depth for hand in hands):
                 break  # what they find at this level is not known
             points = [h.point for h in hands if h.point is not None and len(h.levels) == depth + 1]
             if points:
-                return Outcome(False, total, RESISTS, first_of(np.array(points)))
+                return CoverOutcome(False, total, RESISTS, first_of(np.array(points)))
         else:
-            return Outcome(True, total, tree=nodes.preorder()[0])
+            return CoverOutcome(True, total, tree=nodes.preorder()[0])
         most = max_boxes - seen
 
 

@@ -51,7 +51,7 @@ _SLACKS = (Fraction(0), Fraction(1, 10**6), Fraction(1, 10**5), Fraction(1, 10**
 
 
 @dataclass(frozen=True)
-class Witness:
+class RisingState:
     """An exact state at which dV/dt > 0 was proved for ``eps0``; ``rate`` encloses it, W."""
 
     eps0: Fraction
@@ -67,7 +67,7 @@ def falsify(
     seed: int = SEED,
     on_progress: Progress | None = None,
     quick: bool = False,
-) -> Witness | None:
+) -> RisingState | None:
     """The smallest ε₀ for which a state with dV/dt > 0 was found and confirmed, with that state.
 
     Args:
@@ -95,7 +95,7 @@ def smallest_refuted(
     steps: int,
     on_progress: Progress | None = None,
     held: Callable[[States], States] = lambda states: states,
-) -> Witness | None:
+) -> RisingState | None:
     """The witness of the smallest ε₀ that some candidates refute.
 
     Args:
@@ -185,7 +185,7 @@ def _exact(row: Array) -> tuple[Fraction, ...]:
     return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{DIGITS - 1}e}") for x in row)
 
 
-def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> Witness | None:
+def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> RisingState | None:
     """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
     for slack in _SLACKS:
         eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
@@ -194,13 +194,13 @@ def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: Sta
     return None
 
 
-def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State) -> Witness | None:
+def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State) -> RisingState | None:
     """The witness that a state is against an ε₀; ``None`` where balls do not prove dV/dt > 0 there."""
     if not confirms_positive(controlled.arm, controlled.controller, eps0, state):
         return None
     with precision(_SHOWN_BITS):
         shown = rate(controlled.arm, controlled.controller, eps0, state, _SHOWN_BITS)
-        return Witness(eps0, state, Enclosure.from_arb(shown), kind)
+        return RisingState(eps0, state, Enclosure.from_arb(shown), kind)
 
 
 def round_up(value: Fraction, digits: int) -> Fraction:

@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.inertia import Bisection, Links, Mass
-from lyapcheck.robots.dynamics import TooLong
+from lyapcheck.robots.dynamics import TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def remember(robot: Plant) -> None:
     fixed = robot.fixed()
     if fixed.chain is not None:
         # a mass matrix that is too long to be written out is in no statement
-        with suppress(TooLong):
+        with suppress(TooManyTerms):
             _LINKS[mass_of(fixed)] = Links(fixed.chain.links)
 
 

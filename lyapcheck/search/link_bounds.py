@@ -17,14 +17,14 @@ import numpy as np
 
 from lyapcheck._types import Array, Progress
 from lyapcheck.check.kinds.link_bounds import LinkBounds, Shown
-from lyapcheck.constants.storage.problem import Problem, energy_problem, rate_problem
+from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import RESISTS
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.error_costs import ErrorCosts, Shares
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 83, 85, 87, 90, 93, 95, 97))
 """Shares of the falsified ε₀ that are tried one after the other; then the middle below the one that fails."""
@@ -44,7 +44,7 @@ def linked_epsilon(
     max_boxes: int,
     deadline: float,
     progress: Progress,
-) -> tuple[Proof | None, int, str]:
+) -> tuple[DecreaseProof | None, int, str]:
     """The proof of the largest share of a ceiling, by bounds along the links; boxes looked at; why no more.
 
     Args:
@@ -160,7 +160,7 @@ def bounds_along(
 
 
 def _shown(
-    problems: Sequence[Problem], weight: Array, share: Sequence[float], most: float | None = None
+    problems: Sequence[StorageProblem], weight: Array, share: Sequence[float], most: float | None = None
 ) -> Shown | None:
     """Prices κ_k with a small Σ κ_k share_k/b_k, and forms for each problem that show them."""
     for margin in _MARGINS:

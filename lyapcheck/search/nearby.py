@@ -25,8 +25,8 @@ from lyapcheck.search.closed_loop import closed_loop_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.digits import short_below
 from lyapcheck.search.decay.phases import floor_below, light_proof, lightest
-from lyapcheck.search.falsify import Witness, promising, smallest_refuted
-from lyapcheck.search.proof import Proof, RateData
+from lyapcheck.search.falsify import RisingState, promising, smallest_refuted
+from lyapcheck.search.proof import DecreaseProof, RateData
 from lyapcheck.search.sample import States, fastest_directions, sample, slow_sample, spread
 from lyapcheck.search.worst_states import finite_states, slow_states
 
@@ -73,7 +73,7 @@ class NearbyArm(ControlledArm):
         """What has to be proved: with the damping that slow joints have, and at errors within the limits."""
         return replace(super().loop(eps0, coupling), nearby=self.errors)
 
-    def proof(self, loop: ClosedLoop, by: RateData) -> Proof:
+    def proof(self, loop: ClosedLoop, by: RateData) -> DecreaseProof:
         """What is to be judged; nothing is said of motions yet."""
         return NearbyProof(loop, by, self.inertia_proof, self.statement(loop.eps0), self.floors)
 
@@ -88,7 +88,7 @@ class NearbyArm(ControlledArm):
 
 
 @dataclass(frozen=True)
-class NearbyProof(Proof):
+class NearbyProof(DecreaseProof):
     """The same for states within limits, ``stated`` with or without motions that keep there."""
 
     stated: DecreasingNearby
@@ -130,7 +130,7 @@ def with_motions(near: NearbyArm, proof: NearbyProof, jobs: int = 1) -> NearbyPr
 
 def falsify_nearby(
     near: NearbyArm, starts: int = NEAR_STARTS, seed: int = SEED, on_progress: Progress | None = None
-) -> Witness | None:
+) -> RisingState | None:
     """The smallest ε₀ that a state within the limits refutes, with that state.
 
     Args:

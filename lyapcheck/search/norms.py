@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.scalar_program import scalar_epsilon
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ UNBOUNDED = "h is unbounded, and the checker needs its bound γ"
 
 def norm_epsilon(
     controlled: ControlledArm, viscous: tuple[Ends, ...] | None = None
-) -> tuple[Proof | None, str]:
+) -> tuple[DecreaseProof | None, str]:
     """A proof that the checker has accepted, or why there is none.
 
     Args:
@@ -41,7 +41,7 @@ def norm_epsilon(
 
 def norm_proof(
     loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners, *, conic: bool = True
-) -> tuple[Proof | None, str]:
+) -> tuple[DecreaseProof | None, str]:
     """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 
     Args:
@@ -52,4 +52,4 @@ def norm_proof(
     result = scalar_epsilon(loop.tail, conic=conic)
     if result.eps0 is None:
         return None, result.reason
-    return Proof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""
+    return DecreaseProof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""

@@ -17,8 +17,7 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.processes import shared_between
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof as Shown
-from lyapcheck.check.statement import Statement
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 
 RateData = BoxTree | LinkBounds
@@ -26,7 +25,7 @@ RateData = BoxTree | LinkBounds
 
 
 @dataclass(frozen=True)
-class Proof:
+class DecreaseProof:
     """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it.
 
     ``kv`` is a larger K_v if the data are for that.
@@ -48,12 +47,12 @@ class Proof:
         return statement_of(self.loop)
 
     @property
-    def certificate(self) -> Shown:
+    def certificate(self) -> Proof:
         """The proof as certificates bring it forward."""
         proof = PositiveAndDecreasing(self.inertia, self.by)
         return LargerKv(self.kv, proof) if self.kv else proof
 
-    def for_smaller(self, kv: tuple[Fraction, ...]) -> Proof:
+    def for_smaller(self, kv: tuple[Fraction, ...]) -> DecreaseProof:
         """The same for a K_v of which no entry is larger."""
         return replace(self, loop=replace(self.loop, kv=kv), kv=self.kv or self.loop.kv)
 

@@ -23,7 +23,7 @@ Rows = list[list[Interval]]
 
 
 @dataclass(frozen=True)
-class Sides:
+class BoxSides:
     """The columns of boxes (count, 2, sides) as intervals: q of every joint, e, parameters, and B."""
 
     q: list[Interval]
@@ -33,7 +33,7 @@ class Sides:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class SchurProblem:
     """One controller on one arm at one ε₀, ready to be enclosed over boxes.
 
     Args:
@@ -59,7 +59,7 @@ class Problem:
         beyond = norm(sides.e).lo >= self.loop.radius
         return np.asarray(ordered & (inside | beyond))
 
-    def sides(self, boxes: Array) -> Sides:
+    def sides(self, boxes: Array) -> BoxSides:
         """Boxes taken apart."""
         columns = [Interval(boxes[:, 0, k], boxes[:, 1, k]) for k in range(boxes.shape[2])]
         first, last = len(self.loop.angles), len(self.loop.angles) + self.loop.n
@@ -70,9 +70,9 @@ class Problem:
         ranges = (*self.loop.parameters, *self.loop.friction)
         filled = [next(free) if low < high else Interval.of(low) for low, high in ranges]
         count = len(self.loop.parameters)
-        return Sides(q, columns[first:last], filled[:count], filled[count:])
+        return BoxSides(q, columns[first:last], filled[:count], filled[count:])
 
-    def schur(self, sides: Sides) -> Rows:
+    def schur(self, sides: BoxSides) -> Rows:
         """P: the entries on and below the diagonal."""
         local = bool(self.loop.within)
         shrink = Interval.exact(0.0) if local else inverse_one_plus(norm(sides.e))
@@ -84,7 +84,7 @@ class Problem:
         joints = range(self.loop.n)
         return [[_entry(i, j, sides.viscous, S, X, eps, inverse) for j in joints[: i + 1]] for i in joints]
 
-    def _coupling(self, sides: Sides, shrink: Interval) -> list[list[Entry]]:
+    def _coupling(self, sides: BoxSides, shrink: Interval) -> list[list[Entry]]:
         """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
         box = self.arm.at(sides.q, sides.parameters)
         M = box.mass()

@@ -21,8 +21,8 @@ from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.search.centred import judge_of
-from lyapcheck.search.cover import Branches, Chooser, Prover, Share, explored
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.cover import Branches, Chooser, Prover, SharedSearch, explored
+from lyapcheck.search.schur import SchurProblem
 
 WORTH = 8_192
 """Boxes of a level from which the subtrees below them pay for a process: fewer take a second or two."""
@@ -47,7 +47,7 @@ class Sharing:
     def submit(
         self, loop: ClosedLoop, hands: Sequence[Array], most: int, seconds: float
     ) -> Iterator[Branches]:
-        """What others find below each hand of boxes; see ``lyapcheck.search.cover.Share``."""
+        """What others find below each hand of boxes; see ``lyapcheck.search.cover.SharedSearch``."""
         if self.pool is None:
             # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
             self.pool, self.own = ProcessPoolExecutor(self.jobs, get_context("spawn")), True
@@ -93,7 +93,7 @@ def boxes_shared(jobs: int, pool: Executor | None = None) -> Iterator[None]:
             sharing.pool.shutdown()
 
 
-def share_of(loop: ClosedLoop) -> Share | None:
+def share_of(loop: ClosedLoop) -> SharedSearch | None:
     """What has others look below boxes of a closed loop; none where nothing is shared."""
     sharing = _SHARING.get()
     # without what the loop has computed for itself
@@ -109,4 +109,4 @@ def branches_of(loop: ClosedLoop, boxes: Array, most: int, seconds: float) -> Br
 
 @lru_cache(maxsize=2)
 def _judge(loop: ClosedLoop) -> tuple[Prover, Chooser]:
-    return judge_of(Problem(loop))
+    return judge_of(SchurProblem(loop))

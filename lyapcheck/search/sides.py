@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array
 from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.intervals.family import dh_range, h_range
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 
 ANGLES = 0.25
 """Share of the estimate of an angle that counts: the mean value form encloses M more tightly than its slopes.
@@ -23,13 +23,13 @@ Trees for 0.99 of the falsified ε₀ and beyond have a tenth to all of the boxe
 class Splitter:
     """Chooses for each box the side to halve: the one whose length moves P most, by rough estimates."""
 
-    problem: Problem
+    problem: SchurProblem
     angle_slopes: Array
     inertia: Array
     coriolis: float
 
     @classmethod
-    def of(cls, problem: Problem) -> Splitter:
+    def of(cls, problem: SchurProblem) -> Splitter:
         """Estimates from the sizes of the polynomials, relative to the friction of each joint."""
         loop, arm = problem.loop, problem.arm
         root = np.sqrt([float(low) for low, _ in loop.friction])
@@ -62,7 +62,7 @@ class Splitter:
         return np.asarray(np.argmax(weights, axis=1))
 
 
-def _size(problem: Problem, entry: Uncertain) -> float:
+def _size(problem: SchurProblem, entry: Uncertain) -> float:
     """A rough bound of the size of a polynomial at the upper ends of its parameters."""
     ends = [float(max(abs(low), abs(high))) for low, high in problem.loop.parameters]
     return float(

@@ -25,8 +25,8 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.proof import Proof
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.schur import SchurProblem
 
 SAMPLES = 20_000
 KEPT = 12
@@ -48,7 +48,7 @@ class Weighted:
         looked_at: boxes of all attempts.
     """
 
-    proof: Proof
+    proof: DecreaseProof
     states: int
     looked_at: int
 
@@ -60,19 +60,19 @@ class Weighted:
 
 
 @dataclass(frozen=True)
-class States:
+class WeightedStates:
     """States (q, e) with what P needs there: S of each unit weight (count, joint, n, n), and s (count,)."""
 
     S: Array
     s: Array
 
-    def at(self, chosen: NDArray[np.intp]) -> States:
+    def at(self, chosen: NDArray[np.intp]) -> WeightedStates:
         """Some of the states."""
-        return States(self.S[chosen], self.s[chosen])
+        return WeightedStates(self.S[chosen], self.s[chosen])
 
-    def joined(self, other: States) -> States:
+    def joined(self, other: WeightedStates) -> WeightedStates:
         """Both lists of states."""
-        return States(np.concatenate([self.S, other.S]), np.concatenate([self.s, other.s]))
+        return WeightedStates(np.concatenate([self.S, other.S]), np.concatenate([self.s, other.s]))
 
 
 def weighted_epsilon(
@@ -103,9 +103,11 @@ def weighted_epsilon(
         loop = controlled.loop(*_rounded([Fraction(float(x)) * share for x in result]))
         if not loop.admissible:
             continue
-        outcome = certify(Problem(loop), max(0, max_boxes // len(SHARES)))
+        outcome = certify(SchurProblem(loop), max(0, max_boxes // len(SHARES)))
         looked_at += outcome.boxes
-        proof = Proof(loop, BoxTree(outcome.tree), controlled.inertia_proof) if outcome.proved else None
+        proof = (
+            DecreaseProof(loop, BoxTree(outcome.tree), controlled.inertia_proof) if outcome.proved else None
+        )
         if proof is not None and proof.accepted(jobs):
             return Weighted(proof, states, looked_at)
     return None
@@ -137,7 +139,7 @@ def _proposal(controlled: ControlledArm, eps0: float, seed: int, progress: Progr
     return result, len(active.s)
 
 
-def _program(controlled: ControlledArm, states: States, near: Array) -> Array:
+def _program(controlled: ControlledArm, states: WeightedStates, near: Array) -> Array:
     """The weights that the convex program gives for some states, starting from ``near``."""
     import cvxpy as cp
 
@@ -159,7 +161,7 @@ def _program(controlled: ControlledArm, states: States, near: Array) -> Array:
     return np.asarray(weights.value)
 
 
-def _smallest(controlled: ControlledArm, states: States, weights: Array) -> Array:
+def _smallest(controlled: ControlledArm, states: WeightedStates, weights: Array) -> Array:
     """λmin(B^−½ P B^−½) at each state."""
     B, root = np.diag(controlled.viscous), np.sqrt(controlled.viscous)
     S = np.einsum("i,cijk->cjk", weights, states.S)
@@ -171,13 +173,13 @@ def _smallest(controlled: ControlledArm, states: States, weights: Array) -> Arra
     return np.asarray(np.linalg.eigvalsh(P / np.outer(root, root))[:, 0])
 
 
-def _worst(controlled: ControlledArm, states: States, weights: Array) -> NDArray[np.intp]:
+def _worst(controlled: ControlledArm, states: WeightedStates, weights: Array) -> NDArray[np.intp]:
     return np.asarray(np.argsort(_smallest(controlled, states, weights), kind="stable")[:KEPT])
 
 
 def _climbed(
     controlled: ControlledArm, q: Array, e: Array, weights: Array, random: np.random.Generator
-) -> States:
+) -> WeightedStates:
     """The states after random steps towards smaller eigenvalues; the steps shrink."""
     value = _smallest(controlled, _evaluated(controlled, q, e), weights)
     for step in range(CLIMBS):
@@ -198,7 +200,7 @@ def _sample(controlled: ControlledArm, random: np.random.Generator) -> tuple[Arr
     return random.uniform(-np.pi, np.pi, shape), e
 
 
-def _evaluated(controlled: ControlledArm, q: Array, e: Array) -> States:
+def _evaluated(controlled: ControlledArm, q: Array, e: Array) -> WeightedStates:
     """S of each unit weight: (M e_i h_i) êᵀ s + C(q, e_i h_i) − M e_i h_i' e_iᵀ."""
     h, dh, r = controlled.family.h(e), controlled.family.dh(e), np.linalg.norm(e, axis=1)
     s, unit = 1 / (1 + r), e / np.maximum(r, 1e-300)[:, None]
@@ -212,4 +214,4 @@ def _evaluated(controlled: ControlledArm, q: Array, e: Array) -> States:
         S = coriolis + pushed[:, :, None] * unit[:, None, :] * s[:, None, None]
         S[:, :, i] -= M[:, :, i] * dh[:, i : i + 1]
         parts.append(S)
-    return States(np.stack(parts, axis=1), s)
+    return WeightedStates(np.stack(parts, axis=1), s)

@@ -24,7 +24,7 @@ from lyapcheck.simulate.breach import (
     limit_monitor,
     rate_monitor,
 )
-from lyapcheck.simulate.dynamics import ClosedLoop, closed_loop
+from lyapcheck.simulate.dynamics import LoopDynamics, closed_loop
 from lyapcheck.simulate.extremes import with_extremes
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory, integrate
 from lyapcheck.simulate.results import LEAST_ENERGY, Motion, noise_of, run_of
@@ -111,7 +111,7 @@ def simulate(
     return run
 
 
-def _watched(loop: ClosedLoop, setup: Setup, path: Trajectory) -> Array:
+def _watched(loop: LoopDynamics, setup: Setup, path: Trajectory) -> Array:
     """(N, 2n + 1) what has a limit or is an index: τ, ‖τ‖² and e; and dV/dt where V is not the energy."""
     n, goal = loop.n, np.array(setup.task.q_d)
     tau = np.array(loop.signals().map(path.t.size)(path.y.T, goal)[0]).T
@@ -136,7 +136,7 @@ def _broken(setup: Setup, run: Run) -> Breach | None:
 
 
 def _twice(
-    loop: ClosedLoop, setup: Setup, points: int, tolerance: float, *, max_steps: int, on_progress: Progress
+    loop: LoopDynamics, setup: Setup, points: int, tolerance: float, *, max_steps: int, on_progress: Progress
 ) -> tuple[Trajectory, Trajectory]:
     rate, jacobian, task = loop.compiled_rate(), loop.compiled_jacobian(), setup.task
     goal, t = np.array(task.q_d), np.linspace(0.0, task.T, points)
@@ -161,7 +161,7 @@ def _difference(rough: Trajectory, fine: Trajectory, n: int) -> float:
     return float(np.max(np.abs(fine.y - rough.y)[:, : 2 * n]))
 
 
-def _reference(loop: ClosedLoop, setup: Setup, path: Trajectory, accuracy: float) -> Run:
+def _reference(loop: LoopDynamics, setup: Setup, path: Trajectory, accuracy: float) -> Run:
     n, y = loop.n, path.y
     tau, energy = (np.array(x) for x in loop.signals().map(y.shape[0])(y.T, np.array(setup.task.q_d)))
     return run_of(

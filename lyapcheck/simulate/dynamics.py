@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class ClosedLoop:
+class LoopDynamics:
     """The state y = (q, w, D, S) of a run and its rate, with q_d as a parameter.
 
     D is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w), and S' = ‖e‖²: both ride along so that
@@ -48,7 +48,7 @@ class ClosedLoop:
         return ca.Function("signals", [self.state, self.goal], [self.torque, self.energy])
 
 
-def closed_loop(gains: Gains, model: RobotModel) -> ClosedLoop:
+def closed_loop(gains: Gains, model: RobotModel) -> LoopDynamics:
     """The graph of (11) for one controller on one arm, uncertain parameters at their nominal values.
 
     M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w, with e = q_d − q.
@@ -69,4 +69,4 @@ def closed_loop(gains: Gains, model: RobotModel) -> ClosedLoop:
     acceleration = graph.solve(mass, spring - damper - friction - graph.coriolis(model, q, w) @ w)
     rate = ca.vertcat(w, acceleration, ca.dot(w, friction + damper), ca.dot(e, e))
     energy = ca.dot(w, mass @ w) / 2 + ca.dot(ca.DM(gains.kp), at_e.potential)
-    return ClosedLoop(n, state, goal, rate, spring - damper + graph.gravity(model, q), energy)
+    return LoopDynamics(n, state, goal, rate, spring - damper + graph.gravity(model, q), energy)

@@ -17,7 +17,7 @@ PAPER_ARM = "buap3"
 
 
 @dataclass(frozen=True)
-class Printed:
+class PrintedIndices:
     """The printed performance of one controller of the experiment.
 
     References: ``reyes2019family``, Section 4, Table 2 and Fig. 11.
@@ -37,23 +37,23 @@ class Printed:
 
 
 PRINTED = (
-    Printed(1, (28, 60, 5), (0.233,) * 3, 25.4006, None, (-0.5774, 0.1272, -0.051)),
-    Printed(2, (27, 50, 5), (0.223,) * 3, 24.6892, (0.994, 0.997, 0.929), (-0.1849, 0.4876, 0.1867)),
-    Printed(3, (25, 50, 5), (0.223,) * 3, 23.4006, (0.892, 0.923, 0.867), (-0.3717, 0.3009, 0.2024)),
-    Printed(
+    PrintedIndices(1, (28, 60, 5), (0.233,) * 3, 25.4006, None, (-0.5774, 0.1272, -0.051)),
+    PrintedIndices(2, (27, 50, 5), (0.223,) * 3, 24.6892, (0.994, 0.997, 0.929), (-0.1849, 0.4876, 0.1867)),
+    PrintedIndices(3, (25, 50, 5), (0.223,) * 3, 23.4006, (0.892, 0.923, 0.867), (-0.3717, 0.3009, 0.2024)),
+    PrintedIndices(
         None, (0.8, 2.5, 0.133), (0.4, 0.75, 0.01), 27.8546, (1.14, 0.959, 0.952), (-0.2566, -0.7238, -0.8646)
     ),
 )
 
 
-def printed_for(run: Run) -> Printed | None:
+def printed_for(run: Run) -> PrintedIndices | None:
     """The printed numbers of the same gains, arm and task; none for anything the paper did not run."""
     if run.robot != PAPER_ARM or run.task != PAPER_TASK:
         return None
     return next((entry for entry in PRINTED if _same(entry, run.gains)), None)
 
 
-def printed_entry(gain_set: GainSet, model: RobotModel) -> Printed | None:
+def printed_entry(gain_set: GainSet, model: RobotModel) -> PrintedIndices | None:
     """What the paper prints of these gains on this arm; none for anything it did not run."""
     if model.name != PAPER_ARM:
         return None
@@ -61,7 +61,7 @@ def printed_entry(gain_set: GainSet, model: RobotModel) -> Printed | None:
     return next((entry for entry in PRINTED if _same(entry, gains)), None)
 
 
-def _same(entry: Printed, gains: Gains) -> bool:
+def _same(entry: PrintedIndices, gains: Gains) -> bool:
     family = "linear" if entry.m is None else "hyperbolic"
     member = (gains.family.name, gains.family.m)
     return member == (family, entry.m) and gains.written == (entry.kp, entry.kv)

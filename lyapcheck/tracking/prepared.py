@@ -16,9 +16,9 @@ from lyapcheck.simulate.results import LEAST_ENERGY
 from lyapcheck.tracking.form import TrackingForm, tracking_form
 from lyapcheck.tracking.loop import TrackingLoop, tracking_loop
 from lyapcheck.tracking.reference import Reference
-from lyapcheck.tracking.request import Request
+from lyapcheck.tracking.request import TrackingRequest
 from lyapcheck.tracking.results import bound_of, broken, energies, indices_of
-from lyapcheck.tracking.run import Motion, Promise, TrackingRun
+from lyapcheck.tracking.run import Promise, TrackingMotion, TrackingRun
 from lyapcheck.tracking.torque import torque_bounds
 
 if TYPE_CHECKING:
@@ -43,7 +43,9 @@ class Prepared:
         asked: a request that is known to be possible.
     """
 
-    def __init__(self, gain_set: GainSet, model: RobotModel, reference: Reference, asked: Request) -> None:
+    def __init__(
+        self, gain_set: GainSet, model: RobotModel, reference: Reference, asked: TrackingRequest
+    ) -> None:
         self.gains = gains_for(gain_set, model.n)
         self.model, self.controlled = model, ControlledArm(gain_set, model)
         self.reference, self.asked = reference, asked
@@ -105,7 +107,7 @@ class Prepared:
         inputs = (path.y.T, goal.reshape(len(path.t), -1).T)
         tau, energy = (np.array(x) for x in self.loop.signals().map(path.t.size)(*inputs))
         e, w = path.y[:, :n], path.y[:, n : 2 * n]
-        motion = Motion(path.t, goal[:, 0] - e, e, w, tau.T, goal[:, 0], goal[:, 1], goal[:, 2])
+        motion = TrackingMotion(path.t, goal[:, 0] - e, e, w, tau.T, goal[:, 0], goal[:, 1], goal[:, 2])
         V, dV = energies(self.controlled, self.gains, self.promise.eps0, motion)
         bound = bound_of(self.form, self.gains, self.promise.eps0, motion)
         return TrackingRun(

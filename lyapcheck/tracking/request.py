@@ -19,7 +19,7 @@ BAND = math.radians(1.0)
 
 
 @dataclass(frozen=True)
-class Request:
+class TrackingRequest:
     """Start, duration and samples of a run."""
 
     q0: tuple[float, ...]
@@ -43,7 +43,7 @@ def request_for(
     eps0: float | None,
     band: float = BAND,
     points: int = POINTS,
-) -> Request:
+) -> TrackingRequest:
     """The request to an arm of ``n`` joints.
 
     Without a reference, because it could not be read, the rest is looked at all the same.
@@ -65,7 +65,7 @@ def request_for(
         problems += _reference_problems(n, reference, seconds)
     if problems:
         raise InputError(problems)
-    return Request(task.q0, task.w0, task.T, eps0, band, points)
+    return TrackingRequest(task.q0, task.w0, task.T, eps0, band, points)
 
 
 def _reference_problems(n: int, reference: Reference, T: float) -> list[Problem]:

@@ -25,10 +25,12 @@ from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.results import noise_of
 from lyapcheck.tracking.form import TrackingForm
 from lyapcheck.tracking.monitors import form_monitor
-from lyapcheck.tracking.run import Indices, Motion, Promise
+from lyapcheck.tracking.run import Promise, TrackingIndices, TrackingMotion
 
 
-def energies(controlled: ControlledArm, gains: Gains, eps0: float, motion: Motion) -> tuple[Array, Array]:
+def energies(
+    controlled: ControlledArm, gains: Gains, eps0: float, motion: TrackingMotion
+) -> tuple[Array, Array]:
     """V of (13) and dV/dt along (21) at the samples, J and W.
 
     With C(q, q̇) = C(q, w) + C(q, q̇_d) in (11), dV/dt is that of (11) plus −ε (w − εh)ᵀ C(q, q̇_d) h.
@@ -42,7 +44,7 @@ def energies(controlled: ControlledArm, gains: Gains, eps0: float, motion: Motio
     return V, rate - np.sum(eps * (motion.w - eps * h) * turned, axis=1)
 
 
-def bound_of(form: TrackingForm | None, gains: Gains, eps0: float, motion: Motion) -> Array | None:
+def bound_of(form: TrackingForm | None, gains: Gains, eps0: float, motion: TrackingMotion) -> Array | None:
     """−[a b] Θ' [a b]ᵀ at the samples, W."""
     if form is None:
         return None
@@ -54,7 +56,7 @@ def broken(
     controlled: ControlledArm,
     limits: Sequence[Number | None],
     promise: Promise,
-    motion: Motion,
+    motion: TrackingMotion,
     V: Array,
     dV: Array,
     bound: Array | None,
@@ -81,7 +83,7 @@ def broken(
     )
 
 
-def indices_of(motion: Motion, squares: float, band: float) -> Indices:
+def indices_of(motion: TrackingMotion, squares: float, band: float) -> TrackingIndices:
     """The indices of the samples.
 
     Args:
@@ -92,7 +94,7 @@ def indices_of(motion: Motion, squares: float, band: float) -> Indices:
     t, e = motion.t, motion.e
     T = float(t[-1])
     size = np.abs(e)
-    return Indices(
+    return TrackingIndices(
         L2=math.degrees(math.sqrt(max(squares, 0.0) / T)) if T > 0 else math.nan,
         rms=np.degrees(np.sqrt(np.trapezoid(e * e, t, axis=0) / T)) if T > 0 else np.full(e.shape[1], np.nan),
         peak_error=np.degrees(size.max(axis=0)),

@@ -33,7 +33,7 @@ class Promise:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class TrackingMotion:
     """Samples at ``t`` (N,) in s, each (N, n): ``q`` and ``e`` = q_d − q in rad, ``w`` = q̇ − q̇_d in rad/s,
     ``tau`` of (21) in N·m, and of the reference ``goal`` in rad, ``speed``, ``acceleration`` in rad/s²."""
 
@@ -53,7 +53,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Indices:
+class TrackingIndices:
     """How well a run tracks: degrees, s and N·m; NaN where there is no such number."""
 
     L2: float
@@ -79,7 +79,7 @@ class TrackingRun:
     joints: tuple[str, ...]
     reference: Reference
     T: float
-    motion: Motion
+    motion: TrackingMotion
     V: Array
     """(N,) J, for ``promise.eps0``."""
     dV: Array
@@ -87,7 +87,7 @@ class TrackingRun:
     bound: Array | None
     """(N,) W, −[a b] Θ' [a b]ᵀ, which dV/dt must not exceed; none for an unbounded controller."""
     promise: Promise
-    indices: Indices
+    indices: TrackingIndices
     band: float
     """rad, of ``indices.entered``."""
     accuracy: float

@@ -17,7 +17,7 @@ from lyapcheck.simulate.extremes import with_extremes
 from lyapcheck.simulate.integrate import MAX_STEPS
 from lyapcheck.tracking.prepared import Prepared
 from lyapcheck.tracking.reference import Reference
-from lyapcheck.tracking.request import BAND, POINTS, Request, request_for
+from lyapcheck.tracking.request import BAND, POINTS, TrackingRequest, request_for
 from lyapcheck.tracking.run import TrackingFailed, TrackingRun
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def track_as_asked(
     gain_set: GainSet,
     model: RobotModel,
     reference: Reference,
-    asked: Request,
+    asked: TrackingRequest,
     *,
     tolerance: float = TOLERANCE,
     max_steps: int = MAX_STEPS,

@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
-from lyapcheck.compiled.straight_line import Code, TooLong
+from lyapcheck.compiled.straight_line import StraightLine, TooLong
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from studies.printed_experiment.bench_step import BenchStep, parameter_count
@@ -63,7 +63,7 @@ def _source(model: RobotModel, family: Family, period: float, substeps: int, swe
 
 
 def _controller(model: RobotModel, family: Family, period: float) -> str:
-    code, n = Code(), model.n
+    code, n = StraightLine(), model.n
     q, last = _names(code, "y", n), _names(code, "last", n)
     torque, readings = _step(model, family, code, period, 0).controller(q, last)
     places = [f"{x}[{i}][l]" for x in ("torque", "last") for i in range(n)]
@@ -72,7 +72,7 @@ def _controller(model: RobotModel, family: Family, period: float) -> str:
 
 
 def _arm(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:
-    code, n = Code(), model.n
+    code, n = StraightLine(), model.n
     y, torque = _names(code, "y", 2 * n), _names(code, "torque", n)
     step = _step(model, family, code, period, sweeps)
     q, w = step.move(y[:n], y[n:], torque, period / substeps)
@@ -80,12 +80,12 @@ def _arm(model: RobotModel, family: Family, period: float, substeps: int, sweeps
     return _function("arm", "const double torque[N][LANES]", body)
 
 
-def _step(model: RobotModel, family: Family, code: Code, period: float, sweeps: int) -> BenchStep:
+def _step(model: RobotModel, family: Family, code: StraightLine, period: float, sweeps: int) -> BenchStep:
     parameters = _names(code, "p", parameter_count(model))
     return BenchStep(model, code, PlainForms(code, family), parameters, period, sweeps)
 
 
-def _names(code: Code, array: str, count: int) -> list[Any]:
+def _names(code: StraightLine, array: str, count: int) -> list[Any]:
     return [code.name(f"{array}[{i}][l]") for i in range(count)]
 
 

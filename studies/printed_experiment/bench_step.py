@@ -14,7 +14,7 @@ from typing import Any
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import Place
+from lyapcheck.robots.dynamics import ArmAtAngles
 
 Vector = Sequence[Any]
 
@@ -114,7 +114,7 @@ class BenchStep:
         """The uncertain parameters by name."""
         return dict(zip(self.model.parameters, self.parameters[5 * self.n :], strict=True))
 
-    def _at(self, q: Vector) -> Place:
+    def _at(self, q: Vector) -> ArmAtAngles:
         """The arm at angles q."""
         of = self.forms
         return self.model.at([of.sin(x) for x in q], [of.cos(x) for x in q], float, self.uncertain)

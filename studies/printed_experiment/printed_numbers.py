@@ -10,7 +10,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.simulate.gains import Gains
-from lyapcheck.simulate.printed import Printed
+from lyapcheck.simulate.printed import PrintedIndices
 
 if TYPE_CHECKING:
     from studies.printed_experiment.bench_runs import Outcomes
@@ -54,7 +54,7 @@ class PrintedNumber:
         return result if self.joint is None else result[:, self.joint]
 
 
-def printed_numbers(entry: Printed) -> tuple[PrintedNumber, ...]:
+def printed_numbers(entry: PrintedIndices) -> tuple[PrintedNumber, ...]:
     """All of them: the index, settling times, errors in steady state, torques at t = 0."""
     settling = entry.settling or (SETTLED_BELOW,) * len(entry.kp)
     figure, torques = START_TORQUES[entry.m]
@@ -74,7 +74,7 @@ def _joints(
             yield PrintedNumber(quantity, joint, value, unit, at_most, source)
 
 
-def figure_gains(entry: Printed, gains: Gains, e: Sequence[float]) -> tuple[float, ...]:
+def figure_gains(entry: PrintedIndices, gains: Gains, e: Sequence[float]) -> tuple[float, ...]:
     """k_pi (per rad where h is linear) with which the figure's torques start; Table 2's where none is given.
 
     τ_i(0) = k_pi h(e_i(0)) at rest at home, where gravity asks for nothing.

@@ -24,7 +24,7 @@ from studies.printed_experiment.trials import Trials, first_trials
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate.printed import Printed
+    from lyapcheck.simulate.printed import PrintedIndices
     from studies.printed_experiment.design import Design
 
 
@@ -97,13 +97,15 @@ def _count(sets: Sequence[SetStudy], one_arm: Together | None, common: int) -> i
     return sum(one.at_once.arms + 1 for one in sets) + together
 
 
-def _set_study(gain_set: GainSet, entry: Printed, result: Trials, plan: Design, seed: int | None) -> SetStudy:
+def _set_study(
+    gain_set: GainSet, entry: PrintedIndices, result: Trials, plan: Design, seed: int | None
+) -> SetStudy:
     numbers = tuple(number_study(number, result, plan) for number in result.printed)
     shown = _figure_gains(gain_set, entry, result, plan)
     return SetStudy(gain_set.name, gain_set.m, numbers, one_set(result, seed), shown)
 
 
-def _figure_gains(gain_set: GainSet, entry: Printed, result: Trials, plan: Design) -> FigureGains:
+def _figure_gains(gain_set: GainSet, entry: PrintedIndices, result: Trials, plan: Design) -> FigureGains:
     """The nominal arm under the gains with which the paper's figure starts."""
     runs = result.runs
     gains = gains_for(gain_set, runs.model.n)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.bounds.answer import Comparisons
-from lyapcheck.answers.bounds.compare import Comparison, compare
+from lyapcheck.answers.bounds.compare import BoundsComparison, compare
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -26,20 +26,20 @@ FILE = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
 TASK = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
 
 
-def both_bounds(gains: GainSet) -> Comparison:
+def both_bounds(gains: GainSet) -> BoundsComparison:
     return compare(
         gains, load("reyes-kelly2"), TASK, math.radians(10), (0.1, 0.05), (0.0, 0.0), max_boxes=2_000
     )
 
 
 @pytest.fixture(scope="module")
-def sound() -> Comparison:
+def sound() -> BoundsComparison:
     """A gain set with both bounds."""
     return both_bounds(FILE.gains[0])
 
 
 @pytest.fixture(scope="module")
-def compared(sound: Comparison) -> Comparisons:
+def compared(sound: BoundsComparison) -> Comparisons:
     """The same beside one whose h is too flat for a time to be found, which takes ten seconds."""
     second = FILE.gains[1]
     flat = GainSet(second.name, 60, second.kp, second.kv, index=second.index)
@@ -58,7 +58,7 @@ def test_the_first_line_says_whether_all_is_certified(compared: Comparisons) -> 
 
 
 @pytest.mark.slow
-def test_what_is_shown_is_never_below_what_is_certified(sound: Comparison) -> None:
+def test_what_is_shown_is_never_below_what_is_certified(sound: BoundsComparison) -> None:
     settling = sound.settling
     times, errors = Comparisons((sound,), FILE).document().blocks[:2]
     assert isinstance(times, Table)

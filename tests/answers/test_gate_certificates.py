@@ -23,13 +23,13 @@ from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.judgement import Judgement
+from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import Done, invoke
 from tests.helpers.shares import one_in
@@ -146,7 +146,7 @@ def test_what_the_checker_refuses_is_not_accepted(
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
     import lyapcheck.answers.gate.prover as gain_range
 
-    monkeypatch.setattr(Proof, "accepted", lambda *_: False)
+    monkeypatch.setattr(DecreaseProof, "accepted", lambda *_: False)
     monkeypatch.setattr(gain_range, "CEILINGS", (64, 4))
     (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
     assert result.verdict == "undecided"
@@ -244,8 +244,8 @@ def test_stability_is_proved_where_19_alone_fails() -> None:
 
 def test_stability_is_not_said_where_it_was_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the checker's word for either proof nothing is said of stability."""
-    undecided = "lyapcheck.answers.gate.otherwise.judged"
-    monkeypatch.setattr(undecided, lambda statement, proofs: Judgement(statement, None, "undecided"))
+    undecided = "lyapcheck.answers.gate.otherwise.judged_statement"
+    monkeypatch.setattr(undecided, lambda statement, proofs: JudgedStatement(statement, None, "undecided"))
     monkeypatch.setattr("lyapcheck.answers.gate.otherwise.lasalle", lambda fixed: UNPROVED)
     result = judged(paper_gain_file())["tau_m2"]
     assert (result.verdict, result.standing) == ("rejected", "rejected")

@@ -18,7 +18,7 @@ from lyapcheck.answers.tune.response.answer import BenchTuning
 from lyapcheck.answers.tune.response.one_joint import Joint, proposal
 from lyapcheck.answers.tune.response.trial import tried
 from lyapcheck.answers.tune.response.tuning import stable_by, tune_for
-from lyapcheck.answers.tune.response.wishes import BY_PROOF, Bench, Wishes
+from lyapcheck.answers.tune.response.wishes import BY_PROOF, Trials, Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainSet, read_gain_file
@@ -37,7 +37,7 @@ WISHES = Wishes(overshoot=5, settle=1.5, rest_error=20)
 def tuned() -> BenchTuning:
     """Both ways for m = 1 on the paper's arm, beside Table 2."""
     paper = replace(read_gain_file(paper_gain_file()), path="Table 2")
-    return tune_for("buap3", Bench(WISHES, (PAPER_TASK,)), [1], against=paper)
+    return tune_for("buap3", Trials(WISHES, (PAPER_TASK,)), [1], against=paper)
 
 
 @pytest.mark.slow
@@ -100,7 +100,7 @@ def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> N
 
 @pytest.mark.slow
 def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
-    bench = Bench(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
+    bench = Trials(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
     tuning = tune_for("buap3", bench, [2])
     assert tuning.exit == Exit.UNDECIDED
     assert "is not reached" in tuning.document().title
@@ -134,7 +134,7 @@ def test_one_joint_alone_is_tuned_to_its_targets() -> None:
 
 
 def test_arms_without_limits_or_friction_are_told(tmp_path: Path) -> None:
-    bench = Bench(Wishes(overshoot=5), (replace(PAPER_TASK, q_d=(0.5, 0.5), q0=(0.0, 0.0), w0=(0.0, 0.0)),))
+    bench = Trials(Wishes(overshoot=5), (replace(PAPER_TASK, q_d=(0.5, 0.5), q0=(0.0, 0.0), w0=(0.0, 0.0)),))
     tuning = tune_for("pelican2", bench, [1])
     assert tuning.exit == Exit.UNDECIDED
     assert "no torque limit" in str(tuning)

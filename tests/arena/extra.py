@@ -79,7 +79,7 @@ from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.statement_fuzz.generators.properties import property_of
 
 Row = tuple[str, Statement, Proof | None]
@@ -362,7 +362,7 @@ NEARBY = DecreasingNearby(decreasing(UNIT, F(5, 4)), (F(1),), (F(1),), F(2, 5))
 def nearer() -> Proof:
     """With boxes for the friction that slow motions have."""
     floors = (F(3, 4),)
-    found = certify(Problem(nearby_loop(NEARBY, floors)), 1_000)
+    found = certify(SchurProblem(nearby_loop(NEARBY, floors)), 1_000)
     assert found.proved
     return SlowerAndNearer(Bisection(), floors, BoxTree(found.tree), (F(9, 10),), (Bisection(),))
 

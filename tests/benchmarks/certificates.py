@@ -17,7 +17,7 @@ from lyapcheck.check.loop.proof import proves
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 
 from .measure import LYAPCHECK, processor_seconds
 from .results import CertificateResult, Cost, ManyResult
@@ -82,7 +82,7 @@ def gains(arm: str, m: int) -> GainSet:
 
 def _cost(controlled: ControlledArm, falsified: Fraction, share: Fraction, max_boxes: int) -> Cost:
     loop = controlled.loop((falsified * share).limit_denominator(10**9))
-    outcome, searched = _timed(lambda: certify(Problem(loop), max_boxes))
+    outcome, searched = _timed(lambda: certify(SchurProblem(loop), max_boxes))
     if not outcome.proved:
         return Cost(float(share), outcome.boxes, searched, None)
     with shared_between(2):

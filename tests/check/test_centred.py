@@ -23,7 +23,7 @@ from lyapcheck.kernel.arms import _finer
 from lyapcheck.robots import load
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 
 F = Fraction
 FUNCTIONS = [("hyperbolic", m) for m in (1, 2, 3, 6)] + [
@@ -149,7 +149,7 @@ def test_the_triangle_makes_a_diagonal() -> None:
 @pytest.mark.parametrize("index", [1, 2])
 def test_trees_of_two_joints_near_the_falsified_are_small(index: int) -> None:
     case = loop_of("reyes-kelly2", "table2_shoulder_elbow", index, ("0.9256361", "0.6356907")[index - 1])
-    result = certify(Problem(case), 10_000)
+    result = certify(SchurProblem(case), 10_000)
     assert result.proved
     assert len(result.tree) < 4_000
     assert proves(case, result.tree)
@@ -158,7 +158,7 @@ def test_trees_of_two_joints_near_the_falsified_are_small(index: int) -> None:
 
 def test_a_kernel_gets_boxes_that_ranges_alone_show() -> None:
     case = loop_of("reyes-kelly2", "table2_shoulder_elbow", 1, "0.9")
-    tree = certify(Problem(case), 10_000).tree
+    tree = certify(SchurProblem(case), 10_000).tree
     finer = _finer(case, tree)
     assert len(finer) > len(tree)
     assert _finer(case, finer) == finer

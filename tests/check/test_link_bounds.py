@@ -31,7 +31,7 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.heaviest import heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import link_bounds
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 from tests.helpers.shares import but
 
 F = Fraction
@@ -60,25 +60,27 @@ def example(name: str, m: int, ranges: bool = False) -> ControlledArm:
 
 
 @cache
-def proof(m: int, ranges: bool = False, share: Fraction = SHARE) -> Proof:
+def proof(m: int, ranges: bool = False, share: Fraction = SHARE) -> DecreaseProof:
     return proof_of(example("ur5", m, ranges), share * FALSIFIED[m])
 
 
-def proof_of(controlled: ControlledArm, eps0: Fraction) -> Proof:
+def proof_of(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof:
     bounds = link_bounds(controlled)
     assert bounds is not None
     loop = controlled.loop(F(f"{float(eps0):.6g}"))
     result = ErrorBoxes(loop, bounds).covered(30_000)
     assert result.proved
-    return Proof(loop, replace(bounds, tree=result.tree, scales=result.scales), controlled.inertia_proof)
+    return DecreaseProof(
+        loop, replace(bounds, tree=result.tree, scales=result.scales), controlled.inertia_proof
+    )
 
 
-def data_of(of: Proof) -> LinkBounds:
+def data_of(of: DecreaseProof) -> LinkBounds:
     assert isinstance(of.by, LinkBounds)
     return of.by
 
 
-def judged(statement: Decreasing, of: Proof, by: LinkBounds) -> str:
+def judged(statement: Decreasing, of: DecreaseProof, by: LinkBounds) -> str:
     return verify(statement, PositiveAndDecreasing(of.inertia, by)).verdict
 
 

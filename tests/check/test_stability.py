@@ -33,7 +33,7 @@ from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -271,7 +271,7 @@ def at_random(model: RobotModel, values: list[float]) -> RobotModel:
 def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
     gains, model = GAINS["buap3"][1], load("buap3")
     case = ControlledArm(gains, model, ranges=True).loop(F("0.055"))
-    outcome = certify(Problem(case), 20_000)
+    outcome = certify(SchurProblem(case), 20_000)
     assert outcome.proved
     assert proves(case, outcome.tree)
     assert not proves(replace(case, viscous=((F(1, 100), F(3)),) * 3), outcome.tree)
@@ -319,12 +319,12 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Pa
         "from lyapcheck.check.loop.processes import shared_between\n"
         "from lyapcheck.search.branch_and_bound import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
-        "from lyapcheck.search.schur import Problem\n"
+        "from lyapcheck.search.schur import SchurProblem\n"
         "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
         "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
         "proof.WORTH_SHARING = 0\n"
         "with shared_between(2):\n"
-        "    print(proof.proves(loop, certify(Problem(loop), 10_000).tree))\n"
+        "    print(proof.proves(loop, certify(SchurProblem(loop), 10_000).tree))\n"
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
     assert (run.stdout, run.stderr) == ("True\n", "")

@@ -11,7 +11,7 @@ import pytest
 from tests.house.test_house import modules
 
 WORDS = ("proved", "refuted", "accepted", "rejected", "certified", "stable")
-MAKERS = ("Verdict", "Judgement", "Accepted")
+MAKERS = ("Verdict", "JudgedStatement", "Judgement", "Accepted")
 """What makes a verdict of a word that need not stand in the source."""
 FIELDS = ("verdict", "shown")
 """Where what the checker said is kept."""
@@ -230,9 +230,9 @@ DISGUISES = {
     "made of a word of others": "found = verdicts.Verdict(text)",
     "an alias": "V = Verdict\nfound = V(text)",
     "a mapped maker": "found = list(map(Verdict, words))",
-    "a partial": "make = partial(Judgement, statement)",
+    "a partial": "make = partial(JudgedStatement, statement)",
     "renamed as an exit code": "from lyapcheck.verdicts import Verdict as Exit\nfound = Exit.PROVED",
-    "renamed": "from lyapcheck.control.judgement import Judgement as J\nfound = J(statement, None, word)",
+    "renamed": "from lyapcheck.control.judgement import JudgedStatement as J\nfound = J(statement, None, s)",
     "by its members": "found = Verdict.__members__[name]",
     "the first of them": "found = next(iter(Verdict))",
     "of its class": "found = row.verdict.__class__(word)",
@@ -272,8 +272,8 @@ def test_a_maker_of_verdicts_is_found_in_any_disguise(name: str) -> None:
         "raise typer.Exit(Exit.PROVED)",
         '"""proved"""\nx = 1',
         "ok = Verdict.PROVED in found",
-        "def f(row: Judgement) -> Verdict:\n    return row.verdict",
-        "ok = isinstance(found, Judgement)",
+        "def f(row: JudgedStatement) -> Verdict:\n    return row.verdict",
+        "ok = isinstance(found, JudgedStatement)",
         "ok = replace(row, name=name)",
     ],
 )

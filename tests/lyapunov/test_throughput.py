@@ -16,9 +16,9 @@ from lyapcheck.compiled import straight_line, threads
 from lyapcheck.compiled.compiler import OFF, compiler
 from lyapcheck.compiled.forms import LARGEST_MEMBER
 from lyapcheck.compiled.state_map import state_map
-from lyapcheck.compiled.straight_line import Code
+from lyapcheck.compiled.straight_line import StraightLine
 from lyapcheck.lyapunov import numeric as numeric_module
-from lyapcheck.lyapunov.along import Certificate
+from lyapcheck.lyapunov.along import LyapunovFunction
 from lyapcheck.lyapunov.graph import lyapunov_graph
 from lyapcheck.lyapunov.numeric import LARGE, LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
@@ -213,7 +213,7 @@ def test_six_joints_agree_too():
 
 
 def test_recorded_code_shares_and_folds():
-    code = Code()
+    code = StraightLine()
     x, y = code.name("x"), code.name("y")
     assert (x * y).text == (x * y).text
     assert (0 * x + 1 * y).text == "y"
@@ -236,7 +236,7 @@ def leanest_casadi(kept: LyapunovNumeric, name: str, count: int) -> ca.Function:
         potential=lambda x: shape.casadi_smooth(x).potential,
     )
     symbols = [ca.SX.sym(x, n) for x in "qew"]
-    certificate = Certificate(kept.model, forms, kept.kp, kept.kv, kept.viscous, kept.eps0)
+    certificate = LyapunovFunction(kept.model, forms, kept.kp, kept.kv, kept.viscous, kept.eps0)
     value = getattr(certificate, name)(*[ca.vertsplit(x) for x in symbols])
     return ca.Function(name, symbols, [value]).map(count)
 

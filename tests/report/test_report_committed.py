@@ -15,7 +15,7 @@ from lyapcheck.answers.table import build_table
 from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.ask import ask
-from lyapcheck.claims.handover import Request
+from lyapcheck.claims.handover import ScriptRequest
 from lyapcheck.claims.script import find_script
 from lyapcheck.cli.commands.report import _subject
 from lyapcheck.report.build import _gate
@@ -36,7 +36,7 @@ REPAIR = "make report, and commit reports/"
 def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
     ms = REPORT["m"]
     script = find_script(proof)
-    handover = ask(Request(str(script), script.name, tuple(paper_case_data(m) for m in ms)))
+    handover = ask(ScriptRequest(str(script), script.name, tuple(paper_case_data(m) for m in ms)))
     claims = {claim.id: claim for claim in handover.claims}
     rows = [row for row in (*REPORT["claims"], *REPORT["others"]) if row["proof"] == handover.name]
     assert {row["id"] for row in rows} == set(OTHERS.get(proof, ()) or claims), REPAIR

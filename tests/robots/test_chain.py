@@ -16,7 +16,7 @@ from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.errors import InputError
 from lyapcheck.intervals import Interval, cosine, sine
 from lyapcheck.robots import graph
-from lyapcheck.robots.dynamics import Chain, TooLong
+from lyapcheck.robots.dynamics import Chain, TooManyTerms
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import circle
 from tests.helpers.urdf_texts import generic
@@ -134,7 +134,7 @@ def test_polynomials_of_long_skew_chains_are_not_written_out(tmp_path: Path) -> 
     file = tmp_path / "arm.urdf"
     file.write_text(generic(12))
     arm = robots.load(file)
-    with pytest.raises(TooLong, match="12 links"):
+    with pytest.raises(TooManyTerms, match="12 links"):
         _ = arm.mass
 
 

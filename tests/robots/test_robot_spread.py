@@ -15,7 +15,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.helpers.command import invoke
 
 F = Fraction
@@ -54,7 +54,7 @@ def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
     narrow, wide = (
         ControlledArm(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
     )
-    outcome = certify(Problem(narrow.loop(F(6, 10))), 60_000)
+    outcome = certify(SchurProblem(narrow.loop(F(6, 10))), 60_000)
     assert outcome.proved
     assert proves(narrow.loop(F(6, 10)), outcome.tree)
     assert not proves(wide.loop(F(6, 10)), outcome.tree)

@@ -11,7 +11,7 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.response.tuning import tune_for
-from lyapcheck.answers.tune.response.wishes import Bench, Wishes
+from lyapcheck.answers.tune.response.wishes import Trials, Wishes
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -123,7 +123,7 @@ def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
 
 @pytest.mark.slow
 def test_tuning_counts_the_worst_arm() -> None:
-    bench = Bench(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
+    bench = Trials(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
     result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
     assert result.arms == 3
     assert "each on 3 arms" in str(result).replace("\n", " ")

@@ -22,7 +22,7 @@ from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, cover
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -42,9 +42,9 @@ def controlled(robot: str, index: int) -> ControlledArm:
     return ControlledArm(GAINS[robot][index], load(robot))
 
 
-def problem(robot: str, index: int, eps0: Fraction) -> Problem:
+def problem(robot: str, index: int, eps0: Fraction) -> SchurProblem:
     case = controlled(robot, index)
-    return Problem(case.loop(eps0))
+    return SchurProblem(case.loop(eps0))
 
 
 class Terms:
@@ -181,8 +181,8 @@ def test_a_weaker_arm_is_not_proved(index: int, broken: str) -> None:
         heavier = tuple(tuple(10 * entry for entry in row) for row in model.mass)
         model = replace(model, dynamics=replace(model.dynamics.polynomials, mass=heavier))
     weak = ControlledArm(case.gains, model)
-    assert not certify(Problem(weak.loop(eps0)), 20_000).proved
-    assert certify(Problem(weak.loop(eps0 / 40)), 20_000).proved
+    assert not certify(SchurProblem(weak.loop(eps0)), 20_000).proved
+    assert certify(SchurProblem(weak.loop(eps0 / 40)), 20_000).proved
 
 
 @pytest.mark.parametrize("index", [0, 1, 2])
@@ -248,7 +248,7 @@ def test_gains_out_of_reach_are_said() -> None:
 
 def test_boxes_that_the_checker_refuses_are_no_certificate(monkeypatch: pytest.MonkeyPatch) -> None:
     """An arithmetic that proves everything gets no further than the checker."""
-    monkeypatch.setattr(Problem, "proved", lambda self, boxes: np.ones(len(boxes), dtype=bool))
+    monkeypatch.setattr(SchurProblem, "proved", lambda self, boxes: np.ones(len(boxes), dtype=bool))
     result = certified_epsilon(controlled("reyes-kelly2", 0), 100 * FALSIFIED[0], 1000)
     assert result.eps0 is None
     assert "refused by the checker" in result.reason or "K_p is too small" in result.reason

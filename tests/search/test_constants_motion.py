@@ -22,7 +22,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.storage import storage_proof
-from lyapcheck.constants.storage.bounds import Shown
+from lyapcheck.constants.storage.bounds import BoundWithProof
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
 from tests.search.test_constants_storage import arm_of
@@ -37,7 +37,7 @@ def refused(statement: ChainCoriolisBelow, proof: Proof) -> bool:
 
 def shown_for(name: str, folder: Path) -> tuple[ChainCoriolisBelow, MotionForms]:
     shown = storage_proof(arm_of(name, folder).chain, "k_c")
-    assert isinstance(shown, Shown)
+    assert isinstance(shown, BoundWithProof)
     assert isinstance(shown.statement, ChainCoriolisBelow)
     assert isinstance(shown.proof, MotionForms)
     return shown.statement, shown.proof

@@ -13,7 +13,7 @@ from lyapcheck.control.gains import GainSet
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.falsify import Witness, falsify, round_up
+from lyapcheck.search.falsify import RisingState, falsify, round_up
 from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
 from lyapcheck.search.worst_states import expressions, fast_states, finite_states, level_states
 from tests.helpers.shares import one_in
@@ -151,7 +151,7 @@ def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
 @pytest.mark.slow
 def test_falsify_repeats_itself() -> None:
     first, again = (falsify(two_joints(3), **FEW) for _ in range(2))
-    assert isinstance(first, Witness)
+    assert isinstance(first, RisingState)
     assert first == again
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.constant import Task
+from lyapcheck.constants.constant import SupremumTask
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
@@ -163,7 +163,7 @@ TASKS = {
 @pytest.mark.parametrize("name", one_in(3, ["buap3", "pelican2", "ur5"]))
 def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: float) -> None:
     """Boxes around the state of the largest value would pass even without their linear part; these do not."""
-    task: Task = TASKS[constant](ArmHarmonics(arm_of(name)))
+    task: SupremumTask = TASKS[constant](ArmHarmonics(arm_of(name)))
     rng = np.random.default_rng(5)
     middle, half = rng.uniform(-3, 3, (8, task.torus.n)), rng.uniform(0.2, 1, (8, task.torus.n)) * size
     low, high = task.bounds(middle, half)

@@ -14,7 +14,7 @@ from lyapcheck.search import cover, shared
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(20), Fraction(5)), (Fraction(1, 5), Fraction(1, 5)))
@@ -72,7 +72,7 @@ def test_a_search_ends_where_that_of_one_process_does(
     for jobs in (1, 2, 3):
         pool = Here()
         with shared.boxes_shared(jobs, pool):
-            one = certify(Problem(loop), budget)
+            one = certify(SchurProblem(loop), budget)
         point = None if one.point is None else one.point.tolist()
         outcomes.append((one.proved, one.boxes, one.reason, point, one.tree))
         rounds.append(len(pool.hands))

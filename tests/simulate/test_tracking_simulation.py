@@ -25,7 +25,7 @@ from lyapcheck.simulate.gains import gains_for
 from lyapcheck.tracking.form import TrackingForm, tracking_form
 from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
 from lyapcheck.tracking.results import bound_of, broken, energies
-from lyapcheck.tracking.run import Motion, TrackingFailed, TrackingRun
+from lyapcheck.tracking.run import TrackingFailed, TrackingMotion, TrackingRun
 from lyapcheck.tracking.simulation import track
 from lyapcheck.tracking.torque import torque_bounds
 from tests.helpers.shares import one_in
@@ -140,14 +140,16 @@ def test_dV_is_the_derivative_of_V_along_the_motion():
     np.testing.assert_allclose(run.dV[2:-2], slope, atol=1e-5 * np.max(np.abs(run.dV)))
 
 
-def random_motion(seed: int, speed: float, count: int = 4000) -> Motion:
+def random_motion(seed: int, speed: float, count: int = 4000) -> TrackingMotion:
     """States of all sizes with ‖q̇_d‖ = speed."""
     rng = np.random.default_rng(seed)
     q, e, w, way = rng.standard_normal((4, count, 3))
     sizes = 10.0 ** rng.uniform(-2, 1.5, (2, count, 1))
     fast = speed * way / np.linalg.norm(way, axis=1, keepdims=True)
     zeros = np.zeros_like(q)
-    return Motion(np.arange(float(count)), 3 * q, sizes[0] * e, sizes[1] * w, zeros, 3 * q, fast, zeros)
+    return TrackingMotion(
+        np.arange(float(count)), 3 * q, sizes[0] * e, sizes[1] * w, zeros, 3 * q, fast, zeros
+    )
 
 
 @pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.bounds.compare import Comparison
+from lyapcheck.answers.bounds.compare import BoundsComparison
 from lyapcheck.answers.bounds.data import comparison_data
 from lyapcheck.answers.bounds.words import (
     after_text,
@@ -67,7 +67,7 @@ class Comparisons(Answer):
 
     schema = "lyapcheck/bounds/1"
 
-    results: tuple[Comparison, ...]
+    results: tuple[BoundsComparison, ...]
     file: GainFile | None = None
 
     def document(self) -> Document:
@@ -109,7 +109,7 @@ class Comparisons(Answer):
         """Two cases a gain set: its settling time, and what disturbances leave."""
         return [one for result in self.results for one in self._judged(result)]
 
-    def _judged(self, result: Comparison) -> list[Annotation]:
+    def _judged(self, result: BoundsComparison) -> list[Annotation]:
         place = gain_place(self.file, result.gains)._asdict()
         about = partial(Annotation, group=result.settling.name, **place)
         judged: list[tuple[str, str, MotionBound]] = [
@@ -132,7 +132,7 @@ class Comparisons(Answer):
         return cases
 
 
-def _times(results: Sequence[Comparison]) -> Table:
+def _times(results: Sequence[BoundsComparison]) -> Table:
     """When the errors are small for good, if nothing acts."""
     angles = ", ".join(dict.fromkeys(angle_text(result.settling.delta) for result in results))
     rows: list[tuple[str, ...]] = [
@@ -150,7 +150,7 @@ def _times(results: Sequence[Comparison]) -> Table:
     return Table(heads, tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
 
 
-def _cost(result: Comparison) -> tuple[str, ...]:
+def _cost(result: BoundsComparison) -> tuple[str, ...]:
     """The certified time without ranges, and by how much these lengthen it; nothing where there are none."""
     if result.unvaried is None:
         return ()
@@ -158,7 +158,7 @@ def _cost(result: Comparison) -> tuple[str, ...]:
     return seconds_up(nominal), f"{float(now / nominal) - 1:+.1%}" if nominal and now else NONE
 
 
-def _behind(result: Comparison) -> list[Table | Bullets]:
+def _behind(result: BoundsComparison) -> list[Table | Bullets]:
     """The errors of a gain set, and what its bounds rest on or why there are none."""
     settling, left = result.settling, result.disturbance
     said = []
@@ -174,7 +174,7 @@ def _behind(result: Comparison) -> list[Table | Bullets]:
     return [*_errors(result), *_rest(result), *_phases(result), Bullets(tuple(said))]
 
 
-def _errors(result: Comparison) -> list[Table]:
+def _errors(result: BoundsComparison) -> list[Table]:
     """The largest error of each joint; no table where nothing is known."""
     left, n = result.disturbance, len(result.joints)
     columns: list[tuple[str, Sequence[str]]] = []
@@ -197,7 +197,7 @@ def _errors(result: Comparison) -> list[Table]:
     return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(result))]
 
 
-def _phases(result: Comparison) -> list[Table]:
+def _phases(result: BoundsComparison) -> list[Table]:
     """Which ε₀ is certified within which errors and speeds; no table where there is one phase."""
     shown = result.settling.shown
     if shown is None or not isinstance(shown.proof, FallingPhases):
@@ -214,7 +214,7 @@ def _phases(result: Comparison) -> list[Table]:
     return [Table(("from", "ε₀", "|e_i| at most", "h(w_i)/w_i at least"), tuple(rows), PHASES)]
 
 
-def _rest(result: Comparison) -> list[Table]:
+def _rest(result: BoundsComparison) -> list[Table]:
     """Where motions end under dry friction alone; no table where nothing is known."""
     left = result.disturbance
     if not left.comes_to_rest or not any(left.dry):
@@ -231,7 +231,7 @@ def _rest(result: Comparison) -> list[Table]:
     return [Table(heads, tuple(rows), REST)]
 
 
-def _caption(result: Comparison) -> str:
+def _caption(result: BoundsComparison) -> str:
     """What the errors are, and from when on."""
     if not _acting(result):
         return "Largest |e_i|:"
@@ -244,7 +244,7 @@ def _caption(result: Comparison) -> str:
     )
 
 
-def _acting(result: Comparison) -> dict[str, tuple[Fraction, ...]]:
+def _acting(result: BoundsComparison) -> dict[str, tuple[Fraction, ...]]:
     """What disturbs, joint by joint."""
     both = {TORQUE: result.disturbance.torque, "dry friction": result.disturbance.dry}
     return {name: values for name, values in both.items() if any(values)}

@@ -10,13 +10,13 @@ from lyapcheck.check.certificate import About
 from lyapcheck.files.names import file_stem
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.check.statement import Proof, Statement
 
 PROOF = "bounds"
 
 
-def certificates(result: Comparison) -> dict[str, Certificate]:
+def certificates(result: BoundsComparison) -> dict[str, Certificate]:
     """Certificates by file name; what nothing was accepted of has none."""
     settling, left = result.settling, result.disturbance
     made: dict[str, tuple[str, Statement, Proof]] = {}
@@ -39,7 +39,9 @@ def certificates(result: Comparison) -> dict[str, Certificate]:
     }
 
 
-def _certificate(result: Comparison, kind: str, says: str, statement: Statement, proof: Proof) -> Certificate:
+def _certificate(
+    result: BoundsComparison, kind: str, says: str, statement: Statement, proof: Proof
+) -> Certificate:
     bound, n = result.settling, len(result.task.q_d)
     about = About(f"{bound.name}.{kind}", f"{says}: {bound.name} on {bound.robot}", bound.m, n, PROOF)
     used = {name: version(name) for name in ("lyapcheck", "python-flint")}

@@ -33,7 +33,7 @@ LONGER, LONGEST = 6.0, 200.0
 
 
 @dataclass(frozen=True)
-class Comparison:
+class BoundsComparison:
     """Bounds, certified, and what was seen in one run, in floating point.
 
     Args:
@@ -64,7 +64,7 @@ class Comparison:
     simulated_rest: tuple[float, ...]
     assumptions: tuple[str, ...]
     varies: tuple[str, ...] = ()
-    unvaried: Comparison | None = None
+    unvaried: BoundsComparison | None = None
 
     @property
     def certified(self) -> bool:
@@ -84,7 +84,7 @@ def compare(
     jobs: int = 1,
     varied: Varied | None = None,
     on_progress: Progress | None = None,
-) -> Comparison:
+) -> BoundsComparison:
     """The bounds of a task and the run.
 
     Args:
@@ -136,7 +136,7 @@ def compare(
         held = coulomb(arm) if dry is None else tuple(dry)
         runs.append(_Runs.of(gain_set, arm, task, delta, torque, held, settling, left))
     times = [run.time for run in runs]
-    return Comparison(
+    return BoundsComparison(
         gains=gain_set,
         joints=model.joints,
         settling=settling,
@@ -154,7 +154,7 @@ def compare(
 
 @dataclass(frozen=True)
 class _Runs:
-    """What runs of one arm show: see `Comparison`."""
+    """What runs of one arm show: see `BoundsComparison`."""
 
     time: float | None
     duration: float

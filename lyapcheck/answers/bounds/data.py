@@ -11,12 +11,12 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.check.statement import Statement
     from lyapcheck.search.decay.results import DisturbanceBound, Provenance, SettlingBound
 
 
-def comparison_data(result: Comparison) -> dict[str, Any]:
+def comparison_data(result: BoundsComparison) -> dict[str, Any]:
     """One gain set; angles in degrees, rounded up."""
     task = result.task
     return {

@@ -25,7 +25,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.search.decay.bounds import disturbance_bound, settling_bound
 from lyapcheck.search.decay.digits import as_written
-from lyapcheck.search.decay.results import AtRest, DisturbanceBound, SettlingBound, Shown, accepted
+from lyapcheck.search.decay.results import AtRest, DisturbanceBound, MotionWithProof, SettlingBound, accepted
 from lyapcheck.search.decay.start import Start, start_of, torques_of
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def kept_bounds(
 ) -> Bounds:
     """``settling_bound`` and ``disturbance_bound``, from the store where they are there and hold."""
     acting = Disturbance(torques_of(controlled, "torque", torque), torques_of(controlled, "dry", dry))
-    asked = Asked(controlled, start_of(controlled, e0, w0, delta), as_written(delta), acting)
+    asked = BoundsQuestion(controlled, start_of(controlled, e0, w0, delta), as_written(delta), acting)
     question = asked.question(max_boxes)
     result = asked.read(store.take(question), jobs)
     if result is None:
@@ -89,7 +89,7 @@ def written(settling: SettlingBound, left: DisturbanceBound) -> dict[str, Any]:
 
 
 @dataclass(frozen=True)
-class Asked:
+class BoundsQuestion:
     """What bounds are asked about.
 
     Args:
@@ -139,10 +139,12 @@ class Asked:
             return None
         of_settling, of_left = map(str, kept["reasons"])
         return (
-            SettlingBound.of(self.controlled, settling and Shown(*settling), of_settling, self.delta),
+            SettlingBound.of(
+                self.controlled, settling and MotionWithProof(*settling), of_settling, self.delta
+            ),
             DisturbanceBound.of(
                 self.controlled,
-                left and Shown(*left),
+                left and MotionWithProof(*left),
                 of_left,
                 self.acting.torque,
                 self.acting.dry,

@@ -11,11 +11,11 @@ from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.numbers.enclosure import Enclosure
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.search.decay.results import Provenance
 
 
-def title(results: Sequence[Comparison]) -> str:
+def title(results: Sequence[BoundsComparison]) -> str:
     """Whether all bounds are certified."""
     robots = ", ".join(dict.fromkeys(result.settling.robot for result in results))
     whole = sum(result.certified for result in results)
@@ -26,7 +26,7 @@ def title(results: Sequence[Comparison]) -> str:
     return f"? the bounds of {whole} of {len(results)} gain sets are certified on {robots or 'no arm'}"
 
 
-def _one(result: Comparison) -> str:
+def _one(result: BoundsComparison) -> str:
     bound = result.settling
     mark = "✓" if result.certified else "?"
     over = f" with {', '.join(result.varies)}" if result.varies else ""
@@ -44,14 +44,14 @@ def seconds_up(value: Fraction | None) -> str:
     return "—" if value is None else f"{_up(Enclosure(value, value).float_upper)} s"
 
 
-def ratio_text(result: Comparison) -> str:
+def ratio_text(result: BoundsComparison) -> str:
     """How many times the certified time is that of the run."""
     if result.settling.time is None or not result.simulated_time:
         return "—"
     return f"{float(result.settling.time) / result.simulated_time:.3g} ×"
 
 
-def after_text(result: Comparison) -> str:
+def after_text(result: BoundsComparison) -> str:
     """How errors die out, where that is certified; empty where it is not."""
     shown = result.settling.shown
     after = shown.statement.after if shown is not None and isinstance(shown.statement, StaysWithin) else None
@@ -64,7 +64,7 @@ def after_text(result: Comparison) -> str:
     return f"from T = {seconds_up(result.settling.time)} on |e_i| ≤ a_i {falling} is certified, a = ({sizes})"
 
 
-def simulated_time(result: Comparison) -> str:
+def simulated_time(result: BoundsComparison) -> str:
     """When the run came to stay within δ."""
     if result.simulated_time is None:
         return f"not within {result.simulated_for:g} s"

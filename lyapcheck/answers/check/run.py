@@ -21,7 +21,7 @@ from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.decision import decided, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
-from lyapcheck.claims.handover import CaseData, Handover, Key, Request
+from lyapcheck.claims.handover import CaseData, Handover, Key, ScriptRequest
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
@@ -73,7 +73,7 @@ def run_proof(
     joints = n if n is not None else model.n
     sets = _gain_sets(gains, joints)
     asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
-    handover = ask(Request(str(script), script.name, asked, _others(asked), tuple(only)))
+    handover = ask(ScriptRequest(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(handover, asked, script.name, on_progress or silent)
     made = certificates(proposals, handover.name)
     judged = judge_afresh(made)

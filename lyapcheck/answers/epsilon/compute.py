@@ -28,13 +28,13 @@ from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.registry import arm_of
-from lyapcheck.search.certified import MAX_BOXES, Certified, certified_epsilon
+from lyapcheck.search.certified import MAX_BOXES, CertifiedEpsilon, certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
-from lyapcheck.search.falsify import STARTS, Witness, falsify
+from lyapcheck.search.falsify import STARTS, RisingState, falsify
 from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.weights import weighted_epsilon
 
@@ -95,8 +95,8 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     progress(0.0, "scalar form")
     published, scalar, reasons = by_forms(controlled)
     by = ""
-    proof: Proof | None = None
-    scalar_proof: Proof | None = None
+    proof: DecreaseProof | None = None
+    scalar_proof: DecreaseProof | None = None
     reasons["certified"] = unphysical(controlled)
     main = 0.9 if options.weights else 1.0
     search = _Search(
@@ -141,11 +141,11 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
 def put_together(
     controlled: ControlledArm,
     at: ControlledArm,
-    witness: Witness | None,
+    witness: RisingState | None,
     *,
     published: Fraction | None,
     scalar: Fraction | None,
-    proof: Proof | None,
+    proof: DecreaseProof | None,
     **more: Any,
 ) -> EpsilonResult:
     """What was found about a gain set, with all that follows from it.
@@ -193,13 +193,13 @@ class _Search:
     options: Options
     progress: Progress
 
-    def run(self) -> tuple[ControlledArm, Witness | None, Certified]:
+    def run(self) -> tuple[ControlledArm, RisingState | None, CertifiedEpsilon]:
         """The arm that the witness is about, the witness, and what was proved.
 
         Fast states are looked at first: where nearly all of the ε₀ that they refute is proved, slow states
         refute hardly less, and are left alone.
         """
-        before, first, max_boxes = None, Certified(None, 0, ""), self.options.max_boxes
+        before, first, max_boxes = None, CertifiedEpsilon(None, 0, ""), self.options.max_boxes
         if max_boxes and not self.controlled.ranges and self.controlled.n <= FEW_JOINTS:
             before = self._falsify(self.controlled, self._part(0.0, 0.1), quick=True)
         if before is not None:
@@ -215,16 +215,18 @@ class _Search:
         better = max((result, first), key=lambda one: one.eps0 or 0)
         return at, witness, replace(better, looked_at=first.looked_at + result.looked_at)
 
-    def _falsified(self, progress: Progress) -> tuple[ControlledArm, Witness | None]:
+    def _falsified(self, progress: Progress) -> tuple[ControlledArm, RisingState | None]:
         if self.controlled.ranges:
             return falsify_corners(self.controlled, self._falsify, progress)
         return self.controlled, self._falsify(self.controlled, progress)
 
-    def _falsify(self, arm: ControlledArm, progress: Progress, quick: bool = False) -> Witness | None:
+    def _falsify(self, arm: ControlledArm, progress: Progress, quick: bool = False) -> RisingState | None:
         starts, seed = self.options.starts, self.options.seed
         return falsify(arm, starts, seed=seed, on_progress=progress, quick=quick)
 
-    def _certified(self, witness: Witness | None, max_boxes: int, low: float, high: float) -> Certified:
+    def _certified(
+        self, witness: RisingState | None, max_boxes: int, low: float, high: float
+    ) -> CertifiedEpsilon:
         ceiling = self.guess if witness is None else witness.eps0
         jobs, seconds, progress = self.options.jobs, self.options.seconds, self._part(low, high)
         return certified_epsilon(self.controlled, ceiling, max_boxes, jobs, seconds, progress)
@@ -233,7 +235,7 @@ class _Search:
         return lambda fraction, note: self.progress(low + (high - low) * fraction, note)
 
 
-def _best(controlled: ControlledArm, result: Certified) -> tuple[Proof | None, str, str]:
+def _best(controlled: ControlledArm, result: CertifiedEpsilon) -> tuple[DecreaseProof | None, str, str]:
     """The proof of the larger ε₀, what it is called, and what more could be tried."""
     if result.proof is not None:
         boxes = isinstance(result.proof.by, BoxTree)
@@ -255,15 +257,17 @@ def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, 
     return published, scalar, {"published": reason, "scalar": scalar.reason}
 
 
-def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> Proof | None:
+def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof | None:
     """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
     if eps0 is None or not controlled.family.bounded:
         return None
-    proof = Proof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
+    proof = DecreaseProof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
     return proof if certifies(proof.loop.tail, eps0) and proof.accepted() else None
 
 
-def _refutation(controlled: ControlledArm, at: ControlledArm, witness: Witness | None) -> Refutation | None:
+def _refutation(
+    controlled: ControlledArm, at: ControlledArm, witness: RisingState | None
+) -> Refutation | None:
     """What the witness refutes; ``None`` for an unbounded h, of which there are no such certificates."""
     if witness is None or not controlled.family.bounded:
         return None

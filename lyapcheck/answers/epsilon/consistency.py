@@ -13,7 +13,7 @@ from lyapcheck.check.loop.states import confirms_positive
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
-    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.falsify import RisingState
 
 
 FINDINGS: Mapping[str, str] = {
@@ -33,7 +33,7 @@ class Contradiction(RuntimeError):
 
 
 def require_consistent(
-    controlled: ControlledArm, witness: Witness | None, claimed: Mapping[str, Fraction | None]
+    controlled: ControlledArm, witness: RisingState | None, claimed: Mapping[str, Fraction | None]
 ) -> None:
     """Raise `Contradiction` if the witness has dV/dt > 0 at an ε₀ that is claimed to be certified."""
     for name, eps0 in claimed.items():
@@ -47,7 +47,9 @@ def require_consistent(
             raise Contradiction(f"{controlled.gains.name}: the scalar ε₀ is not below a falsified one")
 
 
-def findings(published: Fraction | None, certified: Fraction | None, witness: Witness | None) -> list[str]:
+def findings(
+    published: Fraction | None, certified: Fraction | None, witness: RisingState | None
+) -> list[str]:
     """What the numbers say about each other, one sentence each."""
     result = []
     if published is not None and witness is not None and witness.eps0 < published:

@@ -10,7 +10,7 @@ from lyapcheck.output.digits import decimals
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.answers.epsilon.result import EpsilonResult
-    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
 _DIGITS = 20
@@ -68,7 +68,7 @@ def _nearby(near: NearbyResult) -> dict[str, Any]:
     }
 
 
-def _witness(witness: Witness) -> dict[str, Any]:
+def _witness(witness: RisingState) -> dict[str, Any]:
     state = {name: [exact(x) for x in getattr(witness.state, name)] for name in ("q", "e", "w")}
     rate = dict(zip(("lower", "upper"), decimals(witness.rate, _DIGITS), strict=True))
     return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}

@@ -24,11 +24,11 @@ from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof as Shown
+from lyapcheck.check.statement import Proof
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import at_corner
 from lyapcheck.search.falsify import confirmed
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.weights import Weighted
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def _arm(arm: Any, controlled: ControlledArm) -> Plant:
     return at_corner(plant, plant, values)
 
 
-def _written(proof: Proof) -> dict[str, Any]:
+def _written(proof: DecreaseProof) -> dict[str, Any]:
     loop = proof.loop
     return {
         "eps0": str(loop.eps0),
@@ -163,12 +163,14 @@ def _written(proof: Proof) -> dict[str, Any]:
     }
 
 
-def _proof(kept: Any, controlled: ControlledArm) -> Proof | None:
+def _proof(kept: Any, controlled: ControlledArm) -> DecreaseProof | None:
     """A proof as it was written, of what is asked now; not yet judged."""
     if kept is None:
         return None
-    result = from_json(Shown, kept["proof"], "proof")
+    result = from_json(Proof, kept["proof"], "proof")
     if not isinstance(result, PositiveAndDecreasing) or not isinstance(result.rate, BoxTree | LinkBounds):
         raise TypeError(f"{type(result).__name__} proves no ε₀")
     coupling = from_json(tuple[Fraction, ...], kept["coupling"], "coupling")
-    return Proof(controlled.loop(Fraction(kept["eps0"]), coupling), result.rate, controlled.inertia_proof)
+    return DecreaseProof(
+        controlled.loop(Fraction(kept["eps0"]), coupling), result.rate, controlled.inertia_proof
+    )

@@ -25,7 +25,7 @@ from lyapcheck.search.posture import unphysical
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.falsify import RisingState
 
 BITS = 64
 GUESS = 100
@@ -54,7 +54,7 @@ class NearbyResult:
     certified: Fraction | None
     falsified: Fraction | None
     proof: NearbyProof | None
-    witness: Witness | None
+    witness: RisingState | None
     against: DecreasingNearby | None
     viscous: tuple[Fraction, ...]
     parameters: tuple[Fraction, ...]
@@ -101,7 +101,7 @@ def nearby(
         return _nothing(limits, "h is unbounded: the checker needs its γ")
     near = NearbyArm.of(controlled, limits.speeds, limits.errors)
 
-    def look(arm: NearbyArm, progress: Progress) -> Witness | None:
+    def look(arm: NearbyArm, progress: Progress) -> RisingState | None:
         return falsify_nearby(arm, seed=options.seed, on_progress=progress)
 
     def part(low: float, high: float) -> Progress:

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.output.annotations import Annotation
-    from lyapcheck.search.falsify import Witness
-    from lyapcheck.search.proof import Proof
+    from lyapcheck.search.falsify import RisingState
+    from lyapcheck.search.proof import DecreaseProof
     from lyapcheck.search.weights import Weighted
 
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
@@ -82,11 +82,11 @@ class EpsilonResult(Answer):
     scalar: Fraction | None
     certified: Fraction | None
     falsified: Fraction | None
-    witness: Witness | None
+    witness: RisingState | None
     boxes: int
     certified_by: str
-    proof: Proof | None = None
-    scalar_proof: Proof | None = None
+    proof: DecreaseProof | None = None
+    scalar_proof: DecreaseProof | None = None
     against: Refutation | None = None
     weighted: Weighted | None = None
     ranges: bool = False

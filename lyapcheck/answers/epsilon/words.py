@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.answers.epsilon.options import StateLimits
     from lyapcheck.answers.epsilon.result import EpsilonResult
-    from lyapcheck.search.falsify import Witness
+    from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
 KINDS = ("published", "scalar", "certified", "falsified")
@@ -200,7 +200,7 @@ def _weighted_text(weighted: Weighted) -> str:
     )
 
 
-def witness_text(witness: Witness) -> str:
+def witness_text(witness: RisingState) -> str:
     """The failing state in one line."""
     parts = (("q", "rad"), ("e", "rad"), ("w", "rad/s"))
     places = ", ".join(

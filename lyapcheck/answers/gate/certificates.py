@@ -18,7 +18,7 @@ from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
-from lyapcheck.control.judgement import judged
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.names import file_stem
@@ -39,20 +39,20 @@ REST = "how far from the goal dry friction may leave the joints"
 
 
 @dataclass
-class Certified:
+class GateCertificates:
     """Certificates by file name, and what of the arm none of them shows, in sentences."""
 
     certificates: dict[str, Certificate] = field(default_factory=dict)
     granted: list[str] = field(default_factory=list)
 
 
-def certificates(results: Sequence[GateResult]) -> Certified:
+def certificates(results: Sequence[GateResult]) -> GateCertificates:
     """The certificates of all checks; one that is undecided has none.
 
     Raises:
         InputError: gain sets of two files have the same name, and so would their certificates.
     """
-    made = Certified()
+    made = GateCertificates()
     for result in results:
         limits = result.limits
         gravity = _gravity_of(result)
@@ -127,7 +127,7 @@ def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | No
     for i, (torque, bound) in enumerate(zip(model.gravity, bounds, strict=True)):
         statement = GravityBelow(model.n, (tuple(to_terms(torque)),), ranges, bound)
         proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else []))
-        its = judged(statement, proofs)
+        its = judged_statement(statement, proofs)
         if its.proof is None or its.shown != "proved":
             result.append(None)
             continue

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.bench import dry_friction, rest_errors
 from lyapcheck.control.conditions import gamma_of
-from lyapcheck.control.judgement import ACCEPTED, Judgement, judged
+from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text
@@ -32,7 +32,7 @@ RADIANS = Fraction(314159265, 180 * 10**8)
 """A little less than π/180."""
 
 
-def held(gains: GainSet, model: RobotModel) -> dict[int, Judgement]:
+def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
     """The joints, from 0, that dry friction is proved to hold wherever they stop."""
     gamma = gamma_of(gains)
     if gamma is None:
@@ -47,7 +47,7 @@ def _limit(friction: Fraction, gamma: Tree) -> Threshold:
     return scaled(friction, 1, gamma, "<=")
 
 
-def resting(gains: GainSet, model: RobotModel) -> Judgement | None:
+def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
     """How far from the goal the joints may rest, to the next tenth of a degree, as the checker accepts it.
 
     ``None`` where nothing is known of dry friction, or no joint has a bound.
@@ -60,7 +60,9 @@ def resting(gains: GainSet, model: RobotModel) -> Judgement | None:
         return None
     from lyapcheck.check.kinds.resting import AtBounds, Resting
 
-    return judged(Resting(gains.family, gains.m, tuple(gains.kp), tuple(friction), errors), [AtBounds()])
+    return judged_statement(
+        Resting(gains.family, gains.m, tuple(gains.kp), tuple(friction), errors), [AtBounds()]
+    )
 
 
 def _above(error: float) -> Fraction:

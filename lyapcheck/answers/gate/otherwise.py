@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.control.conditions import ACCEPTED, Check
-from lyapcheck.control.judgement import judged
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.errors import InputError
 from lyapcheck.robots.dynamics import FEW_JOINTS
 
@@ -68,11 +68,11 @@ def unknown_function(gains: GainSet) -> str:
 
 def small(fixed: RobotModel) -> bool:
     """Whether M(q) of an arm without parameters is short enough for what must cost next to nothing."""
-    from lyapcheck.robots.dynamics import TooLong
+    from lyapcheck.robots.dynamics import TooManyTerms
 
     try:
         return sum(len(entry) for row in fixed.mass for entry in row) <= MOST_TERMS
-    except TooLong:
+    except TooManyTerms:
         return False
 
 
@@ -98,7 +98,7 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
     proof, _ = norm_proof(loop, mass_proof(mass_of(arm)), conic=False)
     if proof is None:
         return None
-    result = judged(proof.statement, [proof.certificate])
+    result = judged_statement(proof.statement, [proof.certificate])
     return Check(SCALAR, judgement=result, value=proof.loop.eps0, reason=result.reason)
 
 
@@ -110,5 +110,5 @@ def lasalle(arm: RobotModel) -> Check:
 
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
-    result = judged(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
+    result = judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
     return Check(LASALLE, judgement=result, reason=result.reason)

@@ -16,14 +16,14 @@ from fractions import Fraction
 from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.judgement import judged
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import Proof
+from lyapcheck.search.proof import DecreaseProof
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
@@ -76,7 +76,7 @@ class Prover:
             )
         if proof is None:
             return Check(name, reason=reason)
-        result = judged(proof.statement, [proof.certificate])
+        result = judged_statement(proof.statement, [proof.certificate])
         return Check(name, judgement=result, value=proof.loop.eps0, reason=result.reason)
 
     @property
@@ -94,7 +94,9 @@ class Prover:
 
     _fault: str | None = None
 
-    def _global(self, controlled: ControlledArm, viscous: Sequence[Number]) -> tuple[Proof | None, str]:
+    def _global(
+        self, controlled: ControlledArm, viscous: Sequence[Number]
+    ) -> tuple[DecreaseProof | None, str]:
         if self.viscous_min not in (None, min(number.value for number in viscous)):
             return None, _OTHER_FRICTION
         coarse, reason = norm_epsilon(controlled)
@@ -103,7 +105,7 @@ class Prover:
         return next(_proofs(controlled, coarse), None), REFUSED
 
 
-def _proofs(controlled: ControlledArm, coarse: Proof) -> Iterator[Proof]:
+def _proofs(controlled: ControlledArm, coarse: DecreaseProof) -> Iterator[DecreaseProof]:
     """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
     for ceiling in CEILINGS:
         result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES)

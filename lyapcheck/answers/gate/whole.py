@@ -15,7 +15,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.control.judgement import Judgement
+    from lyapcheck.control.judgement import JudgedStatement
 
 
 def whole(result: GateResult) -> tuple[Certificate, ...]:
@@ -44,6 +44,6 @@ def whole(result: GateResult) -> tuple[Certificate, ...]:
     return (Certificate(about, parts, "proved", grade, every, uses, versions()), *used)
 
 
-def _proof(result: Judgement) -> Proof:
+def _proof(result: JudgedStatement) -> Proof:
     assert result.proof is not None
     return result.proof

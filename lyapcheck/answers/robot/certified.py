@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.answers.robot.judged import Answered, Question
+from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
@@ -30,13 +30,13 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.search_result import SearchResult, broken, shown
-from lyapcheck.constants import SEED, Constant
+from lyapcheck.constants import SEED, ConstantResult
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.storage.bounds import Shown
+from lyapcheck.constants.storage.bounds import BoundWithProof
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooLong
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade
 
@@ -54,7 +54,7 @@ SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
 
 
 @dataclass(frozen=True)
-class Certified:
+class CertifiedBounds:
     """Both ends as certificates show them; none where there is none."""
 
     lower: Fraction | None = None
@@ -84,7 +84,7 @@ class _Bound:
     margins: tuple[Fraction, ...] = MARGINS
 
 
-def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Question]:
+def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterator[PropertyQuestion]:
     """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
     arm = ArmBounds(model)
     for constant in constants:
@@ -94,7 +94,7 @@ def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Ques
         try:
             with precision(BITS):
                 bound = _bound(arm, constant)
-        except TooLong:
+        except TooManyTerms:
             continue
         sign = -1 if constant.name == "lambda_min" else 1
         sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
@@ -107,7 +107,7 @@ def questions(model: RobotModel, constants: Sequence[Constant]) -> Iterator[Ques
             yield _question(constant.name, sides[1], sign, bound.state(inner), inner, result)
 
 
-def _along_links(constant: Constant, outside: Shown) -> Iterator[Question]:
+def _along_links(constant: ConstantResult, outside: BoundWithProof) -> Iterator[PropertyQuestion]:
     """Both ends of a constant of a chain: its storage forms, and the posture."""
     sign = -1 if constant.name == "lambda_min" else 1
     sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
@@ -137,7 +137,7 @@ def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: 
     return broken(witness, "a posture", values)
 
 
-def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certified]:
+def certified(answers: Sequence[DecidedProperty], positive: bool) -> dict[str, CertifiedBounds]:
     """The ends that the checker has accepted, by the name of the constant.
 
     Args:
@@ -145,13 +145,13 @@ def certified(answers: Sequence[Answered], positive: bool) -> dict[str, Certifie
         positive: whether M ≻ 0 is proved: only then ‖M‖ > b, which the refutation of ‖M‖ ≤ b comes to, is a
             statement about λmax(M).
     """
-    result: dict[str, Certified] = {}
+    result: dict[str, CertifiedBounds] = {}
     for answer in answers:
         name, _, side = answer.question.id.rpartition(".")
         if answer.certificate is None or (name == "lambda_max" and side == "lower" and not positive):
             continue
         value = _value(answer.question.statement)
-        known = result.get(name, Certified())
+        known = result.get(name, CertifiedBounds())
         result[name] = replace(known, lower=value) if side == "lower" else replace(known, upper=value)
     return result
 
@@ -166,10 +166,10 @@ def _value(statement: Statement) -> Fraction:
 
 def _question(
     name: str, side: str, sign: int, statement: Statement, value: Fraction, finding: SearchResult
-) -> Question:
+) -> PropertyQuestion:
     grade = Grade.EXACT if isinstance(finding.proof, (HarmonicSizes, NoTorque)) else Grade.ENCLOSURE
     words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {decimal_text(value)}"
-    return Question(f"{name}.{side}", words, statement, replace(finding, grade=grade))
+    return PropertyQuestion(f"{name}.{side}", words, statement, replace(finding, grade=grade))
 
 
 def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | None:
@@ -184,14 +184,14 @@ def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | 
     return None if coarse is None else (coarse, shown(HarmonicSizes(), HarmonicSizes.rule))
 
 
-def _bound(arm: ArmBounds, constant: Constant) -> _Bound:
+def _bound(arm: ArmBounds, constant: ConstantResult) -> _Bound:
     q = tuple(Fraction(x).limit_denominator(10**6) for x in constant.state[: arm.robot.n])
     if constant.name in ("lambda_min", "lambda_max"):
         return _of_mass(arm, constant, q)
     return _of_coriolis(arm, constant, q) if constant.name == "k_c" else _of_gravity(arm, constant, q)
 
 
-def _of_mass(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+def _of_mass(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) -> _Bound:
     low, mass, inertia = constant.name == "lambda_min", arm.mass, arm.inertia
     rows = np.array([[float(entry) for entry in row] for row in inertia.at(q, ())])
     vector = np.linalg.eigh(rows)[1][:, 0 if low else -1]
@@ -218,7 +218,7 @@ def _of_mass(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bo
     )
 
 
-def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+def _of_coriolis(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) -> _Bound:
     mass, inertia = arm.mass, arm.inertia
     x = tuple(Fraction(entry).limit_denominator(10**6) for entry in constant.state[arm.robot.n :])
     balls = [to_arb(entry) for entry in x]
@@ -235,7 +235,7 @@ def _of_coriolis(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) ->
     )
 
 
-def _of_gravity(arm: ArmBounds, constant: Constant, q: tuple[Fraction, ...]) -> _Bound:
+def _of_gravity(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) -> _Bound:
     robot = arm.robot
     joints = range(robot.n) if constant.name == "k_g" else [int(constant.name.removeprefix("k_g")) - 1]
     gravity = tuple(tuple(to_terms(robot.gravity[i])) for i in joints)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.robot.properties import Property
+    from lyapcheck.answers.robot.properties import PropertyResult
     from lyapcheck.answers.robot.report import RobotReport
-    from lyapcheck.constants import Constant
+    from lyapcheck.constants import ConstantResult
     from lyapcheck.robots import Number
 
 _DIGITS = 15
@@ -47,7 +47,7 @@ def report_data(report: RobotReport) -> dict[str, Any]:
     }
 
 
-def property_data(row: Property) -> dict[str, Any]:
+def property_data(row: PropertyResult) -> dict[str, Any]:
     """One property, or a claim about the print."""
     finding = row.finding
     return {
@@ -62,10 +62,10 @@ def property_data(row: Property) -> dict[str, Any]:
     }
 
 
-def constant_data(report: RobotReport, constant: Constant) -> dict[str, Any]:
+def constant_data(report: RobotReport, constant: ConstantResult) -> dict[str, Any]:
     """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
     lower, upper = decimals(constant.enclosure, _DIGITS)
-    n, shown = report.model.n, report.certified.get(constant.name, Certified())
+    n, shown = report.model.n, report.certified.get(constant.name, CertifiedBounds())
     return {
         "name": constant.name,
         "unit": constant.unit,

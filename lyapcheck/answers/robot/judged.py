@@ -17,7 +17,7 @@ from lyapcheck.robots import RobotModel
 
 
 @dataclass(frozen=True)
-class Question:
+class PropertyQuestion:
     """A statement in words and as data, with what a search proposes."""
 
     id: str
@@ -27,15 +27,15 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answered:
+class DecidedProperty:
     """The decision, and the certificate if the checker has accepted one."""
 
-    question: Question
+    question: PropertyQuestion
     decision: Decision
     certificate: Certificate | None
 
 
-def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answered]:
+def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[DecidedProperty]:
     """The decisions, in order."""
     rows = list(questions)
     made: dict[Key, Certificate] = {
@@ -56,5 +56,5 @@ def judged(model: RobotModel, questions: Iterable[Question]) -> list[Answered]:
     for row in rows:
         decision = decided(row.finding, judged_rows.get((row.id, None)))
         accepted = None if decision.certificate is None else made[row.id, None]
-        answers.append(Answered(row, decision, accepted))
+        answers.append(DecidedProperty(row, decision, accepted))
     return answers

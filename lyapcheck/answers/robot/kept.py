@@ -17,14 +17,16 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
-from lyapcheck.constants import Constant, arm_constants
-from lyapcheck.constants.storage.bounds import Shown, bound_of
+from lyapcheck.constants import ConstantResult, arm_constants
+from lyapcheck.constants.storage.bounds import BoundWithProof, bound_of
 from lyapcheck.robots import RobotModel
 
 PLAIN = ("name", "unit", "state", "boxes")
 
 
-def kept_constants(model: RobotModel, budget: int, on_progress: Progress | None) -> tuple[Constant, ...]:
+def kept_constants(
+    model: RobotModel, budget: int, on_progress: Progress | None
+) -> tuple[ConstantResult, ...]:
     """What :func:`arm_constants` finds with a budget of boxes, from the store where it is there."""
     asked = {"constants": store.exact(model), "boxes": budget}
     result = _read(store.take(asked), model)
@@ -34,13 +36,13 @@ def kept_constants(model: RobotModel, budget: int, on_progress: Progress | None)
     return result
 
 
-def _written(one: Constant) -> dict[str, Any]:
+def _written(one: ConstantResult) -> dict[str, Any]:
     ends = [str(one.enclosure.lower), str(one.enclosure.upper)]
     proof = None if one.shown is None else [str(one.shown.bound), to_json(one.shown.proof)]
     return {**{key: getattr(one, key) for key in PLAIN}, "ends": ends, "shown": proof}
 
 
-def _read(kept: Any, model: RobotModel) -> tuple[Constant, ...] | None:
+def _read(kept: Any, model: RobotModel) -> tuple[ConstantResult, ...] | None:
     """What was written; its bounds are made anew of the links of this arm."""
     try:
         return None if kept is None else tuple(_constant(row, model) for row in kept)
@@ -48,17 +50,17 @@ def _read(kept: Any, model: RobotModel) -> tuple[Constant, ...] | None:
         return None
 
 
-def _constant(row: dict[str, Any], model: RobotModel) -> Constant:
+def _constant(row: dict[str, Any], model: RobotModel) -> ConstantResult:
     low, high = map(Fraction, row["ends"])
     state: Sequence[float] = row["state"]
     enclosure = Enclosure(low, high)
     shown = None if row["shown"] is None else _shown(row["name"], row["shown"], model)
-    return Constant(row["name"], row["unit"], enclosure, tuple(map(float, state)), row["boxes"], shown)
+    return ConstantResult(row["name"], row["unit"], enclosure, tuple(map(float, state)), row["boxes"], shown)
 
 
-def _shown(name: str, written: Sequence[Any], model: RobotModel) -> Shown:
+def _shown(name: str, written: Sequence[Any], model: RobotModel) -> BoundWithProof:
     chain = model.fixed().chain
     if chain is None:
         raise ValueError("the arm has no chain of links")
     bound, proof = written
-    return Shown(bound_of(chain, name, Fraction(bound)), from_json(Proof, proof, "proof"))  # type: ignore[arg-type]
+    return BoundWithProof(bound_of(chain, name, Fraction(bound)), from_json(Proof, proof, "proof"))  # type: ignore[arg-type]

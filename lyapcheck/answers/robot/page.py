@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.entries import inertia_sections
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
@@ -14,9 +14,9 @@ from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.robot.properties import Property
+    from lyapcheck.answers.robot.properties import PropertyResult
     from lyapcheck.answers.robot.report import RobotReport
-    from lyapcheck.constants import Constant
+    from lyapcheck.constants import ConstantResult
     from lyapcheck.robots import Number, RobotModel
 
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
@@ -52,7 +52,7 @@ def page(report: RobotReport) -> Document:
     return Document(_title(report), (about, *([Bullets(wrong)] if wrong else []), *_sections(report)))
 
 
-def evidence(row: Property) -> str:
+def evidence(row: PropertyResult) -> str:
     """What supports the verdict."""
     finding = row.finding
     parts = [finding.method, finding.reason]
@@ -85,7 +85,7 @@ def _sections(report: RobotReport) -> list[Section]:
     return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
 
 
-def _judged(title: str, head: str, rows: Sequence[Property]) -> Section:
+def _judged(title: str, head: str, rows: Sequence[PropertyResult]) -> Section:
     """Verdicts, then what supports them."""
     cells = tuple((row.id, row.verdict.value, row.finding.grade.label, row.statement) for row in rows)
     shown = tuple(f"{row.id}: {evidence(row)}" for row in rows)
@@ -101,22 +101,22 @@ def _constants(report: RobotReport) -> Section:
     return Section("Constants", (Paragraph(NOMINAL), table, shown))
 
 
-def _constant_row(report: RobotReport, constant: Constant) -> tuple[str, ...]:
+def _constant_row(report: RobotReport, constant: ConstantResult) -> tuple[str, ...]:
     """The ends that certificates show, and those of floating point, rounded outward."""
-    shown = report.certified.get(constant.name, Certified())
+    shown = report.certified.get(constant.name, CertifiedBounds())
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
     gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
     return (_symbol(constant), constant.unit, *known, *decimals(constant.enclosure, _DIGITS), gap)
 
 
-def _state_rows(report: RobotReport, constant: Constant) -> list[tuple[str, str]]:
+def _state_rows(report: RobotReport, constant: ConstantResult) -> list[tuple[str, str]]:
     """The angles; of k_c also the direction x."""
     n, name = report.model.n, _symbol(constant)
     angles, x = (", ".join(f"{x:.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
     return [(name, angles), *([(f"{name}: x", x)] if x else [])]
 
 
-def _symbol(constant: Constant) -> str:
+def _symbol(constant: ConstantResult) -> str:
     return SYMBOLS.get(constant.name, constant.name)
 
 

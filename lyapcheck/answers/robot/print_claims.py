@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.answers.robot.judged import Answered, Question, judged
-from lyapcheck.answers.robot.properties import Property
+from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion, judged
+from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
@@ -26,21 +26,21 @@ SAYS = {
 }
 
 
-def print_claims(model: RobotModel) -> tuple[Property, ...]:
+def print_claims(model: RobotModel) -> tuple[PropertyResult, ...]:
     """Same torque? Ṁ = C + Cᵀ? Same gravity? Empty where the source prints neither C nor g."""
     return tuple(map(as_property, judged(model, questions(model))))
 
 
-def as_property(answer: Answered) -> Property:
+def as_property(answer: DecidedProperty) -> PropertyResult:
     """A claim about the print with its decision."""
     name = answer.question.id.removeprefix("printed ")
-    return Property(name, answer.question.says, answer.decision)
+    return PropertyResult(name, answer.question.says, answer.decision)
 
 
-def questions(model: RobotModel) -> list[Question]:
+def questions(model: RobotModel) -> list[PropertyQuestion]:
     """The claims as statements, with what the search proposes."""
     return [
-        Question(f"printed {name}", SAYS[name], statement, _named(model, propose(statement)))
+        PropertyQuestion(f"printed {name}", SAYS[name], statement, _named(model, propose(statement)))
         for name, statement in _statements(model).items()
     ]
 

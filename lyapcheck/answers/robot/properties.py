@@ -16,7 +16,7 @@ IDS = tuple(f"2.{k}" for k in range(1, 9))
 
 
 @dataclass(frozen=True)
-class Property:
+class PropertyResult:
     """One property with what was found out about it."""
 
     id: str
@@ -31,16 +31,16 @@ class Property:
 
 def properties(
     model: RobotModel, on_progress: Progress | None = None
-) -> tuple[tuple[Property, ...], Mapping[str, Certificate]]:
+) -> tuple[tuple[PropertyResult, ...], Mapping[str, Certificate]]:
     """The eight properties, and their certificates by file name.
 
     Friction that nobody has stated is not 0: then 2.7 is open, whatever follows for 0.
     """
     result = run_proof("published.py", [1], model, None, None, IDS, on_progress)
-    rows = {row.id: Property(row.id, row.statement, row.decision) for row in result.claims}
+    rows = {row.id: PropertyResult(row.id, row.statement, row.decision) for row in result.claims}
     made = dict(result.certificates)
     if any(number.assumed and number.value == 0 for number in model.viscous):
-        rows["2.7"] = Property("2.7", rows["2.7"].statement, _unknown_friction(model))
+        rows["2.7"] = PropertyResult("2.7", rows["2.7"].statement, _unknown_friction(model))
         made.pop("2.7.json", None)
     return tuple(rows[name] for name in IDS), made
 

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from lyapcheck.answers.robot.certified import Certified
+from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.data import constant_data, property_data, report_data
 from lyapcheck.answers.robot.page import evidence, page
-from lyapcheck.answers.robot.properties import Property
+from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.certificate import Certificate
-from lyapcheck.constants import Constant
+from lyapcheck.constants import ConstantResult
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document
@@ -40,10 +40,10 @@ class RobotReport(Answer):
     schema = "lyapcheck/robot/1"
 
     model: RobotModel
-    properties: tuple[Property, ...]
-    constants: tuple[Constant, ...]
-    prints: tuple[Property, ...] = ()
-    certified: Mapping[str, Certified] = field(default_factory=dict)
+    properties: tuple[PropertyResult, ...]
+    constants: tuple[ConstantResult, ...]
+    prints: tuple[PropertyResult, ...] = ()
+    certified: Mapping[str, CertifiedBounds] = field(default_factory=dict)
     certificates: Mapping[str, Certificate] = field(default_factory=dict)
     path: str = ""
 
@@ -77,7 +77,7 @@ class RobotReport(Answer):
         wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
         return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
 
-    def _annotation(self, row: Property, level: Level) -> Annotation:
+    def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
         said = "" if level is Level.PASSED else f"{row.verdict.value}: {row.statement}; {evidence(row)}"
         rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
         return Annotation(level, rule, row.statement, self.model.name, "", said, self.path)

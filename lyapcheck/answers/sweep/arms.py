@@ -19,7 +19,7 @@ MOST = 16
 
 
 @dataclass(frozen=True)
-class Arm:
+class UncertainArm:
     """An arm with its uncertainties.
 
     Args:
@@ -36,7 +36,7 @@ class Arm:
 
 
 @lru_cache(maxsize=MOST)
-def arm(robot: str, variation: tuple[str, ...] = ()) -> Arm:
+def arm(robot: str, variation: tuple[str, ...] = ()) -> UncertainArm:
     """The arm of a name or file, with ranges as ``--vary`` takes them.
 
     Raises:
@@ -44,4 +44,4 @@ def arm(robot: str, variation: tuple[str, ...] = ()) -> Arm:
     """
     ranges = tuple(map(Vary.parsed, variation))
     model = load(robot, vary=ranges)
-    return Arm(model, ranges, store.exact(model))
+    return UncertainArm(model, ranges, store.exact(model))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.tune.data import joint_records, tuning_data
-from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, Comparison, TunedSet
+from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, GainComparison, TunedSet
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.gains import Bounds
 from lyapcheck.control.limits import Limits
@@ -133,7 +133,7 @@ def _tuned(item: TunedSet, digits: int) -> Table:
     return Table(heads, tuple(map(tuple, rows)), align="lrrrrllr"[: len(heads)])
 
 
-def _compared(comparison: Comparison) -> Table:
+def _compared(comparison: GainComparison) -> Table:
     rows = tuple(
         (
             joint.name,

@@ -5,19 +5,19 @@ from __future__ import annotations
 from fractions import Fraction
 from math import floor
 
-from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedSet
+from lyapcheck.answers.tune.results import ComparedJoint, GainComparison, TunedSet
 from lyapcheck.control.conditions import REJECTED, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits
 
 
-def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> Comparison | None:
+def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> GainComparison | None:
     """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
     if against is None or tuned.gains is None:
         return None
     for item in against.gains:
         if item.m == tuned.m and item.family == "hyperbolic" and item.n == limits.n:
-            return Comparison(item.name, against.path, _joints(tuned, item, limits))
+            return GainComparison(item.name, against.path, _joints(tuned, item, limits))
     return None
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.tune.results import ComparedJoint, Comparison, TunedJoint, TunedSet
+from lyapcheck.answers.tune.results import ComparedJoint, GainComparison, TunedJoint, TunedSet
 from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def _joint(joint: TunedJoint, digits: int) -> dict[str, Any]:
     }
 
 
-def _comparison(comparison: Comparison) -> dict[str, Any]:
+def _comparison(comparison: GainComparison) -> dict[str, Any]:
     return {
         "name": comparison.name,
         "source": comparison.source,

@@ -19,7 +19,7 @@ from lyapcheck.answers.tune.gain_range import GainRange
 
 
 @dataclass(frozen=True)
-class Proposal:
+class GainProposal:
     """The optimum of the program for each joint, N·m; ``kv`` is empty where the solver gave none."""
 
     status: str
@@ -27,7 +27,7 @@ class Proposal:
     kv: tuple[float, ...] = ()
 
 
-def propose(gain_ranges: Sequence[GainRange]) -> Proposal:
+def propose(gain_ranges: Sequence[GainRange]) -> GainProposal:
     """Clarabel's answer; only ``optimal`` is one."""
     import cvxpy as cp
 
@@ -55,11 +55,11 @@ def propose(gain_ranges: Sequence[GainRange]) -> Proposal:
     try:
         problem.solve(solver=cp.CLARABEL)
     except cp.SolverError:
-        return Proposal("failed")
+        return GainProposal("failed")
     if problem.status != cp.OPTIMAL or root.value is None or kv.value is None:
-        return Proposal(str(problem.status))
+        return GainProposal(str(problem.status))
     pairs = [(float(s), float(v), t) for s, v, t in zip(root.value, kv.value, torque, strict=True)]
-    return Proposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
+    return GainProposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
 
 
 def _over(values: Sequence[float], scale: Sequence[float]) -> list[float]:

@@ -60,7 +60,7 @@ class ComparedJoint:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class GainComparison:
     """A gain set from elsewhere beside the tuned one."""
 
     name: str
@@ -78,7 +78,7 @@ class TunedSet:
     joints: tuple[TunedJoint, ...] = ()
     reasons: tuple[str, ...] = ()
     program: str = ""
-    comparison: Comparison | None = None
+    comparison: GainComparison | None = None
 
     @property
     def gains(self) -> GainSet | None:

@@ -12,7 +12,7 @@ from lyapcheck.check.kinds.signs import Exponents, Monomial, Multiple, SignIdent
 
 
 @dataclass(frozen=True)
-class Step:
+class CancelledTerm:
     """goal · lift − weight · over · hypothesis: the goal without one of its negative terms."""
 
     hypothesis: int
@@ -33,7 +33,7 @@ class Cancellation:
         steps = self._steps(goal, strict, depth)
         return None if steps is None else _composed(steps)
 
-    def _steps(self, goal: fmpq_mpoly, strict: bool, depth: int) -> list[Step] | None:
+    def _steps(self, goal: fmpq_mpoly, strict: bool, depth: int) -> list[CancelledTerm] | None:
         """The cancellations that lead to the end; a strict hypothesis, once used, leaves >= 0 to show."""
         self.nodes -= 1
         if self.signs.is_positive(goal) if strict else self.signs.is_nonnegative(goal):
@@ -46,7 +46,7 @@ class Cancellation:
                 return [step, *rest]
         return None
 
-    def _next(self, goal: fmpq_mpoly, strict: bool) -> Iterator[tuple[Step, fmpq_mpoly, bool]]:
+    def _next(self, goal: fmpq_mpoly, strict: bool) -> Iterator[tuple[CancelledTerm, fmpq_mpoly, bool]]:
         for k, (hypothesis, hypothesis_strict) in enumerate(self.signs.hypotheses):
             for step in self._cancellations(goal, k):
                 if self.nodes <= 0:
@@ -56,7 +56,7 @@ class Cancellation:
                 helps = hypothesis_strict and self.signs.monomial_is(step.over, True)
                 yield step, goal * lift - hypothesis * over, strict and not helps
 
-    def _cancellations(self, goal: fmpq_mpoly, k: int) -> Iterator[Step]:
+    def _cancellations(self, goal: fmpq_mpoly, k: int) -> Iterator[CancelledTerm]:
         """The ways to cancel the first term of the goal that may be negative."""
         signs = self.signs
         terms = goal.to_dict().items()
@@ -70,10 +70,10 @@ class Cancellation:
             lift = tuple(max(int(b) - int(a), 0) for a, b in zip(e, f, strict=True))
             over = tuple(max(int(a) - int(b), 0) for a, b in zip(e, f, strict=True))
             if signs.monomial_is(lift, True) and signs.monomial_is(over, False):
-                yield Step(k, c / d, over, lift)
+                yield CancelledTerm(k, c / d, over, lift)
 
 
-def _composed(steps: list[Step]) -> SignIdentity:
+def _composed(steps: list[CancelledTerm]) -> SignIdentity:
     """One identity from a chain of cancellations: later lifts multiply the hypothesis of a step."""
     multiples: list[Multiple] = []
     lift: Exponents = ()

@@ -143,13 +143,13 @@ def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[st
 
 def _by_boxes(statement: Decreasing) -> SearchResult:
     from lyapcheck.search.branch_and_bound import certify
-    from lyapcheck.search.schur import Problem
+    from lyapcheck.search.schur import SchurProblem
 
     n = len(statement.kp)
     if n > FEW_JOINTS:
         return still_open(f"norms do not suffice, and boxes are tried up to {FEW_JOINTS} joints", METHOD)
     loop = statement.closed_loop
-    outcome = certify(Problem(loop), MAX_BOXES)
+    outcome = certify(SchurProblem(loop), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
     tree = _with_mass(statement, BoxTree(outcome.tree))

@@ -16,7 +16,7 @@ from lyapcheck.errors import InputError, Problem
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.bounds.compare import Comparison
+    from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
@@ -111,7 +111,7 @@ def run(
     return Exit.PROVED if whole else Exit.UNDECIDED
 
 
-def _write_certificates(folder: Path, result: list[Comparison]) -> None:
+def _write_certificates(folder: Path, result: list[BoundsComparison]) -> None:
     from lyapcheck.answers.bounds.certificates import certificates
 
     for one in result:
@@ -166,7 +166,7 @@ def _compare(
     jobs: int,
     varied: tuple[RobotModel, tuple[Vary, ...]] | None,
     advance: Progress,
-) -> list[Comparison]:
+) -> list[BoundsComparison]:
     """The bounds of every gain set."""
     from lyapcheck.answers.bounds.compare import compare
 

@@ -57,7 +57,7 @@ def run(
 
     from lyapcheck import store
     from lyapcheck.answers.check.run import run_proof
-    from lyapcheck.claims.fresh_check import Alarm
+    from lyapcheck.claims.fresh_check import ContradictionError
     from lyapcheck.cli.m_range import parse_m
     from lyapcheck.cli.output import open_folder, write_whole
     from lyapcheck.cli.progress import progress
@@ -76,7 +76,7 @@ def run(
     try:
         with progress("check") as advance:
             result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
-    except Alarm as alarm:
+    except ContradictionError as alarm:
         sys.stderr.write(f"ALARM: {alarm}\n")
         return Exit.INTERNAL
     if folder is not None:

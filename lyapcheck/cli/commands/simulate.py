@@ -12,7 +12,7 @@ from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
 from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.task import Asked, check_options, check_places, starts_of
+from lyapcheck.cli.task import TypedTask, check_options, check_places, starts_of
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
@@ -102,7 +102,7 @@ def run(
     model = load(robot_name(robot, [gain_file]))
     wrong = Complaints()
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
-    asked = Asked(target, start, velocity, time, watched)
+    asked = TypedTask(target, start, velocity, time, watched)
     given = {
         "--experiment": experiment or None,
         "--reference": reference,

@@ -22,7 +22,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lyapcheck.answers.tune.response.wishes import Bench
+    from lyapcheck.answers.tune.response.wishes import Trials
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
@@ -165,7 +165,7 @@ def _many(robot: str) -> bool:
 
 def _tune_for(
     robot: str,
-    bench: Bench,
+    bench: Trials,
     members: Sequence[int],
     bounds: Bounds,
     against: GainFile | None,
@@ -196,13 +196,13 @@ def _bench(
     motion: tuple[str | None, list[str] | None],
     ways: tuple[str, ...],
     digits: int,
-) -> Bench:
+) -> Trials:
     """What is asked, and of which motions.
 
     Raises:
         InputError: a target or an angle that cannot be used.
     """
-    from lyapcheck.answers.tune.response.wishes import Bench, Wishes
+    from lyapcheck.answers.tune.response.wishes import Trials, Wishes
 
     tasks = _tasks(robot, *motion)
     shares = parse_decimals("--peak-share", peak_share) or ONE
@@ -211,7 +211,7 @@ def _bench(
             "--peak-share", peak_share, "is one share with targets", "write --peak-share 0.8"
         )
     share = None if shares[0] == 1 else float(shares[0])
-    return Bench(Wishes(**wishes, peak_share=share), tasks, ways, digits)
+    return Trials(Wishes(**wishes, peak_share=share), tasks, ways, digits)
 
 
 def _tasks(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:

@@ -12,7 +12,7 @@ from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.constants.storage.motion import coriolis_forms
-from lyapcheck.constants.storage.problem import Problem, energy_problem, weight_problem
+from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.robots.dynamics import Chain
 
@@ -24,7 +24,7 @@ _DIGITS = 7
 
 
 @dataclass(frozen=True)
-class Shown:
+class BoundWithProof:
     """A bound as a statement, and its proof."""
 
     statement: Bound
@@ -57,7 +57,9 @@ def _bound(chain: Chain, name: str) -> Fraction | None:
     return None if shown is None else shown.bound
 
 
-def storage_proof(chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)) -> Shown | None:
+def storage_proof(
+    chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)
+) -> BoundWithProof | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     Args:
@@ -70,7 +72,7 @@ def storage_proof(chain: Chain, name: str, still: bool = False, high: Fraction =
         return _coriolis_proof(chain, high)
     problem, statement = _question(chain, name)
     if still:
-        return _accepted(Shown(statement, NoTorque()))
+        return _accepted(BoundWithProof(statement, NoTorque()))
     for margin in _MARGINS:
         result = propose([problem], margin)
         if result is None:
@@ -79,31 +81,33 @@ def storage_proof(chain: Chain, name: str, still: bool = False, high: Fraction =
         found = Fraction(float(result.prices[0]))
         kappa = _above(found * (1 + Fraction(problem.sign if found > 0 else -1, 10**8)))
         forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients[0])
-        shown = _accepted(Shown(with_end(statement, problem.sign * kappa), StorageForms(forms)))
+        shown = _accepted(BoundWithProof(with_end(statement, problem.sign * kappa), StorageForms(forms)))
         if shown is not None:
             return shown
     return None
 
 
-def _coriolis_proof(chain: Chain, high: Fraction) -> Shown | None:
+def _coriolis_proof(chain: Chain, high: Fraction) -> BoundWithProof | None:
     for margin in _MARGINS_OF_CORIOLIS:
         forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)))
         shown = (
-            None if forms is None else _accepted(Shown(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
+            None
+            if forms is None
+            else _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
         )
         if shown is not None:
             return shown
     return None
 
 
-def _accepted(shown: Shown) -> Shown | None:
+def _accepted(shown: BoundWithProof) -> BoundWithProof | None:
     try:
         return shown if verify(shown.statement, shown.proof).verdict == "proved" else None
     except Refused:
         return None
 
 
-def _question(chain: Chain, name: str) -> tuple[Problem, Bound]:
+def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:
     zero = Fraction(0)
     if name == "lambda_min":
         return energy_problem(chain, -1), ChainAbove(chain.links, zero)

@@ -15,7 +15,7 @@ from lyapcheck.robots.dynamics import Chain
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class StorageProblem:
     """A bound κ of the sum of some costs.
 
     Args:
@@ -36,19 +36,19 @@ class Problem:
         return self.vectors * (3 * self.vectors + 1) // 2
 
 
-def energy_problem(chain: Chain, sign: int) -> Problem:
+def energy_problem(chain: Chain, sign: int) -> StorageProblem:
     """λmax(M) with sign 1, λmin(M) with sign −1."""
-    return Problem(energy(chain.links, sign), 2, sign=sign)
+    return StorageProblem(energy(chain.links, sign), 2, sign=sign)
 
 
-def weight_problem(chain: Chain, joints: Collection[int]) -> Problem:
+def weight_problem(chain: Chain, joints: Collection[int]) -> StorageProblem:
     """sup (Σ g_i²)^½ over some joints, counted from 0."""
-    return Problem(weight(chain.links, joints), 3, chain.fall)
+    return StorageProblem(weight(chain.links, joints), 3, chain.fall)
 
 
-def rate_problem(chain: Chain, joint: int, sign: int) -> Problem:
+def rate_problem(chain: Chain, joint: int, sign: int) -> StorageProblem:
     """The form ± ½ ∂M/∂q_j from above, joints counted from 0."""
-    return Problem(rate_of_mass(chain.links, joint, sign), 4)
+    return StorageProblem(rate_of_mass(chain.links, joint, sign), 4)
 
 
 def unit_rows(count: int) -> list[list[Fraction]]:

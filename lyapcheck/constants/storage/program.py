@@ -10,7 +10,7 @@ from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.storage import invariant_form, slack, stored_at_base
-from lyapcheck.constants.storage.problem import Problem, doubles, unit_rows
+from lyapcheck.constants.storage.problem import StorageProblem, doubles, unit_rows
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Blocks:
 
 
 @dataclass(frozen=True, eq=False)
-class Proposal:
+class ProgramSolution:
     """The κ_k of the joints, (n,), and of each problem the coefficients of its forms, (n, forms)."""
 
     prices: Array
@@ -45,8 +45,8 @@ class Proposal:
 
 
 def propose(
-    problems: Sequence[Problem], margin: float, prices: Array | None = None, most: float | None = None
-) -> Proposal | None:
+    problems: Sequence[StorageProblem], margin: float, prices: Array | None = None, most: float | None = None
+) -> ProgramSolution | None:
     """The least κ for which every slack is at least ``margin`` times the size of the costs; ``None`` without.
 
     Args:
@@ -70,10 +70,10 @@ def propose(
     if x is None:
         return None
     parts = np.split(x, [free, *ends])[1:-1]
-    return Proposal(prices @ x[:free], [part.reshape(n, -1) for part in parts])
+    return ProgramSolution(prices @ x[:free], [part.reshape(n, -1) for part in parts])
 
 
-def _add_blocks(blocks: Blocks, problem: Problem, least: float, prices: Array, first: int) -> None:
+def _add_blocks(blocks: Blocks, problem: StorageProblem, least: float, prices: Array, first: int) -> None:
     """The conditions of `lyapcheck.check.loop.storage`: affine in x, and from ``first`` on in the forms."""
     count, stages = problem.count, problem.stages
     units = [invariant_form(row, problem.vectors) for row in unit_rows(count)]

@@ -11,13 +11,13 @@ from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import COLOURS, panels, styled
 
 if TYPE_CHECKING:
-    from lyapcheck.claims.smallest import SmallWitness
+    from lyapcheck.claims.smallest import RefutedBelow
 
 POINTS = 161
 AXES = {"eps0": "ε₀ [1/s]", "x": "x [rad]", "e": "q̃ [rad]"}
 
 
-def sides_plot(witness: SmallWitness) -> Plot:
+def sides_plot(witness: RefutedBelow) -> Plot:
     """Left and right side, what fails shaded, the witness marked; angles from −π to π, ε₀ from 0 on."""
     at = float(witness.point[witness.moved])
     is_angle = witness.moved != "eps0"

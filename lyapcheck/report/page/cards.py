@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
-from lyapcheck.report.model import WEIGHTS, Finding, Report, Witness
+from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
 from lyapcheck.report.page.drawing import figure
 from lyapcheck.report.text import letter, member_words, short_number, span_words
 
@@ -89,7 +89,7 @@ def _caption(report: Report, finding: Finding) -> str:
     return f"Solid: {left}. Dashed: {right}. Shaded: where the statement fails."
 
 
-def _witness(witness: Witness) -> Markup:
+def _witness(witness: WitnessRow) -> Markup:
     where = [f"n = {witness.n}"] if witness.n else []
     where += [f"m = {witness.m}"] if witness.m else []
     zero = [name for name, value in witness.point.items() if Fraction(value) == 0]

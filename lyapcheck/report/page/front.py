@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.model import Report, anchor
-from lyapcheck.report.verdict import Step, badges, chain, route, sentences
+from lyapcheck.report.verdict import VerdictBox, badges, chain, route, sentences
 
 LEGEND = (
     "Green: proved. Red: refuted, and the proof rests on it. Amber: wrong, but can be mended. "
@@ -60,7 +60,7 @@ def _picture(report: Report) -> Markup:
     return element("figure", rows, caption, class_="picture", style=f"--steps:{len(steps)}")
 
 
-def _boxes(steps: Sequence[Step], first: int) -> list[Markup]:
+def _boxes(steps: Sequence[VerdictBox], first: int) -> list[Markup]:
     result = []
     for k, step in enumerate(steps):
         inner = (

@@ -27,7 +27,7 @@ from lyapcheck.search.decay.heaviest import Heaviest, heaviest
 from lyapcheck.search.decay.margins import MAX_BOXES, Attempt, attempts, candidates
 from lyapcheck.search.decay.phases import Phases
 from lyapcheck.search.decay.rest import resting
-from lyapcheck.search.decay.results import DisturbanceBound, SettlingBound, Shown, accepted
+from lyapcheck.search.decay.results import DisturbanceBound, MotionWithProof, SettlingBound, accepted
 from lyapcheck.search.decay.start import Start, start_of, torques_of
 from lyapcheck.search.posture import unphysical
 
@@ -135,7 +135,7 @@ class _Wanted:
     start: Start
     goal: Fraction | None
 
-    def shown(self, max_boxes: int, jobs: int, progress: Progress) -> tuple[Shown | None, str]:
+    def shown(self, max_boxes: int, jobs: int, progress: Progress) -> tuple[MotionWithProof | None, str]:
         """The best statement that the checker accepts, or why there is none."""
         progress(0.05, "margins by samples")
         heavy = heaviest(self.controlled)
@@ -166,7 +166,7 @@ class _Wanted:
         except ValueError:  # a level of V that allows errors beyond all bounds
             return None
 
-    def _claim(self, attempt: Attempt, heavy: Heaviest) -> Shown | None:
+    def _claim(self, attempt: Attempt, heavy: Heaviest) -> MotionWithProof | None:
         """What there is to be judged."""
         margin = attempt.margin
         result = self._descent(margin, FINE)
@@ -195,7 +195,7 @@ class _Wanted:
             PositiveAndDecreasing(self.controlled.inertia_proof, attempt.by),
             result.slopes,
         )
-        return Shown(statement, proof)
+        return MotionWithProof(statement, proof)
 
 
 def _short(angles: Sequence[float]) -> tuple[Fraction, ...]:

@@ -24,7 +24,7 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.heaviest import Heaviest, heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import link_bounds
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 
 FRICTION = tuple(Fraction(k, 100) for k in (8, 15, 25, 40, 60))
 """The η that are weighed against each other: less for the proof allows less ε₀."""
@@ -128,7 +128,7 @@ def _data(
         return replace(bounds, tree=covered.tree, scales=covered.scales) if covered.proved else None
     result: list[BoxTree] = []
     for corner in at_corners(loop):
-        outcome = certify(Problem(corner), max_boxes)
+        outcome = certify(SchurProblem(corner), max_boxes)
         if not outcome.proved:
             return None
         result.append(BoxTree(outcome.tree))
@@ -147,7 +147,7 @@ def _by_samples(controlled: ControlledArm) -> Callable[[ClosedLoop], bool]:
 
     def holds(loop: ClosedLoop) -> bool:
         points = np.hstack((q[:, [angles.index(joint) for joint in loop.angles]], e))
-        return bool(Problem(loop).proved(np.stack((points, points), axis=1)).all())
+        return bool(SchurProblem(loop).proved(np.stack((points, points), axis=1)).all())
 
     def allows(loop: ClosedLoop) -> bool:
         return loop.admissible and all(map(holds, at_corners(loop)))

@@ -34,7 +34,7 @@ from lyapcheck.search.decay.descent import Descent, level_within, lowered
 from lyapcheck.search.decay.digits import short_above, short_below
 from lyapcheck.search.decay.heaviest import Heaviest, heaviest, masses
 from lyapcheck.search.decay.margins import Attempt, attempts, candidates, margin_at
-from lyapcheck.search.decay.results import Shown
+from lyapcheck.search.decay.results import MotionWithProof
 from lyapcheck.search.decay.start import Start
 
 FRICTION = tuple(Fraction(k, 100) for k in (20, 40, 60))
@@ -75,7 +75,7 @@ class Phases:
         self.largest = short_above(self.energy * ROOM)
         self.level = self.eps0 = self.time = Fraction(0)
 
-    def found(self, on_progress: Progress) -> Shown | None:
+    def found(self, on_progress: Progress) -> MotionWithProof | None:
         """A statement by when every |e_i| ≤ goal and its untrusted proof; none where there is none."""
         if self.base is None or self.controlled.n > FEW_JOINTS:
             return None
@@ -162,7 +162,7 @@ class Phases:
         self.time, self.level, self.eps0 = result.time, result.level, margin.loop.eps0
         self.energy = min(self.energy, regraded(self.level, self.eps0, margin.loop, margin.heaviest))
 
-    def _claim(self) -> Shown:
+    def _claim(self) -> MotionWithProof:
         """What there is to be judged."""
         loop = self.controlled.loop(Fraction(1))
         n = self.controlled.n
@@ -177,7 +177,7 @@ class Phases:
         )
         lightness = tuple(light_proof(loop.arm.mass, loop.parameters) for x in self.lightest if x)
         proof = FallingPhases(self.controlled.inertia_proof, self.lightest, lightness, tuple(self.made))
-        return Shown(statement, proof)
+        return MotionWithProof(statement, proof)
 
     def _after(self) -> DiesOut | None:
         """How errors die out after the last phase."""

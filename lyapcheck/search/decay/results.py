@@ -37,7 +37,7 @@ class Provenance:
 
 
 @dataclass(frozen=True)
-class Shown:
+class MotionWithProof:
     """A statement and the proof by which the checker has accepted it."""
 
     statement: Settling | StaysWithin
@@ -92,7 +92,7 @@ class MotionBound:
     name: str
     m: int | None
     robot: str
-    shown: Shown | None
+    shown: MotionWithProof | None
     reason: str
 
     @property
@@ -145,7 +145,7 @@ class SettlingBound(MotionBound):
 
     @classmethod
     def of(
-        cls, controlled: ControlledArm, shown: Shown | None, reason: str, delta: Fraction
+        cls, controlled: ControlledArm, shown: MotionWithProof | None, reason: str, delta: Fraction
     ) -> SettlingBound:
         """What was shown of a controlled arm."""
         gains = controlled.gains
@@ -172,7 +172,7 @@ class DisturbanceBound(MotionBound):
     def of(
         cls,
         controlled: ControlledArm,
-        shown: Shown | None,
+        shown: MotionWithProof | None,
         reason: str,
         torque: tuple[Fraction, ...],
         dry: tuple[Fraction, ...],

@@ -9,14 +9,14 @@ from typing import Any
 
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.library import library
-from lyapcheck.compiled.straight_line import Code, TooLong
+from lyapcheck.compiled.straight_line import StraightLine, TooLong
 from lyapcheck.compiled.threads import over_shares
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
 from lyapcheck.simulate.batch import dop853
 from lyapcheck.simulate.batch.dop853 import Weights
 from lyapcheck.simulate.batch.integrator import InitialValueProblems, Paths, empty_paths
-from lyapcheck.simulate.batch.loop import Loop, parameter_count
+from lyapcheck.simulate.batch.loop import LoopColumns, parameter_count
 
 LANES = 8
 """Runs that advance together in one thread."""
@@ -67,9 +67,9 @@ def compiled_runs(model: RobotModel, family: Family) -> CompiledRuns | None:
 def _source(model: RobotModel, family: Family) -> str:
     n, size, count = model.n, 2 * model.n + 2, parameter_count(model)
     functions = []
-    for head, formula in ((_RATE, Loop.rate), (_WATCH, Loop.watched)):
-        code = Code()
-        loop = Loop(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
+    for head, formula in ((_RATE, LoopColumns.rate), (_WATCH, LoopColumns.watched)):
+        code = StraightLine()
+        loop = LoopColumns(model, PlainForms(code, family), [code.name(f"p[{i}][l]") for i in range(count)])
         values = formula(loop, [code.name(f"y[{i}][l]") for i in range(size)])
         body = code.store([f"out[{i}][l]" for i in range(len(values))], values)
         functions.append(head + _LOOP.replace("BODY", body))

@@ -13,7 +13,7 @@ from typing import Any
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.lyapunov.along import Forms
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import Place
+from lyapcheck.robots.dynamics import ArmAtAngles
 from lyapcheck.robots.elimination import solve_definite
 
 Vector = Sequence[Any]
@@ -21,7 +21,7 @@ Lift = Callable[[Any], Any]
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class LoopColumns:
     """One run's controller and arm, or many of them as columns; see `parameter_count` for their order.
 
     Args:
@@ -77,7 +77,7 @@ class Loop:
         """The uncertain parameters by name."""
         return dict(zip(self.model.parameters, self.parameters[4 * self.n : -1], strict=True))
 
-    def _at(self, q: Vector) -> Place:
+    def _at(self, q: Vector) -> ArmAtAngles:
         """The arm at angles q."""
         of = self.forms
         return self.model.at([of.sin(x) for x in q], [of.cos(x) for x in q], float, self.uncertain)

@@ -23,7 +23,7 @@ from lyapcheck.simulate.batch.integrator import (
     Paths,
     empty_paths,
 )
-from lyapcheck.simulate.batch.loop import Loop
+from lyapcheck.simulate.batch.loop import LoopColumns
 
 Whole = NDArray[np.int64]
 
@@ -64,8 +64,8 @@ class NumpyRuns:
         values = self._loop(parameters).watched(list(y))
         return np.stack([np.broadcast_to(x, y.shape[1:]) for x in values])
 
-    def _loop(self, parameters: Array) -> Loop:
-        return Loop(self._model, self._forms, list(parameters))
+    def _loop(self, parameters: Array) -> LoopColumns:
+        return LoopColumns(self._model, self._forms, list(parameters))
 
 
 class _March:

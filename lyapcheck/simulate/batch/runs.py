@@ -54,7 +54,7 @@ class Runs:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class IntegratedRuns:
     """Some of the runs as they come out of the integrator."""
 
     T: float

@@ -13,7 +13,7 @@ from lyapcheck.family import Family
 from lyapcheck.simulate.batch.compiled_integrator import compiled_runs
 from lyapcheck.simulate.batch.integrator import InitialValueProblems
 from lyapcheck.simulate.batch.numpy_integrator import NumpyRuns
-from lyapcheck.simulate.batch.runs import Part, Runs, runs_of
+from lyapcheck.simulate.batch.runs import IntegratedRuns, Runs, runs_of
 from lyapcheck.simulate.batch.task import BatchTask, batch_task, grouped
 from lyapcheck.simulate.batch.values import values_of
 from lyapcheck.simulate.indices import bands
@@ -98,7 +98,7 @@ def simulate_many(
         q_d, y0, own = (np.ascontiguousarray(x[chosen]) for x in (task.q_d, task.y0, task.parameters))
         settling = bands(q_d - y0[:, : model.n])
         paths = integrator(InitialValueProblems(y0, own, settling, T, points, tolerance, max_steps))
-        part = Part(T, q_d, paths, energy=not eps0)
+        part = IntegratedRuns(T, q_d, paths, energy=not eps0)
         columns = part.rows() | (_motions(model, family, part, own) if motions else {})
         for name, column in columns.items():
             rows.setdefault(name, np.empty((runs, *column.shape[1:]), column.dtype))[chosen] = column
@@ -116,7 +116,7 @@ def _shares(task: BatchTask, points: int) -> Iterator[tuple[Family, NDArray[np.i
             yield family, chosen[start : start + size]
 
 
-def _motions(model: RobotModel, family: Family, part: Part, parameters: Array) -> dict[str, Array]:
+def _motions(model: RobotModel, family: Family, part: IntegratedRuns, parameters: Array) -> dict[str, Array]:
     """q, w and V at all samples; NaN where a run failed."""
     n, y = model.n, part.paths.y
     q, w = y[:, :, :n], y[:, :, n : 2 * n]

@@ -10,10 +10,10 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.compiled.forms import PlainForms, has_plain_forms
 from lyapcheck.compiled.state_map import StateMap, state_map
-from lyapcheck.compiled.straight_line import Code, Term
+from lyapcheck.compiled.straight_line import StraightLine, Term
 from lyapcheck.family import Family
 from lyapcheck.robots import RobotModel
-from lyapcheck.simulate.batch.loop import Loop, parameter_count
+from lyapcheck.simulate.batch.loop import LoopColumns, parameter_count
 from lyapcheck.simulate.batch.numpy_integrator import array_forms
 
 
@@ -25,7 +25,7 @@ def values_of(model: RobotModel, family: Family, q: Array, e: Array, w: Array, p
     kernel = compiled_value(model, family)
     known = None if kernel is None else kernel(*map(np.ascontiguousarray, (q, e, w, parameters)))
     if known is None:
-        loop = Loop(model, array_forms(family), list(parameters.T[:, :, None]))
+        loop = LoopColumns(model, array_forms(family), list(parameters.T[:, :, None]))
         values = np.array(loop.value(*(list(np.moveaxis(x, 2, 0)) for x in (q, e, w))))
     else:
         values = known[:, :, 0]
@@ -37,7 +37,7 @@ def values_of(model: RobotModel, family: Family, q: Array, e: Array, w: Array, p
 def compiled_value(model: RobotModel, family: Family) -> StateMap | None:
     """The formula of V compiled; none where that is not possible."""
 
-    def formula(code: Code, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
-        return [Loop(model, PlainForms(code, family), p).value(q, e, w)]
+    def formula(code: StraightLine, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
+        return [LoopColumns(model, PlainForms(code, family), p).value(q, e, w)]
 
     return state_map(formula, model.n, parameter_count(model), 1) if has_plain_forms(family) else None

@@ -32,7 +32,7 @@ from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
-from lyapcheck.search.schur import Problem
+from lyapcheck.search.schur import SchurProblem
 from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.controlled import FAMILIES, friction, gains
 from tests.statement_fuzz.generators.robots import Ranges, powers, robot, size
@@ -167,7 +167,7 @@ def _with_number(value: Any, path: tuple[Any, ...], by: Fraction) -> Any:
 
 
 def _tree(loop: ClosedLoop) -> BoxTree | None:
-    outcome = certify(Problem(loop), MAX_BOXES) if loop.admissible else None
+    outcome = certify(SchurProblem(loop), MAX_BOXES) if loop.admissible else None
     return BoxTree(outcome.tree) if outcome is not None and outcome.proved else None
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from lyapcheck.answers.simulate.numbers import cell
 from lyapcheck.answers.tune.response.trial import Trial
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Bench
+from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Trials
 from lyapcheck.control.gains import GainSet
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
@@ -72,7 +72,7 @@ class BenchTuning(Answer):
 
     robot: str
     joints: tuple[str, ...]
-    bench: Bench
+    bench: Trials
     sets: tuple[Candidate, ...]
     missing: tuple[str, ...] = ()
     """Why there is no set for a member or way."""

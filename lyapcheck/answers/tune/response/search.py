@@ -17,7 +17,7 @@ import numpy as np
 from lyapcheck.answers.gate.bench import dry_friction
 from lyapcheck.answers.tune.response.one_joint import Joint, proposal
 from lyapcheck.answers.tune.response.trial import Trial, tried
-from lyapcheck.answers.tune.response.wishes import BY_19, Bench
+from lyapcheck.answers.tune.response.wishes import BY_19, Trials
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
@@ -60,7 +60,7 @@ class Search:
         way: ``19`` or ``proof``.
     """
 
-    def __init__(self, bench: Bench, models: Sequence[RobotModel], limits: Limits, m: int, way: str) -> None:
+    def __init__(self, bench: Trials, models: Sequence[RobotModel], limits: Limits, m: int, way: str) -> None:
         self.bench, self.models, self.limits, self.m, self.way = bench, models, limits, m, way
         n, unit = limits.n, Fraction(1, 10**bench.digits)
         ones = (Fraction(1),) * n

@@ -12,7 +12,7 @@ from lyapcheck.answers.tune.obstacles import impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
 from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, Bench
+from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, Trials
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 def tune_for(
     robot: str,
-    bench: Bench,
+    bench: Trials,
     members: Sequence[int] = (1,),
     bounds: Bounds | None = None,
     against: GainFile | None = None,
@@ -124,7 +124,7 @@ def _held(gains: GainSet, search: Search) -> Iterator[str]:
 def _other(
     gains: GainSet,
     arms: Sequence[RobotModel],
-    bench: Bench,
+    bench: Trials,
     file: GainFile | None,
     ranges: dict[str, ArmLimits] | None,
 ) -> Candidate:

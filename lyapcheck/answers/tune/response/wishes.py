@@ -67,7 +67,7 @@ class Wishes:
 
 
 @dataclass(frozen=True)
-class Bench:
+class Trials:
     """What gains are tried on: motions from rest to rest, and how stability is to be shown."""
 
     wishes: Wishes
