@@ -11,8 +11,8 @@ from pathlib import Path
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.errors import argument_error
-from lyapcheck.kernel.coq import require_coq
-from lyapcheck.kernel.judge import Kernel, graded, judged
+from lyapcheck.kernel.coq import Kernel, require_coq
+from lyapcheck.kernel.judge import graded, judged
 from lyapcheck.rechecking.command import Writer
 from lyapcheck.rechecking.render import as_json, text
 from lyapcheck.temporary import temporary_folder

@@ -9,7 +9,7 @@ from typing import Any
 
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
-from lyapcheck.kernel.judge import Kernel
+from lyapcheck.kernel.coq import Kernel
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table

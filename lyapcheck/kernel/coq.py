@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 import lyapcheck
@@ -15,6 +16,22 @@ QUIET = "-ambiguous-paths,-notation-overridden"
 LIBRARY = "Lyapcheck"
 NAME = re.compile(r"[A-Za-z_][\w'.]*")
 TIMES = re.compile(r"^Chars .* secs \(([\d.]+)u,([\d.]+)s\)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """Whether Coq's kernel accepted a certificate.
+
+    ``reason`` is why not; ``theorem`` the statement that was printed, ``axioms`` the golden list within which
+    its axioms are, ``seconds`` the computing time that Coq took.
+    """
+
+    file: str
+    accepted: bool
+    reason: str = ""
+    theorem: str = ""
+    axioms: str = ""
+    seconds: float = 0.0
 
 
 class CoqRefused(Exception):

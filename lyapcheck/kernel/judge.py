@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from lyapcheck.check.certificate import Certificate
@@ -13,7 +13,7 @@ from lyapcheck.check.files import content
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
-from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, axioms_of, golden, seconds_in
+from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, Kernel, axioms_of, golden, seconds_in
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.kernel.scripts import script
 from lyapcheck.kernel.statements import shown
@@ -28,22 +28,6 @@ Import ListNotations.
 Open Scope R_scope.
 """
 """The page of definitions comes last: no other file's names stand before its own."""
-
-
-@dataclass(frozen=True)
-class Kernel:
-    """Whether Coq's kernel accepted a certificate.
-
-    ``reason`` is why not; ``theorem`` the statement that was printed, ``axioms`` the golden list within which
-    its axioms are, ``seconds`` the computing time that Coq took.
-    """
-
-    file: str
-    accepted: bool
-    reason: str = ""
-    theorem: str = ""
-    axioms: str = ""
-    seconds: float = 0.0
 
 
 def theorem_file(certificate: Certificate) -> str:

@@ -12,15 +12,11 @@ import json
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.kernel.coq import formal
+from lyapcheck.kernel.coq import Kernel, formal
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
-
-if TYPE_CHECKING:
-    from lyapcheck.kernel.judge import Kernel
 
 GRADE = "kernel"
 FILE = Path(__file__).with_name("accepted.json")

@@ -32,8 +32,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
-from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
-from lyapcheck.kernel.judge import HEAD, Kernel, judged, theorem_file
+from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
+from lyapcheck.kernel.judge import HEAD, judged, theorem_file
 from tests.kernel.test_statements import GOOD, OWN
 
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")

@@ -13,7 +13,7 @@ from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.claims.decision import Decision
 from lyapcheck.kernel import coq, record
-from lyapcheck.kernel.judge import Kernel
+from lyapcheck.kernel.coq import Kernel
 from lyapcheck.verdicts import Grade, Verdict
 from tests.kernel.test_statements import GOOD
 

@@ -12,8 +12,8 @@ from lyapcheck.answers.gain_place import gain_place
 from lyapcheck.output.annotations import Annotation, Level
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.four import FourEpsilons
     from lyapcheck.answers.epsilon.nearby import NearbyResult
-    from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.control.gains import GainFile
 
 CERTIFIED, FALSIFIED, NEARBY = "certified", "falsified", "nearby"
@@ -25,7 +25,7 @@ RULES = {
 }
 
 
-def annotations_of(result: EpsilonResult, file: GainFile | None) -> list[Annotation]:
+def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotation]:
     """Whether an ε₀ is certified; then, as remarks, what is falsified and what follows from the numbers."""
     about = partial(Annotation, group=result.name, **gain_place(file, result.gains)._asdict())
     level = Level.UNDECIDED if result.certified is None else Level.PASSED

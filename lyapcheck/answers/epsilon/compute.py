@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.answers.epsilon.consistency import findings, require_consistent
+from lyapcheck.answers.epsilon.four import Refutation
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options, StateLimits
-from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
+from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds

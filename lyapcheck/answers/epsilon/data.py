@@ -8,15 +8,15 @@ from lyapcheck.answers.epsilon.words import KINDS, exact, ratio_text
 from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.four import FourEpsilons
     from lyapcheck.answers.epsilon.nearby import NearbyResult
-    from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
 _DIGITS = 20
 
 
-def result_data(result: EpsilonResult) -> dict[str, Any]:
+def result_data(result: FourEpsilons) -> dict[str, Any]:
     """Numbers as exact decimal strings; a missing one is ``None`` and has its reason under ``reasons``."""
     return {
         "name": result.name,

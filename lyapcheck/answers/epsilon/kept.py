@@ -15,9 +15,10 @@ from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.epsilon.compute import by_forms, four, proof_of, put_together
 from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.four import Refutation
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.answers.epsilon.result import EpsilonResult, Refutation
+from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.certificate import to_json
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing

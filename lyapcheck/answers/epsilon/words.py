@@ -11,9 +11,9 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.four import FourEpsilons
     from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.answers.epsilon.options import StateLimits
-    from lyapcheck.answers.epsilon.result import EpsilonResult
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
@@ -45,13 +45,13 @@ def exact(value: Fraction | None) -> str | None:
     return None if value is None else decimal_text(value)
 
 
-def number_cell(result: EpsilonResult, kind: str) -> str:
+def number_cell(result: FourEpsilons, kind: str) -> str:
     """One of the four; a star where it has no certificate, a dash where there is none."""
     star = "*" if kind == "scalar" and result.scalar_grade == "no certificate" else ""
     return f"{exact(getattr(result, kind)) or '—'}{star}"
 
 
-def title(results: Sequence[EpsilonResult]) -> str:
+def title(results: Sequence[FourEpsilons]) -> str:
     """Whether every gain set has a certified ε₀."""
     robots = ", ".join(dict.fromkeys(result.robot for result in results))
     outcome = sum(result.certified is not None for result in results)
@@ -62,7 +62,7 @@ def title(results: Sequence[EpsilonResult]) -> str:
     return f"? {outcome} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
 
 
-def _one(result: EpsilonResult) -> str:
+def _one(result: FourEpsilons) -> str:
     if result.certified is None:
         return f"? no ε₀ is certified for {result.name}"
     return f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}"
@@ -84,7 +84,7 @@ NEARBY = (
 )
 
 
-def remarks(result: EpsilonResult) -> list[str]:
+def remarks(result: FourEpsilons) -> list[str]:
     """How the certified number was proved, findings, reasons for missing numbers and the witness."""
     said = [_way(result)] if result.certified is not None or result.boxes else []
     if result.certified is not None and result.unvaried is not None:
@@ -109,7 +109,7 @@ def remarks(result: EpsilonResult) -> list[str]:
     return said
 
 
-def nearby_row(result: EpsilonResult) -> tuple[str, ...]:
+def nearby_row(result: FourEpsilons) -> tuple[str, ...]:
     """The ε₀ within limits: cells of the second table."""
     near = result.nearby
     if near is None:
@@ -165,7 +165,7 @@ def _motions_text(near: NearbyResult) -> str:
     )
 
 
-def _way(result: EpsilonResult) -> str:
+def _way(result: FourEpsilons) -> str:
     """How the certified number was proved, and how much was tried."""
     parts = [] if result.certified is None else [f"certified by {result.certified_by}"]
     if result.proof is not None:
@@ -183,7 +183,7 @@ def _cost_text(certified: Fraction, nominal: Fraction) -> str:
     return f"the ranges cost {share:.2g} %: at nominal numbers ε₀ = {exact(nominal)} is certified."
 
 
-def reasons(result: EpsilonResult) -> list[str]:
+def reasons(result: FourEpsilons) -> list[str]:
     """Why a number is missing, or not larger than it is; a sentence each."""
     return [
         f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"{kind} ε₀: {reason}."
@@ -211,7 +211,7 @@ def witness_text(witness: RisingState) -> str:
     return f"at {places} with ε₀ = {decimal_text(witness.eps0)}: dV/dt > {low} W"
 
 
-def notes(results: Sequence[EpsilonResult]) -> list[str]:
+def notes(results: Sequence[FourEpsilons]) -> list[str]:
     """What holds for all results: what the columns say, the arm, the seed, assumptions."""
     robots = ", ".join(dict.fromkeys(result.robot for result in results))
     seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
@@ -226,7 +226,7 @@ def notes(results: Sequence[EpsilonResult]) -> list[str]:
     ]
 
 
-def _extent(results: Sequence[EpsilonResult]) -> str:
+def _extent(results: Sequence[FourEpsilons]) -> str:
     if all(result.ranges for result in results):
         return "certified for all values in its ranges"
     return "at its nominal parameters"

@@ -11,15 +11,15 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.robot.facts import ArmFacts
     from lyapcheck.answers.robot.properties import PropertyResult
-    from lyapcheck.answers.robot.report import RobotReport
     from lyapcheck.constants import ConstantResult
     from lyapcheck.robots import Number
 
 _DIGITS = 15
 
 
-def report_data(report: RobotReport) -> dict[str, Any]:
+def report_data(report: ArmFacts) -> dict[str, Any]:
     """All of it; exact numbers as decimal strings."""
     model = report.model
     return {
@@ -62,7 +62,7 @@ def property_data(row: PropertyResult) -> dict[str, Any]:
     }
 
 
-def constant_data(report: RobotReport, constant: ConstantResult) -> dict[str, Any]:
+def constant_data(report: ArmFacts, constant: ConstantResult) -> dict[str, Any]:
     """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
     lower, upper = decimals(constant.enclosure, _DIGITS)
     n, shown = report.model.n, report.certified.get(constant.name, CertifiedBounds())

@@ -14,8 +14,8 @@ from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.robot.facts import ArmFacts
     from lyapcheck.answers.robot.properties import PropertyResult
-    from lyapcheck.answers.robot.report import RobotReport
     from lyapcheck.constants import ConstantResult
     from lyapcheck.robots import Number, RobotModel
 
@@ -38,7 +38,7 @@ NOMINAL = "At nominal parameters: ends that certificates show, and the sharper o
 PRINT = "As the source prints it"
 
 
-def page(report: RobotReport) -> Document:
+def page(report: ArmFacts) -> Document:
     """The verdicts first, then what was not proved, then all there is."""
     model = report.model
     judged = [(f"property {row.id}", row) for row in report.properties]
@@ -64,7 +64,7 @@ def evidence(row: PropertyResult) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def _title(report: RobotReport) -> str:
+def _title(report: ArmFacts) -> str:
     name = report.model.name
     for verdict, mark in MARKS.items():
         result = [row.id for row in report.properties if row.verdict is verdict]
@@ -75,7 +75,7 @@ def _title(report: RobotReport) -> str:
     return f"✓ {name}: properties {first}–{last} proved"
 
 
-def _sections(report: RobotReport) -> list[Section]:
+def _sections(report: ArmFacts) -> list[Section]:
     model = report.model
     prints = [_judged(PRINT, "claim", report.prints)] if report.prints else []
     joints = [Section("Joints", (Table(JOINT_HEADS, tuple(_joint_rows(model))),))]
@@ -93,7 +93,7 @@ def _judged(title: str, head: str, rows: Sequence[PropertyResult]) -> Section:
     return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
 
 
-def _constants(report: RobotReport) -> Section:
+def _constants(report: ArmFacts) -> Section:
     rows = [_constant_row(report, constant) for constant in report.constants]
     states = [row for constant in report.constants for row in _state_rows(report, constant)]
     table = Table(CONSTANT_HEADS, tuple(rows), align="llrrrrr")
@@ -101,7 +101,7 @@ def _constants(report: RobotReport) -> Section:
     return Section("Constants", (Paragraph(NOMINAL), table, shown))
 
 
-def _constant_row(report: RobotReport, constant: ConstantResult) -> tuple[str, ...]:
+def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
     """The ends that certificates show, and those of floating point, rounded outward."""
     shown = report.certified.get(constant.name, CertifiedBounds())
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
@@ -109,7 +109,7 @@ def _constant_row(report: RobotReport, constant: ConstantResult) -> tuple[str, .
     return (_symbol(constant), constant.unit, *known, *decimals(constant.enclosure, _DIGITS), gap)
 
 
-def _state_rows(report: RobotReport, constant: ConstantResult) -> list[tuple[str, str]]:
+def _state_rows(report: ArmFacts, constant: ConstantResult) -> list[tuple[str, str]]:
     """The angles; of k_c also the direction x."""
     n, name = report.model.n, _symbol(constant)
     angles, x = (", ".join(f"{x:.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))

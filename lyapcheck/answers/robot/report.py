@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
-from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.data import constant_data, property_data, report_data
+from lyapcheck.answers.robot.facts import ArmFacts
 from lyapcheck.answers.robot.page import evidence, page
 from lyapcheck.answers.robot.properties import PropertyResult
-from lyapcheck.certificate import Certificate
-from lyapcheck.constants import ConstantResult
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document
-from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
@@ -23,29 +19,10 @@ ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
 
 
 @dataclass(frozen=True)
-class RobotReport(Answer):
-    """An arm with what was decided and certified about it, at its nominal parameters.
-
-    Args:
-        model: the arm.
-        properties: 2.1 to 2.8.
-        constants: from both sides, in floating point.
-        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
-            follow from M and the potential.
-        certified: by the name of a constant its ends that a certificate shows.
-        certificates: of all that is decided, by file name.
-        path: of the file that describes the arm; empty for a built-in one.
-    """
+class RobotReport(ArmFacts, Answer):
+    """What is known of an arm as an answer; see `ArmFacts` for what it has."""
 
     schema = "lyapcheck/robot/1"
-
-    model: RobotModel
-    properties: tuple[PropertyResult, ...]
-    constants: tuple[ConstantResult, ...]
-    prints: tuple[PropertyResult, ...] = ()
-    certified: Mapping[str, CertifiedBounds] = field(default_factory=dict)
-    certificates: Mapping[str, Certificate] = field(default_factory=dict)
-    path: str = ""
 
     @property
     def exit_code(self) -> Exit:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.tune.data import joint_records, tuning_data
+from lyapcheck.answers.tune.data import joint_records, limits_data, set_data, targets_data
 from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, GainComparison, TunedSet
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.gains import Bounds
@@ -81,11 +81,18 @@ class Tuning(Answer):
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
-        return tuning_data(self)
+        return {
+            "robot": self.robot,
+            "targets": targets_data(self.targets),
+            "limits": limits_data(self.limits),
+            "assumptions": list(self.limits.assumptions),
+            "results": [set_data(item, self.targets.digits) for item in self.sets],
+            "effects": [one.data for one in self.effects],
+        }
 
     def records(self) -> list[dict[str, Any]]:
         """A row a joint of each member."""
-        return joint_records(self)
+        return joint_records(self.data()["results"])
 
     def _verdict(self) -> str:
         """The worst of the members decides."""

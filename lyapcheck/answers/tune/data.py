@@ -4,46 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lyapcheck.answers.tune.results import ComparedJoint, GainComparison, TunedJoint, TunedSet
-from lyapcheck.output.digits import decimals
-
-if TYPE_CHECKING:
-    from lyapcheck.answers.tune.answer import Tuning
+from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import decimals
 
 DIGITS = 20
 
 
-def tuning_data(tuning: Tuning) -> dict[str, Any]:
-    """Everything about tuned gains; numbers as decimal strings."""
-    targets, limits = tuning.targets, tuning.limits
+def targets_data(targets: Targets) -> dict[str, Any]:
+    """What was asked for; numbers as decimal strings."""
     return {
-        "robot": tuning.robot,
-        "targets": {
-            "digits": targets.digits,
-            "peak_share": _texts(targets.peak_share),
-            "kv_share": _texts(targets.kv_share),
-            "kv_min": _texts(targets.kv_min),
-            "damping": _texts(targets.damping),
-        },
-        "limits": {
-            "torque": [None if limit is None else decimal_text(limit) for limit in limits.torque],
-            "gravity": _texts(limits.gravity),
-            "viscous_min": None if limits.viscous_min is None else decimal_text(limits.viscous_min),
-        },
-        "assumptions": list(limits.assumptions),
-        "results": [_set(item, targets.digits) for item in tuning.sets],
-        "effects": [one.data for one in tuning.effects],
+        "digits": targets.digits,
+        "peak_share": _texts(targets.peak_share),
+        "kv_share": _texts(targets.kv_share),
+        "kv_min": _texts(targets.kv_min),
+        "damping": _texts(targets.damping),
     }
 
 
-def joint_records(tuning: Tuning) -> list[dict[str, Any]]:
+def limits_data(limits: Limits) -> dict[str, Any]:
+    """What the gains were tuned to, N·m and N·m·s/rad."""
+    return {
+        "torque": [None if limit is None else decimal_text(limit) for limit in limits.torque],
+        "gravity": _texts(limits.gravity),
+        "viscous_min": None if limits.viscous_min is None else decimal_text(limits.viscous_min),
+    }
+
+
+def joint_records(sets: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
     rows = []
-    for item in tuning_data(tuning)["results"]:
+    for item in sets:
         head = {key: item[key] for key in ("name", "m", "status")}
         beside = {joint["joint"]: joint for joint in (item["comparison"] or {}).get("joints", ())}
         for joint in item["joints"]:
@@ -55,7 +51,8 @@ def joint_records(tuning: Tuning) -> list[dict[str, Any]]:
     return rows
 
 
-def _set(item: TunedSet, digits: int) -> dict[str, Any]:
+def set_data(item: TunedSet, digits: int) -> dict[str, Any]:
+    """The gains of one member, what ends each, and what they are compared with."""
     return {
         "name": item.name,
         "m": item.m,

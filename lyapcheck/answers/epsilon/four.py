@@ -1,0 +1,100 @@
+"""The four ε₀ of one gain set on one arm, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.epsilon.nearby import NearbyResult
+    from lyapcheck.check.loop.closed_loop import ClosedLoop
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.search.falsify import RisingState
+    from lyapcheck.search.proof import DecreaseProof
+    from lyapcheck.search.weights import Weighted
+
+
+@dataclass(frozen=True)
+class Refutation:
+    """The closure that a witness refutes, and the values of what is uncertain at the arm it is a state of."""
+
+    loop: ClosedLoop
+    viscous: tuple[Fraction, ...]
+    parameters: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class FourEpsilons:
+    """The four ε₀; ``None`` where there is none, with the reason under the same name in ``reasons``.
+
+    Args:
+        gains: the gain set.
+        robot: name of the arm.
+        published: the end of (18), rounded down.
+        scalar: ε₀ of the scalar form, from norms.
+        certified: the largest ε₀ of which the checker accepted a proof.
+        falsified: ε₀ of the witness.
+        witness: the state that refutes ``falsified``.
+        boxes: how many boxes branch and bound looked at.
+        certified_by: which search proposed the proof behind ``certified``.
+        proof: behind ``certified``, accepted by the checker.
+        scalar_proof: behind ``scalar``, accepted by the checker; ``None`` where norms alone prove less.
+        against: what ``witness`` refutes, and the arm it is a state of.
+        weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
+        ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
+        corner: the uncertain numbers of the arm that ``witness`` is about, by name.
+        reasons: why a number is missing, and what to try.
+        findings: what the numbers say about each other, one sentence each.
+        assumptions: what is taken for granted about the arm.
+        seed: of the sampled states.
+        nearby: the ε₀ of states within limits of speed and of error, where they were asked for.
+        unvaried: what is certified at nominal numbers, where that was asked for beside ranges.
+    """
+
+    gains: GainSet
+    robot: str
+    published: Fraction | None
+    scalar: Fraction | None
+    certified: Fraction | None
+    falsified: Fraction | None
+    witness: RisingState | None
+    boxes: int
+    certified_by: str
+    proof: DecreaseProof | None = None
+    scalar_proof: DecreaseProof | None = None
+    against: Refutation | None = None
+    weighted: Weighted | None = None
+    ranges: bool = False
+    corner: Mapping[str, Fraction] = field(default_factory=dict)
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    findings: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    seed: int = 0
+    nearby: NearbyResult | None = None
+    unvaried: Fraction | None = None
+
+    @property
+    def name(self) -> str:
+        """Of the gain set."""
+        return self.gains.name
+
+    @property
+    def m(self) -> int | None:
+        """Member of the family, if it has members."""
+        return self.gains.m
+
+    @property
+    def scalar_grade(self) -> str | None:
+        """``enclosure`` where ``scalar`` has a certificate, else ``no certificate``; ``None`` without it."""
+        if self.scalar is None:
+            return None
+        return "no certificate" if self.scalar_proof is None else "enclosure"
+
+    @property
+    def ratio(self) -> Fraction | None:
+        """certified / falsified: 1 would leave nothing open."""
+        if self.certified is None or self.falsified is None:
+            return None
+        return self.certified / self.falsified
