@@ -19,12 +19,15 @@ from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
+from lyapcheck.claims.moving_arm import coriolis_bounded
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.constants.storage.bounds import BoundWithProof
+from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
+from tests.helpers.committed import ROOT
 from tests.search.test_constants_storage import arm_of
 
 
@@ -147,3 +150,13 @@ def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path: Path) -> No
     assert result.verdict is Verdict.REFUTED
     assert result.proof is not None
     assert verify(smaller, result.proof).verdict == "refuted"
+
+
+@pytest.mark.slow
+def test_property_26_of_many_joints_has_the_bound_of_the_constant() -> None:
+    arm = load(str(ROOT / "examples" / "px100.toml"))
+    statement = coriolis_bounded(arm)
+    (constant,) = arm_constants(arm, names=["k_c"])
+    assert constant.shown is not None
+    assert statement == constant.shown.statement
+    assert propose(statement).verdict is Verdict.PROVED
