@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import ConstantResult
 from lyapcheck.constants.coriolis_chain import coriolis_bound
@@ -26,16 +28,18 @@ def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Const
     """
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
-    still = name.startswith("k_g") and inner.value == 0
-    shown = storage_proof(chain, name, still=True) if still else None
     outer = from_distances(plant, name)
-    if shown is None and (name != "k_c" or thorough or outer is None):
-        shown = storage_proof(chain, name)
+    with ThreadPoolExecutor(1) as pool:  # both work in compiled code most of the time
+        points = name == "k_c" and thorough and inner.value > 0
+        lattice = pool.submit(coriolis_bound, plant, float(inner.value), gap) if points else None
+        still = name.startswith("k_g") and inner.value == 0
+        shown = storage_proof(chain, name, still=True) if still else None
+        if shown is None and (name != "k_c" or thorough or outer is None):
+            shown = storage_proof(chain, name)
     if shown is not None:
         outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
-    if name == "k_c" and thorough and inner.value > 0:
-        sharper = coriolis_bound(plant, float(inner.value), gap)
-        outer = min((x for x in (outer, sharper) if x is not None), default=None)
+    if lattice is not None:
+        outer = min((x for x in (outer, lattice.result()) if x is not None), default=None)
     if outer is None:
         raise argument_error(
             name, "", "has no bound: no body has the inertia of some link", "correct the inertias"

@@ -19,7 +19,7 @@ NODES = 2 * np.pi * np.arange(TERMS) / TERMS
 _SQUARES = np.array([0.0, 1.0, 1.0, 4.0, 4.0])
 _CONSTANT = 1e-12
 """Times the size of the matrices: what an angle that changes less than this changes is left to rounding."""
-_BLOCK = 1_000_000
+_BLOCK = 100_000
 """Doubles that are held at a time."""
 
 
@@ -71,6 +71,15 @@ class Circles:
         shape[axis] = TERMS
         return replace(self, coefficients=-self.coefficients * _SQUARES.reshape(shape))
 
+    def spread(self, half: Array) -> Circles:
+        """(1 − ½ r_k² ∂²/∂q_k²) of them for all angles, given the r_k."""
+        coefficients = self.coefficients
+        for axis, growth in enumerate(1 + 0.5 * np.multiply.outer(np.asarray(half) ** 2, _SQUARES)):
+            shape = [1] * coefficients.ndim
+            shape[axis] = TERMS
+            coefficients = coefficients * growth.reshape(shape)
+        return replace(self, coefficients=coefficients)
+
     def times(self, factor: Array) -> Circles:
         """The product with a matrix (columns, columns), whose values are as exact as those of the factors."""
         return replace(self, coefficients=self.coefficients @ factor)
@@ -89,13 +98,14 @@ class Circles:
         for places, part in _at(self.coefficients, first, np.arange(len(first))):
             points = int(np.prod(np.maximum(counts, TERMS))) if counts else 1
             block = max(1, _BLOCK // (points * part.shape[-1] * part.shape[-2]))
-            weights = basis(first[places, -1])
+            weights, flat = basis(first[places, -1]), part.reshape(TERMS, -1)
             for start in range(0, len(places), block):
-                chosen = slice(start, start + block)
-                result = np.tensordot(weights[chosen], part, 1)
-                for axis, grid in enumerate(grids):
-                    result = _put(grid, result, axis + 1)
-                yield places[chosen], result.reshape(len(result), -1, *part.shape[-2:])
+                chosen = places[start : start + block]
+                result, rows = weights[start : start + block] @ flat, len(chosen)
+                for grid in grids:
+                    result = grid @ result.reshape(rows, TERMS, -1)
+                    rows *= len(grid)
+                yield chosen, result.reshape(len(chosen), -1, *part.shape[-2:])
 
 
 def _at(tensor: Array, first: Array, places: NDArray[np.intp]) -> Iterator[tuple[NDArray[np.intp], Array]]:

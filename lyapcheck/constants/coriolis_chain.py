@@ -17,15 +17,17 @@ import numpy as np
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.constants.circles import TERMS, Circles
-from lyapcheck.constants.lattice import FIRST, Lattice, Postures, norms_above
+from lyapcheck.constants.lattice import FIRST, Lattice, norms_above
 from lyapcheck.constants.products import common_factor
 from lyapcheck.constants.quartic import quartic
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 
-MOST_JOINTS = 6
+MOST_JOINTS = 7
 """With more the polynomials take ten times as much memory and time a joint."""
-_POINTS = 30_000_000
+_ANGLES, _GAP_OF_MANY = 5, 0.05
+"""Where more angles than these matter, the least gap that is asked for: a smaller one takes minutes."""
+_POINTS = 20_000_000
 _SAMPLES, _USED = 4000, (400, 200)
 _AROUND = 12
 """Points of a circle on which second derivatives are looked at; fewer where a bound of them is known that"""
@@ -35,7 +37,7 @@ _WITHIN = 0.99
 """Share of the gap that is asked for, so that rounding does not exceed it."""
 _ROUNDING = 1e-8
 """Of the largest matrix, beyond what doubles lose: the matrices at the nodes are right within 1e-13 of it, to
-pass through them multiplies that by at most 2 an angle, 64 in all, and every L by at most 10."""
+pass through them multiplies that by at most 2 an angle, 64 in all, D by 3/2, 12 in all, and L by 10."""
 
 
 def coriolis_bound(plant: Plant, inside: float, gap: float) -> Fraction | None:
@@ -44,7 +46,7 @@ def coriolis_bound(plant: Plant, inside: float, gap: float) -> Fraction | None:
     Args:
         plant: a chain with exact parameters, of two joints at least.
         inside: a lower bound of k_c, kg·m², positive.
-        gap: 1 − inside / bound.
+        gap: 1 − inside / bound; at least `_GAP_OF_MANY` where more than `_ANGLES` angles matter.
 
     Returns:
         The bound; ``None`` for more than `MOST_JOINTS` joints.
@@ -62,12 +64,13 @@ def coriolis_bound(plant: Plant, inside: float, gap: float) -> Fraction | None:
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (_SAMPLES, n))
     factor = _factor_for(stacks(q), n)
     entries = Circles.through(stacks, n)
+    if len(entries.angles) > _ANGLES:
+        gap = max(gap, _GAP_OF_MANY)
     lost = _ROUNDING * entries.size
     moved = entries.times(factor)
     target = inside / (1 - _WITHIN * gap) - 2 * lost
     bend = _bends(moved, target) + lost
-    lattice = Lattice(moved, bend, target, inside, Postures(stacks, factor, n))
-    return Fraction(lattice.bound(_POINTS) + 2 * lost)
+    return Fraction(Lattice(moved, bend, target, factor).bound(_POINTS) + 2 * lost)
 
 
 def _factor_for(stacks: Array, n: int) -> Array:

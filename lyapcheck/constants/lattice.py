@@ -1,22 +1,23 @@
 """The largest norm of a matrix of trigonometric polynomials, from points and bounds of second derivatives.
 
-Let p(q) = zᵀ W(q) X for unit z, x and the products X of x. Linear interpolation between the corners of a box
-with half widths r leaves at most ½ Σ_k r_k² sup |∂²p/∂q_k²|, and no mixed derivatives. So
+Let f(q) = zᵀ W(q) X for unit z, x and the products X of x, and f(q*) = sup ‖W X‖. The corners of a box around
+q* with half widths r, weighted so that their mean is q*, see what linear interpolation sees: no mixed
+derivatives. What f loses towards them its second derivatives give back. So with D = Π_k (1 − ½ r_k² ∂_k²)
 
-    sup ‖W X‖ ≤ max over the corners of ‖W L‖ + ½ Σ_k r_k² b_k,     b_k ≥ sup ‖(∂²W/∂q_k²) X‖,
+    sup ‖W X‖ ≤ max over the corners of ‖(D W) L‖ + rest,
 
-and each corner may have its own L of `lyapcheck.constants.products`. The first three angles are parted into
-cells; of the others every corner sees a whole grid, as fine as the cells need.
+where the rest, `remainder`, is of fourth order, and each corner may have its own L of
+`lyapcheck.constants.products`. The first three angles are parted into cells; of the others every corner sees
+a whole grid, as fine as the cells need.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.constants.circles import Circles
@@ -26,31 +27,18 @@ FIRST = 3
 """Angles that are parted into cells."""
 _PARTS = 4
 """Cells of a circle to begin with."""
-_LARGE = 0.8
-"""Share of the target from which what interpolation leaves is not worth a look at the corners."""
-_TIGHT = 0.35
-"""Share of the way from the target to what is reached: norms that come closer to the target call for an L."""
-_LOOSE = 0.95
-"""Share of what is reached from which other L are tried."""
-_ALIKE = 150
-"""Postures that share one more L."""
-_TRIES = 4
-"""More L at one width of the cells."""
-
-
-@dataclass(frozen=True, eq=False)
-class Postures:
-    """The matrices W of an arm at any posture, and the L with which a search begins.
-
-    Args:
-        stacks: from angles (count, n), rad, to W (count, n, pairs).
-        factor: L, (pairs, pairs).
-        n: number of joints.
-    """
-
-    stacks: Callable[[Array], Array]
-    factor: Array
-    n: int
+_PLAIN = 0.5
+"""Half widths, rad, from which an angle is left out of D, as what is of higher order would cost more."""
+_LARGE = 0.15
+"""Share of the target from which the remainder is not worth a look at the corners."""
+_POWERS = (2, 4, 8, 16, 32, 64)
+"""Of A Aᵀ, whose traces bound its norm: without eigenvalues, which take longer."""
+_ALIKE = 40
+"""Matrices that share one more L."""
+_TRIES = 20
+"""More L at one width of the cells, at most, and"""
+_WORTH = 5_000
+"""points around corners above the cut that are worth one: about as many as take as long as it does."""
 
 
 @dataclass(eq=False)
@@ -61,8 +49,8 @@ class Lattice:
         entries: W L of one L for all postures.
         bend: b_k of the angles of ``entries``.
         target: what is to be shown.
-        inside: a norm that is reached.
-        postures: with them other L are tried; without, the search ends at a norm above the target.
+        factor: that L, (pairs, pairs), which others can replace; without it the search ends at a norm above
+            the target.
         points: looked at so far.
         factors: the other L, each times the inverse of the first one.
     """
@@ -70,8 +58,7 @@ class Lattice:
     entries: Circles
     bend: Array
     target: float
-    inside: float
-    postures: Postures | None = None
+    factor: Array | None = None
     points: int = 0
     factors: list[Array] = field(default_factory=list, init=False)
 
@@ -96,82 +83,132 @@ class Lattice:
         while True:
             around = np.round(np.pi / half).astype(np.intp)
             counts = np.maximum(1, np.ceil(np.pi * np.sqrt(far / np.mean(near * half**2)))).astype(np.intp)
-            rest = 0.5 * float(near @ half**2 + far @ (np.pi / counts) ** 2)
+            widths = np.concatenate([half, np.pi / counts])
+            rest = remainder(widths, self.bend)
             if rest < _LARGE * self.target:
                 places = (cells[:, None] + corners).reshape(-1, first) % around
                 number = np.ravel_multi_index(tuple(places.T), tuple(around))
                 _, one, back = np.unique(number, return_index=True, return_inverse=True)
-                tops = self._tops(places[one] * (2 * np.pi / around), counts, self.target - rest)
+                spread = self.entries.spread(np.where(widths < _PLAIN, widths, 0.0))
+                cut = self.target - rest
+                tops, hard, matrices = self._tops(
+                    spread, places[one] * (2 * np.pi / around), counts.tolist(), cut
+                )
                 top = np.max(tops[back].reshape(len(cells), -1), axis=1)
-                fails = top > self.target - rest
-                if not fails.any():
+                cells = cells[top > cut]
+                if not len(cells):
                     return self.target
-                cells = cells[fails]
                 reached = float(np.max(top))
-                if self.points > most_points or (self.postures is None and reached > self.target):
+                if self.points > most_points or (self.factor is None and reached > self.target):
                     return max(self.target, reached / (1 - rest / self.target))
+                if self.factor is not None:
+                    tries = min(_TRIES, len(hard) * int(np.prod(counts)) // _WORTH)
+                    self._add_factors(self.factor, tops[hard], matrices, cut, tries)
             side = np.argmax(near * half**2)
             half[side] /= 2
             step = np.arange(first) == side
             cells = np.concatenate([cells * (1 + step), cells * (1 + step) + step])
 
-    def _tops(self, first: Array, counts: NDArray[np.intp], cut: float) -> Array:
-        """For values of the first angles the largest norm over the grid of the others, at least the cut."""
-        tops, tight = np.full(len(first), cut), self.target - _TIGHT * (self.target - self.inside)
-        hard: list[Array] = []
-        for places, values in self.entries.on(first, counts.tolist()):
-            flat = values.reshape(-1, *values.shape[-2:])
-            self.points += len(flat)
-            norms = norms_above(flat, cut)
-            for factor in self.factors:
-                large = norms > max(cut, _LOOSE * self.inside)
-                if large.any():
-                    norms[large] = np.minimum(norms[large], norms_above(flat[large] @ factor, cut))
-            norms = norms.reshape(len(places), -1)
-            worst = np.argmax(norms, axis=1)
-            tops[places] = np.maximum(cut, np.max(norms, axis=1))
-            high = tops[places] > tight
-            if self.postures is not None and high.any():
-                others = _angles(worst[high], counts.tolist())
-                hard.append(np.column_stack([tops[places][high], first[places][high], *others]))
-        if self.postures is not None and hard:
-            rows = np.concatenate(hard)
-            self._add_factors(self.postures, rows[:, 0], rows[:, 1:], tight)
-        return tops
+    def _tops(
+        self, spread: Circles, first: Array, counts: Sequence[int], cut: float
+    ) -> tuple[Array, list[int], Array]:
+        """For values of the first angles a bound of the norm on the grid of the others, at least the cut.
 
-    def _add_factors(self, postures: Postures, tops: Array, angles: Array, tight: float) -> None:
-        """An L for the worst postures and those like them, and so on until no norm is above ``tight``."""
-        for _ in range(_TRIES):
-            apart = (1 - np.cos(angles - angles[np.argmax(tops)])) @ self.bend
-            q = np.zeros((len(angles), postures.n))
-            q[:, list(self.entries.angles)] = angles
-            stacks = postures.stacks(q)
-            factor = common_factor(stacks[np.argsort(apart, kind="stable")[:_ALIKE]], postures.n)
-            self.factors.append(np.asarray(np.linalg.solve(postures.factor, factor), dtype=np.float64))
-            tops = np.minimum(tops, norms_above(stacks @ factor, 0.0))
-            tops, angles = tops[tops > tight], angles[tops > tight]
+        Returns:
+            The bounds, (count,); where they are above the cut, and matrices that no L brings below it.
+        """
+        tops, factors = np.full(len(first), cut), np.array(self.factors)
+        hard: list[int] = []
+        found: list[Array] = []
+        for places, values in spread.on(first, counts):
+            self.points += values.shape[0] * values.shape[1]
+            norms = norms_above(values.reshape(-1, *values.shape[2:]), cut).reshape(len(places), -1)
+            for row in np.flatnonzero(norms.max(axis=1) > cut):
+                worst = _worst(values[row], norms[row], factors, cut)
+                if norms[row, worst] > cut:
+                    tops[places[row]] = norms[row].max()
+                    hard.append(int(places[row]))
+                    found.append(values[row, worst])
+        return tops, hard, np.array(found)
+
+    def _add_factors(self, first: Array, tops: Array, matrices: Array, cut: float, tries: int) -> None:
+        """An L for the worst matrix and those like it, and so on for those that stay above the cut."""
+        back = np.linalg.inv(first)
+        for _ in range(tries):
+            worst = np.argmax(tops)
+            apart = np.sum((matrices - matrices[worst]) ** 2, axis=(1, 2))
+            alike = matrices[np.argsort(apart, kind="stable")[:_ALIKE]] @ back
+            self.factors.append(np.asarray(back @ common_factor(alike, matrices.shape[1]), dtype=np.float64))
+            tops = np.minimum(tops, norms_above(matrices @ self.factors[-1], cut))
+            tops[worst] = cut
+            tops, matrices = tops[tops > cut], matrices[tops > cut]
             if not len(tops):
                 return
 
 
+def _worst(matrices: Array, norms: Array, factors: Array, cut: float) -> np.intp:
+    """The worst norm, after their bounds are made smaller, in place, until the cut or until no L helps."""
+    worst = np.argmax(norms)
+    while len(factors) and norms[worst] > cut:
+        tried = norms_above(matrices[worst] @ factors, cut)
+        norms[worst] = min(norms[worst], np.min(tried))
+        if norms[worst] > cut:
+            break
+        above = norms > cut
+        if above.any():
+            moved = matrices[above] @ factors[np.argmin(tried)]
+            norms[above] = np.minimum(norms[above], norms_above(moved, cut))
+        worst = np.argmax(norms)
+    return worst
+
+
+def remainder(half: Array, bend: Array) -> float:
+    """What f(q*) can be above the largest D f at the corners of a box around q*.
+
+    Args:
+        half: r_k, rad; an angle with r_k ≥ `_PLAIN` has no factor in D.
+        bend: b_k ≥ sup |∂_k² f|.
+
+    Soundness: the weighted corners take the mean Π_k A_k f of D f, A_k = I_k (1 − ½ r_k² ∂_k²), where I_k is
+        linear interpolation by q_k, at q* = middle + t. Let v = r² − t². By Peano's kernel, I f − f is ½ v
+        times a mean of f″ over distances with mean −2t/3 and mean square (r² + 3t²)/6. With the bounds 2b of
+        f‴ and 4b of f⁗ (Bernstein; the degree is 2) and μ = A − 1 this gives for every f
+
+            sup |μ f| ≤ s sup |f″|,     s = r² max(½, ⅔ r + 5/3 r²),
+
+        and at a maximum, where f″ = −P ≤ 0 and |f‴| ≤ min(2b, √(12 P b)), as f is nowhere above f(q*),
+
+            μ f ≥ ½ t² P − ⅓ v |t| |f‴| − v (7r² + 3t²) b / 6 ≥ −e b,
+            e = r³ min(4/(9√3), ⅔ r) + 7/6 r⁴.
+
+        Without the factor in D both are ½ r². As Π A_k − 1 = Σ_k μ_k Π_{j<k} (1 + μ_j), in any order,
+
+            f(q*) ≤ max D f + Σ_k b_k (e_k + s_k (Π_{j<k} (1 + 4 s_j) − 1)).
+    """
+    order = np.argsort(-bend, kind="stable")
+    r, b = half[order], bend[order]
+    plain = 0.5 * r**2
+    size = np.where(r < _PLAIN, r**2 * np.maximum(0.5, 2 / 3 * r + 5 / 3 * r**2), plain)
+    own = np.where(r < _PLAIN, r**3 * np.minimum(4 / (9 * np.sqrt(3)), 2 / 3 * r) + 7 / 6 * r**4, plain)
+    before = np.concatenate([[1.0], np.cumprod(1 + 4 * size)[:-1]])
+    return float(b @ (own + size * (before - 1)))
+
+
 def norms_above(matrices: Array, cut: float) -> Array:
-    """Upper bounds of the spectral norms, (count,), close where they are above the cut."""
-    norms = np.sqrt(np.einsum("cij,cij->c", matrices, matrices))
+    """Upper bounds of the spectral norms, (count,), close where they are above the cut.
+
+    ‖A‖ ≤ (tr (A Aᵀ)^k)^(1/2k), and at most rows^(1/2k) times ‖A‖: k is doubled while that is above the cut.
+    """
+    sizes: Array = np.sqrt(np.einsum("cij,cij->c", matrices, matrices))
+    norms = sizes.copy()
     above = np.flatnonzero(norms > cut)
-    if len(above):
-        chosen = matrices[above]
-        gram = chosen @ np.swapaxes(chosen, 1, 2)
-        square = gram @ gram
-        norms[above] = np.einsum("cij,cij->c", square, square) ** 0.125
+    scaled = matrices[above] / sizes[above, None, None]
+    power = scaled @ np.swapaxes(scaled, 1, 2)
+    for k in _POWERS:
+        norms[above] = sizes[above] * np.einsum("cij,cij->c", power, power) ** (0.5 / k)
         still = norms[above] > cut
-        if still.any():
-            norms[above[still]] = np.sqrt(np.linalg.eigvalsh(gram[still])[:, -1])
+        above, power = above[still], power[still]
+        if k == _POWERS[-1] or not len(above):
+            break
+        power = power @ power
     return np.asarray(norms)
-
-
-def _angles(places: NDArray[np.intp], counts: Sequence[int]) -> list[Array]:
-    """The angles of places in a grid, rad."""
-    if not counts:
-        return []
-    index = np.unravel_index(places, tuple(counts))
-    return [2 * np.pi * place / count for place, count in zip(index, counts, strict=True)]

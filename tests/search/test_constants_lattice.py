@@ -11,7 +11,7 @@ from lyapcheck.constants import arm_constants
 from lyapcheck.constants.circles import Circles, basis
 from lyapcheck.constants.coriolis_chain import MOST_JOINTS, _bends, coriolis_bound
 from lyapcheck.constants.extreme import extreme
-from lyapcheck.constants.lattice import Lattice, norms_above
+from lyapcheck.constants.lattice import Lattice, norms_above, remainder
 from lyapcheck.constants.products import common_factor
 from lyapcheck.constants.quartic import quartic
 from lyapcheck.robots import RobotModel
@@ -55,6 +55,48 @@ def test_polynomials_pass_through_the_arm_everywhere() -> None:
             assert at(circles.bent(axis), q) == pytest.approx(bent, abs=1e-6)
 
 
+def test_what_second_derivatives_give_back_is_what_they_are(tmp_path: Path) -> None:
+    circles = polynomials(arm_of("leaning", tmp_path))
+    half, q = np.array([0.3, 0.2]), np.array([0, 1.0, -2.0])
+    bent = [circles.bent(axis) for axis in range(2)]
+    both = 0.25 * np.prod(half**2) * at(bent[0].bent(1), q)
+    parts = [0.5 * r**2 * at(part, q) for r, part in zip(half, bent, strict=True)]
+    assert at(circles.spread(half), q) == pytest.approx(at(circles, q) - sum(parts) + both)
+
+
+@pytest.mark.parametrize("counts", [(12, 12, 12), (8, 9, 14), (20, 7, 5), (9, 4, 3)])
+def test_no_largest_value_is_further_above_the_points_than_the_remainder(counts: tuple[int, ...]) -> None:
+    """Random polynomials, the lattice moved so that the largest value is anywhere in its cell."""
+    rng = np.random.default_rng(RNG_SEED)
+    fine = np.stack(np.meshgrid(*[np.linspace(0, 2 * np.pi, 31)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+
+    def values(circles: Circles, q: np.ndarray) -> np.ndarray:
+        return np.einsum("abcij,qa,qb,qc->q", circles.coefficients, *(basis(x) for x in q.T))
+
+    for _ in range(3):
+        coefficients = rng.normal(size=(5, 5, 5, 1, 1)) * rng.choice([1.0, 0.1], (5, 5, 5, 1, 1))
+        circles = Circles(coefficients, (1, 2, 3), 1.0)
+        bend = np.array([np.abs(values(circles.bent(axis), fine)).max() for axis in range(3)])
+        half = np.pi / np.array(counts)
+        spread = circles.spread(np.where(half < 0.5, half, 0.0))
+        largest = values(circles, fine).max()
+        for shift in rng.uniform(0, 1, (4, 3)):
+            circle = [2 * np.pi * (np.arange(n) + s) / n for n, s in zip(counts, shift, strict=True)]
+            points = np.stack(np.meshgrid(*circle, indexing="ij"), axis=-1).reshape(-1, 3)
+            assert largest <= values(spread, points).max() + remainder(half, bend)
+
+
+@pytest.mark.slow
+def test_other_factors_reach_what_one_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lyapcheck.constants.lattice._WORTH", 500)
+    arm = arm_of("px100", Path())
+    inside = float(extreme(arm, "k_c").value)
+    circles, target = polynomials(arm), inside / 0.95
+    lattice = Lattice(circles, _bends(circles, target), target, np.eye(10))
+    assert inside <= lattice.bound(10**6) <= target
+    assert lattice.factors
+
+
 def test_a_grid_has_the_values_of_its_points() -> None:
     rng = np.random.default_rng(RNG_SEED)
     circles = Circles(rng.normal(size=(5, 5, 5, 5, 2, 3)), (1, 2, 3, 4), 1.0)
@@ -93,7 +135,7 @@ def test_norms_are_never_too_small_and_close_above_the_cut() -> None:
     norms = np.linalg.norm(matrices, ord=2, axis=(1, 2))
     bounds = norms_above(matrices, 4.0)
     assert np.all(bounds >= norms * (1 - 1e-12))
-    assert bounds[bounds > 4.0] == pytest.approx(norms[bounds > 4.0])
+    assert bounds[bounds > 4.0] == pytest.approx(norms[bounds > 4.0], rel=3e-3)
     assert 0 < np.count_nonzero(bounds > 4.0) < len(bounds)
 
 
@@ -131,7 +173,7 @@ def test_what_is_too_small_is_never_shown(share: float, most: int, tmp_path: Pat
     target = share * inside
     circles = polynomials(arm)
     bend = np.full(len(circles.angles), 4 * target)
-    assert Lattice(circles, bend, target, target).bound(most) >= inside
+    assert Lattice(circles, bend, target).bound(most) >= inside
 
 
 def test_second_derivatives_stay_below_their_bounds() -> None:
