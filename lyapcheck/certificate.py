@@ -5,12 +5,19 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, fields, is_dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.metadata import version
 from typing import Any
 
 from lyapcheck.check import certificate as read
 from lyapcheck.check.certificate import SCHEMA, canonical, digest_of_text
 from lyapcheck.check.codec import TAGS, name_of
+
+
+@cache
+def versions() -> dict[str, str]:
+    """What the certificates of this process are made with."""
+    return {name: version(name) for name in ("lyapcheck", "python-flint")}
 
 
 @dataclass(frozen=True)

@@ -45,4 +45,14 @@ class InputError(Exception):
 
 def argument_error(name: str, value: object, rule: str, repair: str) -> InputError:
     """The error for a single bad argument of a command or a function."""
-    return InputError(Problem("argument", None, name, str(value), rule, repair))
+    return InputError(argument_problem(name, value, rule, repair))
+
+
+def argument_problem(name: str, value: object, rule: str, repair: str) -> Problem:
+    """What is wrong with one argument, to be said with what is wrong with others."""
+    return Problem("argument", None, name, str(value), rule, repair)
+
+
+def file_error(name: str, rule: str, repair: str) -> InputError:
+    """The error for a file that cannot be used as a whole."""
+    return InputError(Problem(name, None, "file", "", rule, repair))

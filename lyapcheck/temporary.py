@@ -32,6 +32,13 @@ def temporary_folder() -> Iterator[str]:
         yield folder
 
 
+def work_in(place: str) -> None:
+    """Put the temporary files of this process where who started it can remove them."""
+    import tempfile
+
+    tempfile.tempdir = place
+
+
 def try_writing(folder: str | Path) -> None:
     """Write some bytes into a folder and take them back, to know before long work that its result will fit.
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.metadata import version
 
-from lyapcheck.certificate import Certificate
+from lyapcheck.certificate import Certificate, versions
 from lyapcheck.check.certificate import About
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.proposal import Proposal
@@ -38,8 +37,3 @@ def file_name(claim: str, m: int | None) -> str:
     """``7a.m2.json`` for claim 7a and m = 2; characters that some file system refuses are escaped."""
     name = file_stem(claim)
     return f"{name}.json" if m is None else f"{name}.m{m}.json"
-
-
-def versions() -> dict[str, str]:
-    """What the certificates were made with."""
-    return {name: version(name) for name in ("lyapcheck", "python-flint")}

@@ -10,8 +10,6 @@ from fractions import Fraction
 from lyapcheck.check.expressions.expression import Tree, derivative, substitute
 from lyapcheck.check.statement import Relation
 
-Operand = "Expr | Fraction | int | str | Decimal"
-
 
 class Multiplied:
     """What a number can multiply and is none itself: vectors and matrices."""

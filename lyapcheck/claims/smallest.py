@@ -14,7 +14,7 @@ from itertools import product
 from math import sqrt
 from typing import Any
 
-from lyapcheck.certificate import Certificate
+from lyapcheck.certificate import Certificate, versions
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.witness import Comparison
@@ -25,7 +25,6 @@ from lyapcheck.check.kinds.norm_bound import NormBound, vector_relation
 from lyapcheck.check.kinds.norm_bound import entries as entries_of
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable
 from lyapcheck.claims.ask import ask
-from lyapcheck.claims.certificates import versions
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.claims.handover import CaseData, Key, ScriptRequest
 from lyapcheck.claims.procedures.implication import bound_of

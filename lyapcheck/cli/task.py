@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.angles import parse_angles
 from lyapcheck.cli.eps0 import CERTIFIED, Eps0
 from lyapcheck.cli.output import open_folder, require_writable
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error, argument_problem
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -108,7 +108,7 @@ class TypedTask:
         problems: list[Problem] = []
         if self.eps0.certified:
             repair = "leave --eps0 out: one that is proved for (21) is taken"
-            problems.append(_wrong("--eps0", CERTIFIED, "is for tasks without --reference", repair))
+            problems.append(argument_problem("--eps0", CERTIFIED, "is for tasks without --reference", repair))
         number = self.eps0.number
         home = _home(model)
         q0 = _angles("--start", home if self.start is None else self.start, model, problems)
@@ -134,11 +134,15 @@ def starts_of(runs: int, spread: float | None, seed: int | None) -> Starts:
     problems = []
     size, number = SPREAD if spread is None else spread, 0 if seed is None else seed
     if not 1 <= runs <= MOST_RUNS:
-        problems.append(_wrong("--runs", runs, f"must be from 1 to {MOST_RUNS}", "write --runs 1000"))
+        problems.append(
+            argument_problem("--runs", runs, f"must be from 1 to {MOST_RUNS}", "write --runs 1000")
+        )
     if not 0.0 <= size <= 360.0:
-        problems.append(_wrong("--spread", size, "must be from 0 to 360 degrees", "write --spread 45"))
+        problems.append(
+            argument_problem("--spread", size, "must be from 0 to 360 degrees", "write --spread 45")
+        )
     if number < 0:
-        problems.append(_wrong("--seed", number, "must not be negative", "write --seed 0"))
+        problems.append(argument_problem("--seed", number, "must not be negative", "write --seed 0"))
     if problems:
         raise InputError(problems)
     return Starts(runs, math.radians(size), number)
@@ -151,12 +155,12 @@ def check_options(given: Collection[str]) -> None:
         InputError: every such pair.
     """
     problems = [
-        _wrong(name, "", f"has a meaning with {needed} only", f"add {needed}, or leave {name} out")
+        argument_problem(name, "", f"has a meaning with {needed} only", f"add {needed}, or leave {name} out")
         for name, needed in _NEEDS.items()
         if name in given and needed not in given
     ]
     problems += [
-        _wrong(second, "", f"cannot go with {first}", "leave one of them out")
+        argument_problem(second, "", f"cannot go with {first}", "leave one of them out")
         for first, second in _CLASHES
         if first in given and second in given
     ]
@@ -180,10 +184,6 @@ def check_places(csv: str | None, plot: Path | None) -> None:
 
 def _renamed(problem: Problem) -> Problem:
     return replace(problem, key=_OPTIONS[problem.key])
-
-
-def _wrong(option: str, value: object, rule: str, repair: str) -> Problem:
-    return Problem("argument", None, option, str(value), rule, repair)
 
 
 def _angles(option: str, text: str, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:

@@ -51,3 +51,13 @@ def judged_statement(statement: Statement, proofs: Iterable[Proof]) -> JudgedSta
         else:
             return JudgedStatement(statement, proof, result.verdict, result.grade, "")
     return JudgedStatement(statement, None, UNDECIDED, "", reason)
+
+
+def proves(statement: Statement, proof: Proof) -> bool:
+    """Whether the checker accepts a proof of a statement."""
+    return judged_statement(statement, [proof]).shown == "proved"
+
+
+def refutes(statement: Statement, proof: Proof) -> bool:
+    """Whether the checker accepts a refutation of a statement."""
+    return judged_statement(statement, [proof]).shown == "refuted"

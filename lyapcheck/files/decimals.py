@@ -102,9 +102,20 @@ def round_down(value: Fraction, places: int) -> Fraction:
 
 
 def significant_down(value: Fraction, digits: int) -> Fraction:
-    """The largest decimal of so many significant digits that is not above a positive number."""
-    scale = Fraction(10) ** (digits - 1 - math.floor(math.log10(value)))
-    return Fraction(math.floor(value * scale)) / scale
+    """The largest decimal of so many significant digits that is not above a number ≥ 0."""
+    unit = _last_unit(value, digits)
+    return math.floor(value / unit) * unit
+
+
+def significant_up(value: Fraction, digits: int) -> Fraction:
+    """The smallest decimal of so many significant digits that is not below a number ≥ 0."""
+    unit = _last_unit(value, digits)
+    return math.ceil(value / unit) * unit
+
+
+def _last_unit(value: Fraction, digits: int) -> Fraction:
+    """What the last of so many significant digits counts."""
+    return Fraction(10) ** ((math.floor(math.log10(value)) if value else 0) + 1 - digits)
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:

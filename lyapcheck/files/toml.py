@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import InputError, Problem, file_error
 from lyapcheck.files.decimals import written
 from lyapcheck.files.place import KeyPath, Place
 from lyapcheck.files.places import places
@@ -69,7 +69,7 @@ def open_document(path: Path, shown: str | None = None) -> TomlFile:
     except tomllib.TOMLDecodeError as error:
         raise _syntax(name, str(error), text) from None
     except RecursionError:
-        raise _refused(name, "is nested too deeply", "write plain tables and lists") from None
+        raise file_error(name, "is nested too deeply", "write plain tables and lists") from None
     except ValueError:
         raise _too_long(name, text) from None
 
@@ -77,24 +77,20 @@ def open_document(path: Path, shown: str | None = None) -> TomlFile:
 def _text(path: Path, name: str) -> str:
     try:
         if path.is_dir():
-            raise _refused(name, "is a folder", "name a file in it")
+            raise file_error(name, "is a folder", "name a file in it")
         if path.stat().st_size > LARGEST_FILE:
-            raise _refused(name, f"is larger than {LARGEST_FILE} bytes", "split it into several files")
+            raise file_error(name, f"is larger than {LARGEST_FILE} bytes", "split it into several files")
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise _refused(name, "is not UTF-8 text", "save it as UTF-8") from None
+        raise file_error(name, "is not UTF-8 text", "save it as UTF-8") from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise _refused(name, f"cannot be read ({reason})", "check the path") from None
+        raise file_error(name, f"cannot be read ({reason})", "check the path") from None
 
 
 def _sayable(name: str) -> str:
     """A file name that can be written out, whatever bytes it has on disk."""
     return name.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
-def _refused(name: str, rule: str, repair: str) -> InputError:
-    return InputError(Problem(name, None, "file", "", rule, repair))
 
 
 def _too_long(name: str, text: str) -> InputError:

@@ -16,6 +16,7 @@ import casadi as ca
 from lyapcheck.family import Family
 from lyapcheck.lyapunov import quadratic
 from lyapcheck.robots import graph
+from lyapcheck.robots.graph import matrix
 from lyapcheck.robots.plant import Plant
 
 
@@ -151,12 +152,12 @@ def _form(s: _State, D: Any) -> Any:
     """Q with h(w) = D w."""
     damped, S = _damped(s, D), _coupling(s)
     X, Y = quadratic.x_matrix(damped, S, s.eps), quadratic.y_matrix(damped, S, s.eps)
-    return _matrix(quadratic.quadratic_form(_entries(s.kp), X, Y, ca.sqrt(s.eps)))
+    return matrix(quadratic.quadratic_form(_entries(s.kp), X, Y, ca.sqrt(s.eps)))
 
 
 def _fast(s: _State, D: Any) -> Any:
     """Y with a given D."""
-    return _matrix(quadratic.y_matrix(_damped(s, D), _coupling(s), s.eps))
+    return matrix(quadratic.y_matrix(_damped(s, D), _coupling(s), s.eps))
 
 
 def _damped(s: _State, D: Any) -> list[Any]:
@@ -176,7 +177,3 @@ def _entries(column: Any) -> list[Any]:
 
 def _rows(matrix: Any) -> list[list[Any]]:
     return [[matrix[i, j] for j in range(matrix.size2())] for i in range(matrix.size1())]
-
-
-def _matrix(rows: list[list[Any]]) -> Any:
-    return ca.vertcat(*[ca.horzcat(*row) for row in rows])

@@ -22,11 +22,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isqrt
 from typing import Protocol
 
 from flint import arb
 
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
@@ -86,13 +86,6 @@ class RobotBounds:
     lambda_min_M: Fraction | None = None
 
 
-def root_above(n: int) -> Fraction:
-    """A rational not below √n, within 10⁻¹²."""
-    scale = 10**12
-    root = isqrt(n * scale * scale)
-    return Fraction(root if root * root == n * scale * scale else root + 1, scale)
-
-
 def scalar_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm | None:
     """Θ' with every irrational constant replaced by a rational on the safe side; ``None`` if h is unbounded.
 
@@ -100,7 +93,7 @@ def scalar_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotB
     """
     if constants.gamma is None:
         return None
-    norm_h = root_above(len(gains.kp)) * _up(constants.gamma)
+    norm_h = root_above(Fraction(len(gains.kp))) * _up(constants.gamma)
     rho, L = _up(constants.rho), _up(constants.L)
     G = norm_h * L / (L + norm_h)
     return ScalarForm(
@@ -126,7 +119,7 @@ def sharp_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBo
     rho, L = _up(constants.rho), _up(constants.L)
     G = L
     if constants.gamma is not None:
-        norm_h = root_above(len(gains.kp)) * _up(constants.gamma)
+        norm_h = root_above(Fraction(len(gains.kp))) * _up(constants.gamma)
         G = norm_h * L / (L + norm_h)
     low, high = _PER_DEGREE if gains.angle_unit == "deg" else (Fraction(1), Fraction(1))
     return ScalarForm(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
@@ -30,7 +29,7 @@ from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.report.kept import question, read, written
 from lyapcheck.report.model import behind
 from lyapcheck.robots import load
-from lyapcheck.temporary import pending
+from lyapcheck.temporary import pending, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
@@ -64,7 +63,7 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
 def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
     """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
-    pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), _work_in)
+    pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
@@ -104,11 +103,6 @@ def _behind_own(proof: str, rows: Sequence[ClaimRow], notes: Notes) -> set[str]:
     """The claims that a report on an arm of one's own has, and all that they rest on."""
     own = [row for row in rows if row.proof == proof]
     return set().union(*(behind(name, own) for name in notes.own.get(proof, ())))
-
-
-def _work_in(place: str) -> None:
-    """Put the temporary files of this process where who started it can remove them."""
-    tempfile.tempdir = place
 
 
 @dataclass(frozen=True)

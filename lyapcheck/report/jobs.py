@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.files.decimals import significant_down, significant_up
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
@@ -174,9 +175,7 @@ def rounded(value: Fraction | None, up: bool) -> str | None:
     """A positive number to ``DIGITS`` significant digits, not above it, or not below it with ``up``."""
     if value is None:
         return None
-    scale = Fraction(10) ** (DIGITS - 1 - math.floor(math.log10(value)))
-    whole = math.ceil(value * scale) if up else math.floor(value * scale)
-    return f"{float(Fraction(whole) / scale):.{DIGITS}g}"
+    return f"{float((significant_up if up else significant_down)(value, DIGITS)):.{DIGITS}g}"
 
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import file_error
 from lyapcheck.files.toml import TomlFile, open_document
 
 LARGEST_ARM_FILE = 1_000_000
@@ -18,11 +18,7 @@ def open_arm(path: Path, shown: str) -> TomlFile:
         InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
     """
     if path.suffix.lower() != ".toml" and not path.is_dir():
-        raise _refused(shown, "is no arm file", "give the path of a .toml or .urdf file")
+        raise file_error(shown, "is no arm file", "give the path of a .toml or .urdf file")
     if path.is_file() and path.stat().st_size > LARGEST_ARM_FILE:
-        raise _refused(shown, f"is larger than {LARGEST_ARM_FILE} bytes", "give an arm of one page")
+        raise file_error(shown, f"is larger than {LARGEST_ARM_FILE} bytes", "give an arm of one page")
     return open_document(path, shown)
-
-
-def _refused(shown: str, rule: str, repair: str) -> InputError:
-    return InputError(Problem(shown, None, "file", "", rule, repair))

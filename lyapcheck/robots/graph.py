@@ -15,13 +15,13 @@ Parameters = Mapping[str, ca.SX] | None
 
 def mass(model: Plant, q: ca.SX, parameters: Parameters = None) -> ca.SX:
     """M(q), (n, n) in kg·m², for a column q of joint angles in rad."""
-    return _matrix(model.mass_at(*_circle(model, q), _lift, parameters))
+    return matrix(model.mass_at(*_circle(model, q), _lift, parameters))
 
 
 def coriolis(model: Plant, q: ca.SX, x: ca.SX, parameters: Parameters = None) -> ca.SX:
     """C(q, x) of the Christoffel symbols, (n, n) in kg·m²/s, for columns q in rad and x in rad/s."""
     rates = [x[i] for i in range(model.n)]
-    return _matrix(model.coriolis_at(*_circle(model, q), rates, _lift, parameters))
+    return matrix(model.coriolis_at(*_circle(model, q), rates, _lift, parameters))
 
 
 def gravity(model: Plant, q: ca.SX, parameters: Parameters = None) -> ca.SX:
@@ -55,5 +55,6 @@ def _lift(value: Fraction) -> ca.SX:
     return ca.SX(float(value))
 
 
-def _matrix(rows: list[list[ca.SX]]) -> ca.SX:
+def matrix(rows: list[list[ca.SX]]) -> ca.SX:
+    """The matrix of some rows."""
     return ca.vertcat(*[ca.horzcat(*row) for row in rows])

@@ -8,6 +8,7 @@ from itertools import islice, product
 
 from flint import fmpq, fmpq_mat
 
+from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import Notes
 from lyapcheck.robots.model import RobotModel
@@ -37,8 +38,8 @@ def impossible_state(model: RobotModel) -> str:
         tangents = [_tangent(state, joint) for joint in range(model.n)]
         sin = [2 * t / (1 + t * t) for t in tangents]
         cos = [(1 - t * t) / (1 + t * t) for t in tangents]
-        parameters = {name: _lift(value) for name, value in corner.items()}
-        if not _positive_definite(model.mass_at(sin, cos, _lift, parameters)):
+        parameters = {name: rational(value) for name, value in corner.items()}
+        if not _positive_definite(model.mass_at(sin, cos, rational, parameters)):
             where = [f"cos q{i + 1} = {value}" for i, value in enumerate(cos)]
             where += [f"{name} = {decimal_text(value)}" for name, value in corner.items()]
             return f"makes M not positive definite, e.g. at {', '.join(where)}"
@@ -55,10 +56,6 @@ def _corners(model: RobotModel) -> Iterator[dict[str, Fraction]]:
 def _tangent(state: int, joint: int) -> fmpq:
     """tan(q/2) of a joint: 0 everywhere in the first state, then spread over the circle."""
     return fmpq((state * (2 * joint + 3)) % 23, 5) * (-1 if state % 2 else 1)
-
-
-def _lift(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
 
 
 def _positive_definite(rows: list[list[fmpq]]) -> bool:

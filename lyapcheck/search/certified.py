@@ -11,6 +11,7 @@ from time import monotonic
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.proof import MOST_CENTRED
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -109,7 +110,7 @@ class _Search:
         """What the search believes to be proofs, up to the first share for which there is none."""
         result: list[DecreaseProof] = []
         for share in shares:
-            loop = self.controlled.loop(_rounded_down(self.ceiling * share))
+            loop = self.controlled.loop(significant_down(self.ceiling * share, DIGITS))
             if not loop.admissible:
                 self.reason = f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
                 return result
@@ -144,9 +145,3 @@ def _advice(reason: str, eps0: Fraction, max_boxes: int) -> str:
     if reason == RESISTS:
         return f"{tried}: the bound fails at one state, so more boxes would not help"
     return f"{tried}: {reason}"
-
-
-def _rounded_down(value: Fraction) -> Fraction:
-    places = DIGITS - 1 - math.floor(math.log10(value))
-    scale = Fraction(10) ** places
-    return Fraction(math.floor(value * scale)) / scale

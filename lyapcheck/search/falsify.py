@@ -17,6 +17,7 @@ from lyapcheck._types import SEED, Array, Progress, silent
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.files.decimals import significant_up
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import (
     States,
@@ -188,7 +189,7 @@ def _exact(row: Array) -> tuple[Fraction, ...]:
 def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> RisingState | None:
     """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
     for slack in _SLACKS:
-        eps0 = round_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
+        eps0 = significant_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
         if (witness := confirmed(controlled, eps0, kind, state)) is not None:
             return witness
     return None
@@ -201,9 +202,3 @@ def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State
     with precision(_SHOWN_BITS):
         shown = rate(controlled.arm, controlled.controller, eps0, state, _SHOWN_BITS)
         return RisingState(eps0, state, Enclosure.from_arb(shown), kind)
-
-
-def round_up(value: Fraction, digits: int) -> Fraction:
-    """The smallest decimal of so many significant digits that is not below a positive number."""
-    places = digits - 1 - math.floor(math.log10(value))
-    return Fraction(math.ceil(value * Fraction(10) ** places)) / Fraction(10) ** places

@@ -9,8 +9,7 @@ import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
@@ -24,17 +23,10 @@ def unphysical(controlled: ControlledArm) -> str:
     """Why no V of this arm is a Lyapunov function, in one sentence; empty where M(q) ≻ 0 is proved."""
     loop = controlled.loop(Fraction(1))
     statement = MassAbove(loop.arm.mass, loop.parameters, Fraction(0))
-    try:
-        if verify(statement, controlled.inertia_proof).verdict == "proved":
-            return ""
-    except Refused:
-        pass
+    if proves(statement, controlled.inertia_proof):
+        return ""
     against = _against(controlled, loop.parameters)
-    try:
-        refuted = against is not None and verify(statement, against).verdict == "refuted"
-    except Refused:
-        refuted = False
-    if against is None or not refuted:
+    if against is None or not refutes(statement, against):
         return "M(q) is not shown to be positive definite; lyapcheck robot says what is known of the arm"
     q = ", ".join(map(decimal_text, against.q))
     return f"M(q) is not positive definite at q = ({q}) rad; correct the masses and inertias"

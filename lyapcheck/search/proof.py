@@ -16,9 +16,8 @@ from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.processes import shared_between
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import proves
 
 RateData = BoxTree | LinkBounds
 """What may show dV/dt < 0."""
@@ -58,8 +57,5 @@ class DecreaseProof:
 
     def accepted(self, jobs: int = 1) -> bool:
         """Whether the checker accepts it, in so many processes."""
-        try:
-            with shared_between(jobs):
-                return verify(self.statement, self.certificate).verdict == "proved"
-        except Refused:
-            return False
+        with shared_between(jobs):
+            return proves(self.statement, self.certificate)

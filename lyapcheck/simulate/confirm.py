@@ -8,12 +8,13 @@ References: ``reyes2019family`` (6), (11), (12), (21); ``johansson2017arb``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from flint import arb
 
+from lyapcheck.check.kinds.inertia import dot
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -77,7 +78,7 @@ def torques(controlled: ControlledArm, at: Sample) -> list[arb]:
     for i, (e, x) in enumerate(zip(_balls(at.e), w, strict=True)):
         spring = to_arb(controlled.gains.kp[i]) * unit * functions.h(e)
         damper = to_arb(controlled.gains.kv[i]) * unit * functions.h(x)
-        lead = _dot(mass[i], acceleration) + _dot(coriolis[i], speed)
+        lead = dot(mass[i], acceleration) + dot(coriolis[i], speed)
         result.append(spring - damper + lead + gravity[i] + to_arb(controlled.arm.viscous[i]) * speed[i])
     return result
 
@@ -88,10 +89,10 @@ def reference_term(controlled: ControlledArm, eps0: float, at: Sample) -> arb:
         return arb(0)
     e, w = _balls(at.e), _balls(at.w)
     h = [controlled.controller.functions.h(x) for x in e]
-    eps = to_arb(Fraction(eps0)) / (1 + _dot(e, e).sqrt())
+    eps = to_arb(Fraction(eps0)) / (1 + dot(e, e).sqrt())
     y = [a - eps * b for a, b in zip(w, h, strict=True)]
     coriolis = controlled.fixed.coriolis_at(*_turns(at), _balls(at.speed), to_arb)
-    return -eps * _dot(y, [_dot(row, h) for row in coriolis])
+    return -eps * dot(y, [dot(row, h) for row in coriolis])
 
 
 def _proved(value: Callable[[int], arb]) -> bool:
@@ -121,7 +122,3 @@ def _moving(row: Row, at: Sample) -> list[arb]:
 def _turns(at: Sample) -> tuple[list[arb], list[arb]]:
     angles = _balls(at.q)
     return [x.sin() for x in angles], [x.cos() for x in angles]
-
-
-def _dot(x: Sequence[arb], y: Sequence[arb]) -> arb:
-    return sum((a * b for a, b in zip(x, y, strict=True)), arb(0))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import InputError, Problem, argument_problem
 
 LONGEST = 3600.0
 """Seconds of motion that one run may cover."""
@@ -74,13 +74,15 @@ def task_for(
     ]
     if not SHORTEST <= T <= LONGEST:
         rule = f"must be from {SHORTEST:g} to {LONGEST:g} s"
-        problems.append(_problem("T", T, rule, "give seconds, for instance 5"))
+        problems.append(argument_problem("T", T, rule, "give seconds, for instance 5"))
     if eps0 is not None and not 0.0 <= eps0 <= LARGEST_EPS0:
         rule = f"must be from 0 to {LARGEST_EPS0:g}"
-        problems.append(_problem("eps0", eps0, rule, "give the ε₀ of V, for instance 0.01"))
+        problems.append(argument_problem("eps0", eps0, rule, "give the ε₀ of V, for instance 0.01"))
     if not 2 <= points <= MOST_POINTS:
         problems.append(
-            _problem("points", points, f"must be from 2 to {MOST_POINTS}", "give the number of samples")
+            argument_problem(
+                "points", points, f"must be from 2 to {MOST_POINTS}", "give the number of samples"
+            )
         )
     if problems:
         raise InputError(problems)
@@ -88,10 +90,6 @@ def task_for(
     return Task(
         _floats(q_d), zeros if q0 is None else _floats(q0), zeros if w0 is None else _floats(w0), float(T)
     )
-
-
-def _problem(key: str, value: object, rule: str, repair: str) -> Problem:
-    return Problem("argument", None, key, str(value), rule, repair)
 
 
 def _floats(values: Sequence[float]) -> tuple[float, ...]:
@@ -106,11 +104,11 @@ def _vector_problems(
     text = ", ".join(f"{float(x):g}" for x in values)
     if len(values) != n:
         rule = f"has {len(values)} values, but the arm has {n} joints"
-        return [_problem(name, text, rule, f"give {n} values, one a joint")]
+        return [argument_problem(name, text, rule, f"give {n} values, one a joint")]
     if all(math.isfinite(x) and abs(x) <= most for x in values):
         return []
     rule = f"every value must be finite and at most {most:g} {unit} in size"
-    return [_problem(name, text, rule, f"give values in {unit}")]
+    return [argument_problem(name, text, rule, f"give values in {unit}")]
 
 
 _QUARTER = math.pi / 4

@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
-from lyapcheck.answers.gate.words import significant_down
+from lyapcheck.answers.gate.words import significant_text
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.annotations import Level
@@ -254,7 +254,7 @@ def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path: Path) -> None:
 
 @given(st.fractions(), st.integers(1, 12))
 def test_a_margin_is_never_shown_larger_than_it_is(value: Fraction, digits: int) -> None:
-    shown = Fraction(significant_down(value, digits))
+    shown = Fraction(significant_text(value, digits))
     assert shown <= value
     if value:
         assert value - shown <= max(abs(value) * Fraction(10) ** (1 - digits), Fraction(1, 10**40))

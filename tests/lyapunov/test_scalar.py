@@ -12,9 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family, robots
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, root_above, scalar_form, sharp_form
+from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.scalar_program import scalar_epsilon
 from tests.helpers.shares import one_in
@@ -146,8 +147,8 @@ def test_gains_per_degree_are_rounded_to_the_safe_side() -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 6, 7])
 def test_root_is_rounded_up_and_tight(n: int) -> None:
-    assert root_above(n) ** 2 >= n
-    assert (root_above(n) - Fraction(1, 10**12)) ** 2 < n
+    assert root_above(Fraction(n)) ** 2 >= n
+    assert (root_above(Fraction(n)) - Fraction(1, 10**12)) ** 2 < n
 
 
 def _thetas(form: ScalarForm, eps: np.ndarray) -> list[tuple[Fraction, ...]]:

@@ -11,9 +11,10 @@ import pytest
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.control.gains import GainSet
 from lyapcheck.errors import InputError
+from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.falsify import RisingState, falsify, round_up
+from lyapcheck.search.falsify import RisingState, falsify
 from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
 from lyapcheck.search.worst_states import expressions, fast_states, finite_states, level_states
 from tests.helpers.shares import one_in
@@ -178,8 +179,8 @@ def test_wrong_number_of_joints_is_an_input_error() -> None:
         ("0.00100000001", 3, "0.00101"),
     ],
 )
-def test_round_up(value: str, digits: int, expected: str) -> None:
-    assert round_up(F(value), digits) == F(expected)
+def test_significant_up(value: str, digits: int, expected: str) -> None:
+    assert significant_up(F(value), digits) == F(expected)
 
 
 def test_ball_of_the_witness_is_narrow() -> None:

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
-from importlib.metadata import version
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.words import RULES, joint_name
-from lyapcheck.certificate import Certificate
+from lyapcheck.certificate import Certificate, versions
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
@@ -143,9 +142,3 @@ def _missing(gravity: Sequence[Certificate | None]) -> Iterator[int]:
 
 def _file(certificate: Certificate) -> str:
     return f"{file_stem(certificate.claim.id)}.json"
-
-
-@cache
-def versions() -> dict[str, str]:
-    """What the certificates were made with."""
-    return {name: version(name) for name in ("lyapcheck", "python-flint")}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.certificates import PROOF, gravity_bounds_of, versions
+from lyapcheck.answers.gate.certificates import PROOF, gravity_bounds_of
 from lyapcheck.answers.gate.words import joint_name
-from lyapcheck.certificate import Certificate
+from lyapcheck.certificate import Certificate, versions
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.statement import Proof

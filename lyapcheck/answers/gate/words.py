@@ -45,16 +45,16 @@ def value_text(check: Check) -> str:
     return "none" if check.value is None else decimal_text(check.value)
 
 
-def limit_text(check: Check, digits: int = 6) -> str:
-    """The limit to a few digits, all correct; ``none`` where there is no limit."""
+def limit_text(check: Check) -> str:
+    """The limit to six digits, all correct; ``none`` where there is no limit."""
     if check.id not in _SUBJECTS:
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
-    return "none" if check.limit is None else _digits(check.limit, digits)
+    return "none" if check.limit is None else _digits(check.limit)
 
 
 @lru_cache(maxsize=256)  # joints and sets share limits
-def _digits(limit: Enclosure, digits: int) -> str:
-    return correct_digits(limit, digits)
+def _digits(limit: Enclosure) -> str:
+    return correct_digits(limit, 6)
 
 
 def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
@@ -83,7 +83,7 @@ def margin_text(check: Check, digits: int = 4) -> str:
     return _down(a * d - b * c, b * d, digits)  # which need not be in lowest terms
 
 
-def significant_down(value: Fraction, digits: int) -> str:
+def significant_text(value: Fraction, digits: int) -> str:
     """A decimal of a few significant digits that is not above ``value``."""
     return _down(value.numerator, value.denominator, digits)
 

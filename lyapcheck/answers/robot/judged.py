@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lyapcheck.certificate import Certificate
+from lyapcheck.certificate import Certificate, versions
 from lyapcheck.check.certificate import About
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.certificates import versions
 from lyapcheck.claims.decision import Decision, decided
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.claims.handover import Key

@@ -12,7 +12,7 @@ import numpy as np
 from lyapcheck.answers.simulate.numbers import NONE, cell, plain, plains, row
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 
@@ -36,7 +36,10 @@ class TrackingRuns(Simulation[TrackingRun]):
 
     def opening(self) -> Sequence[Block]:
         """The reference."""
-        return [Paragraph(f"Reference: {text}.") for text in dict.fromkeys(map(_reference, self.results))]
+        return [
+            Paragraph(f"Reference: {text}.")
+            for text in dict.fromkeys(one.reference.sentence for one in self.results)
+        ]
 
     def legend(self) -> Sequence[str]:
         """What a promise is."""
@@ -113,10 +116,6 @@ class TrackingRuns(Simulation[TrackingRun]):
             }
             for i, joint in enumerate(one.joints)
         ]
-
-
-def _reference(one: TrackingRun) -> str:
-    return one.reference.sentence
 
 
 def _headline(one: TrackingRun) -> str:
@@ -211,7 +210,4 @@ def _double_above(value: Fraction) -> float:
 
 def up(value: Fraction) -> str:
     """A bound in four digits, never rounded down."""
-    if value <= 0:
-        return "0"
-    scale = Fraction(10) ** (3 - math.floor(math.log10(value)))
-    return f"{float(math.ceil(value * scale) / scale):.4g}"
+    return "0" if value <= 0 else f"{float(significant_up(value, 4)):.4g}"

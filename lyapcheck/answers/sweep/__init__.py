@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.sweep.ask import batches
-from lyapcheck.answers.sweep.local import cores
 from lyapcheck.answers.sweep.plan import Plan
 from lyapcheck.answers.sweep.question import Answered, Row
 from lyapcheck.answers.sweep.reader import read_plan
+from lyapcheck.compiled.threads import processors
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -91,7 +91,7 @@ def sweep(
         'accepted'
     """
     read: Any = plan if isinstance(plan, Plan) else read_plan(plan)
-    result = asked(read, cores() if workers is None else workers, scheduler)
+    result = asked(read, processors() if workers is None else workers, scheduler)
     if out is not None:
         from lyapcheck.answers.sweep.folder import Folder
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -13,16 +11,11 @@ from multiprocessing import get_context
 from lyapcheck.answers.sweep.ask import Batch, ask, failed
 from lyapcheck.answers.sweep.question import Answered
 from lyapcheck.check.loop.processes import main_unnamed
-from lyapcheck.temporary import temporary_folder
+from lyapcheck.temporary import temporary_folder, work_in
 
 AHEAD = 16
 """Batches a worker that may be under way, or done and waiting for an earlier one that takes longer."""
 KILLED = "the process that worked on it was killed; is the memory enough?"
-
-
-def cores() -> int:
-    """Those that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def answers(batches: Iterable[Batch], workers: int, jobs: int = 1) -> Iterator[list[Answered]]:
@@ -92,9 +85,4 @@ def _submitted(pool: ProcessPoolExecutor, batch: Batch, jobs: int) -> Future[lis
 
 def _pool(workers: int, place: str) -> ProcessPoolExecutor:
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
-    return ProcessPoolExecutor(workers, get_context("spawn"), _work_in, (place,))
-
-
-def _work_in(place: str) -> None:
-    """Put the temporary files of a process where who started it can remove them."""
-    tempfile.tempdir = place
+    return ProcessPoolExecutor(workers, get_context("spawn"), work_in, (place,))

@@ -10,10 +10,9 @@ from lyapcheck._types import SEED
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.output.digits import decimals
 
 METHOD = "gravity"
@@ -23,17 +22,17 @@ SAMPLES = 400
 @procedure(GravityBelow)
 def find_gravity_below(statement: GravityBelow) -> SearchResult:
     """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
-    if _verdict(statement, HarmonicSizes()):
+    if proves(statement, HarmonicSizes()):
         return shown(HarmonicSizes(), f"{METHOD}: {HarmonicSizes.rule}")
     worst = max((_sampled(statement, k) for k in range(SAMPLES)), key=lambda row: row[0])
-    if _verdict(statement, worst[1]):
+    if refutes(statement, worst[1]):
         point = {f"q{i + 1}": str(angle) for i, angle in enumerate(worst[1].q)}
         point |= {f"p{i + 1}": str(end) for i, end in enumerate(worst[1].parameters)}
         left = list(decimals(Enclosure.exact(Fraction(worst[0])), 6))
         right = list(decimals(Enclosure.exact(statement.high), 12))
         witness = {"point": point, "left": left, "operator": "<=", "right": right}
         return broken(worst[1], f"{METHOD}: a posture", witness)
-    if _verdict(statement, Bisection()):
+    if proves(statement, Bisection()):
         return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
     return still_open("it is not shown, and no posture breaks it; take a larger bound", METHOD)
 
@@ -44,10 +43,3 @@ def _sampled(statement: GravityBelow, k: int) -> tuple[float, PostureWitness]:
     ends = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
     values = [float(value) for value in statement.at(q, ends)]
     return float(np.linalg.norm(values)), PostureWitness(q, ends, ())
-
-
-def _verdict(statement: GravityBelow, proof: Bisection | HarmonicSizes | PostureWitness) -> str:
-    try:
-        return verify(statement, proof).verdict
-    except Refused:
-        return ""

@@ -24,11 +24,10 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.verify import verify
+from lyapcheck.check.statement import Proof
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
@@ -56,21 +55,14 @@ def find_upper(statement: MassBelow | CoriolisBelow) -> SearchResult:
 def _found(statement: OfArm, quick: list[Proof], advice: str) -> SearchResult:
     """Boxes come last: where the statement is false they end only with their budget."""
     for proof in quick:
-        if _verdict(statement, proof) == "proved":
+        if proves(statement, proof):
             return shown(proof, f"{METHOD}: {proof.rule}")
     for against in _postures(statement):
-        if _verdict(statement, against) == "refuted":
+        if refutes(statement, against):
             return broken(against, f"{METHOD}: a posture", _witness(statement, against))
-    if len(statement.mass) <= MOST_BOXES_JOINTS and _verdict(statement, Bisection()) == "proved":
+    if len(statement.mass) <= MOST_BOXES_JOINTS and proves(statement, Bisection()):
         return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
     return still_open(f"it is not shown, and no posture breaks it; {advice}", METHOD)
-
-
-def _verdict(statement: Statement, proof: Proof) -> str:
-    try:
-        return verify(statement, proof).verdict
-    except Refused:
-        return ""
 
 
 def _postures(statement: OfArm) -> Iterator[PostureWitness]:

@@ -10,11 +10,9 @@ from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.verify import verify
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
@@ -41,20 +39,13 @@ def find_nearby(statement: DecreasingNearby) -> SearchResult:
 def find_resting(statement: Resting | ComesToRest) -> SearchResult:
     """By h at the bounds, else by a state of rest just beyond one of them."""
     proof = AtBounds() if isinstance(statement, Resting) else EnergyFalls(mass_proof(statement.mass))
-    if _verdict(statement, proof) == "proved":
+    if proves(statement, proof):
         return shown(proof, METHOD)
     for joint, bound in enumerate(statement.errors):
         against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
-        if bound is not None and _verdict(statement, against) == "refuted":
+        if bound is not None and refutes(statement, against):
             left, right = (list(decimals(Enclosure.exact(x), 12)) for x in (against.error, bound))
             point = {f"e{joint + 1}": str(against.error)}
             witness = {"point": point, "left": left, "operator": "<=", "right": right}
             return broken(against, f"{METHOD}: one beyond a bound", witness)
     return still_open("h at the bounds does not decide it; take larger bounds", METHOD)
-
-
-def _verdict(statement: Statement, proof: Proof) -> str:
-    try:
-        return verify(statement, proof).verdict
-    except Refused:
-        return ""

@@ -24,12 +24,12 @@ from lyapcheck.check.kinds.for_small import (
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
-from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
 from lyapcheck.claims.procedures.search import BITS, Point, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.control.judgement import refutes
 from lyapcheck.output.digits import decimals
 
 METHOD = "small parameter"
@@ -78,7 +78,7 @@ def _against(statement: ForSmall) -> SearchResult | None:
         if _breaks(statement, point):
             for below in BELOW:
                 proof = SmallWitness(point_of(point), below)
-                if _accepted(statement, proof):
+                if refutes(statement, proof):
                     return broken(proof, method, _data(statement, point, below))
     return None
 
@@ -115,13 +115,6 @@ def _breaks(statement: ForSmall, point: Point) -> bool:
 def _holds(relation: Relation, point: Point) -> bool:
     sign = sign_for_small(at(point, relation.gap))
     return sign > 0 or (sign == 0 and not relation.strict)
-
-
-def _accepted(statement: ForSmall, proof: SmallWitness) -> bool:
-    try:
-        return verify(statement, proof).verdict == "refuted"
-    except Refused:
-        return False
 
 
 def _data(statement: ForSmall, point: Point, below: Fraction) -> dict[str, object]:

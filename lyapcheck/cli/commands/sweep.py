@@ -62,10 +62,10 @@ def run(
     from lyapcheck import store
     from lyapcheck.answers.sweep import asked, read_plan
     from lyapcheck.answers.sweep.folder import Folder
-    from lyapcheck.answers.sweep.local import cores
     from lyapcheck.answers.sweep.page import files
     from lyapcheck.answers.sweep.result import SweepAnswer
     from lyapcheck.answers.sweep.tally import Tally
+    from lyapcheck.compiled.threads import processors
 
     if no_store:
         store.switch_off()
@@ -75,7 +75,7 @@ def run(
     folder = None if out is None else Folder(out, resume)
     tally = Tally()
     with progress("sweep") as advance:
-        result = asked(read, cores() if jobs is None else jobs, scheduler)
+        result = asked(read, processors() if jobs is None else jobs, scheduler)
         _count(result if folder is None else folder.written(result), read.count, tally, advance)
     answer = SweepAnswer(read.path, tally)
     if folder is not None:

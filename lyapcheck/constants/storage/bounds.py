@@ -10,11 +10,10 @@ from functools import lru_cache, partial
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.verify import verify
 from lyapcheck.constants.storage.motion import coriolis_forms
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
+from lyapcheck.control.judgement import proves
 from lyapcheck.robots.dynamics import Chain
 
 Bound = ChainAbove | ChainBelow | ChainGravityBelow | ChainCoriolisBelow
@@ -107,10 +106,7 @@ def _coriolis_shown(links: tuple[RigidLink, ...], high: Fraction) -> BoundWithPr
 
 
 def _accepted(shown: BoundWithProof) -> BoundWithProof | None:
-    try:
-        return shown if verify(shown.statement, shown.proof).verdict == "proved" else None
-    except Refused:
-        return None
+    return shown if proves(shown.statement, shown.proof) else None
 
 
 def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from lyapcheck.files.decimals import significant_down, significant_up
+
 DIGITS = 6
 TICKS = 10**6
 """Times are multiples of 1/TICKS s."""
@@ -17,22 +19,14 @@ def as_written(value: Fraction | float) -> Fraction:
 
 def short_below(value: Fraction) -> Fraction:
     """A number ≥ 0 rounded down to `DIGITS` significant digits."""
-    unit = _unit(value)
-    return math.floor(value / unit) * unit
+    return significant_down(value, DIGITS)
 
 
 def short_above(value: Fraction) -> Fraction:
     """A number ≥ 0 rounded up to `DIGITS` significant digits."""
-    unit = _unit(value)
-    return math.ceil(value / unit) * unit
+    return significant_up(value, DIGITS)
 
 
 def tick_after(time: Fraction) -> Fraction:
     """A time in s rounded up."""
     return Fraction(math.ceil(time * TICKS), TICKS)
-
-
-def _unit(value: Fraction) -> Fraction:
-    """What the last of the significant digits counts."""
-    magnitude = math.floor(math.log10(value)) if value else 0
-    return Fraction(10) ** (magnitude + 1 - DIGITS)

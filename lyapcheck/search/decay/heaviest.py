@@ -15,9 +15,8 @@ from lyapcheck.check.kinds.inertia import Bisection, Dominance
 from lyapcheck.check.kinds.link_bounds import EnergyBelow, Shown
 from lyapcheck.check.loop.corners import at_corners, corners_of, is_affine
 from lyapcheck.check.loop.field import size_of
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import proves
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -63,11 +62,8 @@ def heaviest(controlled: ControlledArm) -> Heaviest | None:
         diagonal = tuple(short_above(Fraction(factor * b)) for b in friction)
         count = len(list(corners_of(loop.parameters)))
         by = MassAtCorners((proof,) * count) if loop.parameters else proof
-        try:
-            if verify(statement.mass_below(diagonal), by).verdict == "proved":
-                return Heaviest(diagonal, by)
-        except Refused:
-            continue
+        if proves(statement.mass_below(diagonal), by):
+            return Heaviest(diagonal, by)
     return None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -18,6 +17,7 @@ from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.corners import at_corners
 from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -95,13 +95,13 @@ def margin_at(
     loop = controlled.loop(eps0)
     rows = zip((low for low, _ in loop.friction), loop.kp, strict=True)
     split = max(friction * b * eps0 / (4 * LOSS * STIFFNESS * k) for b, k in rows)
-    return Margin(loop, friction, STIFFNESS, _short(min(split, Fraction(1, 4))), slack, heaviest)
+    return Margin(loop, friction, STIFFNESS, significant_down(min(split, Fraction(1, 4)), 5), slack, heaviest)
 
 
 def attempts(controlled: ControlledArm, margin: Margin, max_boxes: int = MAX_BOXES) -> Iterator[Attempt]:
     """The margin at falling shares of its ε₀, wherever the search finds data; for the checker to judge."""
     for share in SHARES:
-        eps0 = _short(margin.loop.eps0 * share)
+        eps0 = significant_down(margin.loop.eps0 * share, 5)
         tried = margin_at(controlled, eps0, margin.friction, margin.slack, margin.heaviest)
         by = _data(controlled, eps0, margin.friction, margin.heaviest, max_boxes)
         if by is not None:
@@ -181,9 +181,3 @@ def _largest(allows: Callable[[Fraction], bool]) -> Fraction:
         middle = (low + high) / 2
         low, high = (middle, high) if allows(middle) else (low, middle)
     return low
-
-
-def _short(value: Fraction) -> Fraction:
-    """A positive number rounded down to five significant digits."""
-    scale = Fraction(10) ** (4 - math.floor(math.log10(value)))
-    return Fraction(math.floor(value * scale)) / scale

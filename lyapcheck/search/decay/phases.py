@@ -25,9 +25,8 @@ from lyapcheck.check.loop.decay.margin import Margin
 from lyapcheck.check.loop.decay.speeds import fastest, regraded
 from lyapcheck.check.loop.decay.tail import covers, degree, shortest
 from lyapcheck.check.numbers.members import member
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Ends
-from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import proves
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.descent import Descent, level_within, lowered
@@ -234,7 +233,4 @@ def light_proof(mass: Mass, parameters: tuple[Ends, ...]) -> Bisection | MassAtC
 
 def _shown(above: MassAbove) -> bool:
     """Whether the checker sees at once that a matrix is positive definite throughout."""
-    try:
-        return verify(above, light_proof(above.mass, above.parameters)).verdict == "proved"
-    except Refused:
-        return False
+    return proves(above, light_proof(above.mass, above.parameters))

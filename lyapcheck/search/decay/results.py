@@ -13,9 +13,8 @@ from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.settling import Envelope, FallingLevels, Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
 from lyapcheck.check.loop.processes import shared_between
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import proves
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -195,8 +194,5 @@ class DisturbanceBound(MotionBound):
 
 def accepted(statement: Statement, proof: Proof, jobs: int = 1) -> bool:
     """Whether the checker takes a proof of a statement, in so many processes."""
-    try:
-        with shared_between(jobs):
-            return verify(statement, proof).verdict == "proved"
-    except Refused:
-        return False
+    with shared_between(jobs):
+        return proves(statement, proof)
