@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from functools import singledispatch
-from typing import Any
 
-from lyapcheck.check.expressions.expression import CONSTANTS, Tree
+from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.agrees import Agrees, Corners, OutsideRounding, at_printed, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -33,6 +32,7 @@ from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
 from lyapcheck.kernel.signs import for_small, implication
 from lyapcheck.kernel.statements import proposition
+from lyapcheck.kernel.suprema import facts
 from lyapcheck.kernel.systems import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, expression, identifier, rational
 from lyapcheck.kernel.words import every_n_script
@@ -73,50 +73,6 @@ def _above(statement: DampingBelow, proof: DampingAbove) -> str:
         f"{facts(statement)}apply (damping_above _ _ _ _ _ _ {numbers}); "
         f"[reflexivity|reflexivity|{decreasing.rstrip('.')}|open_rationals; numbers]."
     )
-
-
-def facts(statement: Statement) -> str:
-    """Bounds of the suprema γ_m, ρ_m and L_m that occur."""
-    result: set[tuple[str, int]] = set()
-    _collect(statement, result)
-    return "".join(_constant(name, m) for name, m in sorted(result))
-
-
-def _collect(value: Any, result: set[tuple[str, int]]) -> None:
-    if isinstance(value, tuple):
-        if len(value) == 2 and value[0] in CONSTANTS and isinstance(value[1], int):
-            result.add(value)
-        for part in value:
-            _collect(part, result)
-    elif hasattr(value, "__dict__"):
-        for part in vars(value).values():
-            _collect(part, result)
-
-
-AT = {
-    "gamma": ("h_le_gamma", "gamma_le", "prove_h_at_most"),
-    "rho": ("dh_le_rho", "rho_le", "prove_dh_at_most"),
-}
-
-
-def _constant(name: str, m: int) -> str:
-    """That γ_m or ρ_m lies between two numbers of five digits."""
-    if name not in AT:
-        raise NotPrinted(f"the constant {name}_{m}")
-    lower, upper, tactic = AT[name]
-    low, high = _between(name, m)
-    at = f"({lower} {m} ltac:(lia) {rational(_attained(name, m))})"
-    least = f"assert (low_{name}_{m} : {rational(low)} <= {name} {m}) by "
-    most = f"assert (up_{name}_{m} : {name} {m} <= {rational(high)}) by (apply {upper}; {tactic}). "
-    return f"{least}(eapply Rle_trans; [|exact {at}]; numbers). {most}"
-
-
-def _between(name: str, m: int) -> tuple[Fraction, Fraction]:
-    """Numbers of five digits on both sides of γ_m or ρ_m, not so near that intervals cannot tell."""
-    known, digits = member("hyperbolic", m), 10 ** (9 if m == 1 else 5)
-    value = known.gamma if name == "gamma" else known.rho
-    high = value if m == 1 else Fraction(math.ceil(value * digits + Fraction(1, 2)), digits)
-    return Fraction(math.floor(value * digits - 1), digits), high
 
 
 @singledispatch
@@ -304,18 +260,3 @@ def _fails_at(statement: Statement, point: dict[str, Fraction]) -> str:
     values = " ".join(rational(Fraction(point[name])) if name in point else "0" for name in names)
     steps = "".join(" specialize (H ltac:(numbers))." for _ in range(given))
     return f"intros H. specialize (H {values}).{steps} fails H."
-
-
-def _attained(name: str, m: int) -> Fraction:
-    """About where γ_m or ρ_m is attained; only a hint."""
-
-    def value(x: float) -> float:
-        s, c = math.sinh(x), math.cosh(x)
-        low = 1 + s ** (2 * m)
-        if name == "gamma":
-            return s ** (2 * m - 1) * c / low
-        return abs((2 * m - 1) * s ** (2 * m - 2) + 2 * m * s ** (2 * m) - s ** (4 * m - 2)) / low**2
-
-    grid = 1 << 11
-    near = max(range(12 * grid), key=lambda k: value(k / grid)) * grid
-    return Fraction(max(range(max(near - grid, 0), near + grid), key=lambda k: value(k / grid**2)), grid**2)

@@ -20,7 +20,8 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.family import dh_range, h_range
-from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, Nodes, halve
+from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST
+from lyapcheck.search.cuts import Nodes, halve
 
 MULTIPLIERS = (-2, 0)
 """Of l, as powers of √2."""

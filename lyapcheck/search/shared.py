@@ -21,7 +21,8 @@ from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.search.centred import judge_of
-from lyapcheck.search.cover import Branches, Chooser, Prover, SharedSearch, explored
+from lyapcheck.search.cover import Chooser, Prover, SharedSearch, explored
+from lyapcheck.search.cuts import Branches
 from lyapcheck.search.schur import SchurProblem
 
 WORTH = 8_192

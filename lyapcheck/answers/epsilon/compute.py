@@ -13,20 +13,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Progress, silent
-from lyapcheck.answers.epsilon.consistency import findings, require_consistent
-from lyapcheck.answers.epsilon.four import Refutation
+from lyapcheck.answers.epsilon.assembled import put_together
+from lyapcheck.answers.epsilon.forms import by_forms, proof_of
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options, StateLimits
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.constants import robot_bounds
 from lyapcheck.control.gains import one_gain_set
-from lyapcheck.files.decimals import significant_down
-from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.certified import MAX_BOXES, CertifiedEpsilon, certified_epsilon
@@ -36,17 +32,14 @@ from lyapcheck.search.falsify import STARTS, RisingState, falsify
 from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 from lyapcheck.search.weights import weighted_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.family.base import FamilyConstants
     from lyapcheck.robots import RobotModel
 
 NEARLY = Fraction(98, 100)
 """The share of the falsified ε₀ from which slow states are not asked."""
-_DIGITS = 9
 
 
 def epsilon(
@@ -139,47 +132,6 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     )
 
 
-def put_together(
-    controlled: ControlledArm,
-    at: ControlledArm,
-    witness: RisingState | None,
-    *,
-    published: Fraction | None,
-    scalar: Fraction | None,
-    proof: DecreaseProof | None,
-    **more: Any,
-) -> EpsilonResult:
-    """What was found about a gain set, with all that follows from it.
-
-    Args:
-        controlled: gains and arm.
-        at: the arm, within its ranges, that the witness is about.
-        witness: of ``at``.
-        published, scalar, proof: of `EpsilonResult`.
-        more: what else it takes that does not follow from these.
-
-    Raises:
-        Contradiction: the witness refutes a certificate.
-    """
-    certified = None if proof is None else proof.loop.eps0
-    require_consistent(at, witness, {"scalar": scalar, "certified": certified})
-    return EpsilonResult(
-        gains=controlled.gains,
-        robot=controlled.model.name,
-        published=published,
-        scalar=scalar,
-        certified=certified,
-        falsified=None if witness is None else witness.eps0,
-        witness=witness,
-        proof=proof,
-        against=_refutation(controlled, at, witness),
-        ranges=controlled.ranges,
-        corner=_corner(at) if controlled.ranges else {},
-        findings=tuple(findings(published, certified, witness)),
-        **more,
-    )
-
-
 @dataclass(frozen=True)
 class _Search:
     """The search for the witness of the smallest ε₀ and for the proof of the largest, both of one gain set.
@@ -245,62 +197,3 @@ def _best(controlled: ControlledArm, result: CertifiedEpsilon) -> tuple[Decrease
     if norm is None:
         return None, "", reason
     return norm, "norms alone", result.reason
-
-
-def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, dict[str, str]]:
-    """The published ε₀, the scalar one, and why one of them is missing; no search."""
-    gain_set, constants = controlled.gains, controlled.family.constants()
-    bounds = robot_bounds(controlled.model)
-    published, reason = _published(gain_set, constants, bounds)
-    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
-    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
-    scalar = _scalar(controlled, bounds) or sharp
-    return published, scalar, {"published": reason, "scalar": scalar.reason}
-
-
-def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof | None:
-    """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
-    if eps0 is None or not controlled.family.bounded:
-        return None
-    proof = DecreaseProof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
-    return proof if certifies(proof.loop.tail, eps0) and proof.accepted() else None
-
-
-def _refutation(
-    controlled: ControlledArm, at: ControlledArm, witness: RisingState | None
-) -> Refutation | None:
-    """What the witness refutes; ``None`` for an unbounded h, of which there are no such certificates."""
-    if witness is None or not controlled.family.bounded:
-        return None
-    values = tuple(number.value for number in at.model.parameters.values()) if controlled.ranges else ()
-    return Refutation(controlled.loop(witness.eps0), at.arm.viscous, values)
-
-
-def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | None:
-    """The scalar form of what the setting is about; ``None`` where h is unbounded."""
-    if not controlled.family.bounded:
-        return None
-    if controlled.ranges:
-        return scalar_epsilon(controlled.loop(Fraction(1)).tail, conic=False)
-    form = scalar_form(controlled.gains, controlled.family.constants(), bounds)
-    return None if form is None else scalar_epsilon(form, conic=False)
-
-
-def _corner(controlled: ControlledArm) -> dict[str, Fraction]:
-    """The values of everything about the arm that has a range."""
-    joints = zip(controlled.model.joints, controlled.model.viscous, strict=True)
-    friction = {f"viscous friction of {joint}": number for joint, number in joints}
-    numbers = {**controlled.model.parameters, **friction}
-    return {name: number.value for name, number in numbers.items() if number.ranged}
-
-
-def _published(
-    gain_set: GainSet, constants: FamilyConstants, bounds: RobotBounds
-) -> tuple[Fraction | None, str]:
-    """The end of (18), rounded down, or why there is none."""
-    if constants.gamma is None:
-        return None, "(18) needs a bounded h, and the linear one has no γ"
-    limit = published_limit(gain_set, constants, bounds)
-    if limit is None:
-        return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
-    return significant_down(limit.lower, _DIGITS), ""

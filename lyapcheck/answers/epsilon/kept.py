@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
-from lyapcheck.answers.epsilon.compute import by_forms, four, proof_of, put_together
+from lyapcheck.answers.epsilon.assembled import put_together
+from lyapcheck.answers.epsilon.compute import four
 from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.forms import by_forms, proof_of
 from lyapcheck.answers.epsilon.four import Refutation
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.complaints import Complaints
-from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_format, add_members, add_vary, varies
 from lyapcheck.cli.output import require_writable, write_whole
 from lyapcheck.cli.show import show
+from lyapcheck.cli.tuning import bounds_of, gains_beside, targets_of, tasks_of, trials_of
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.output.formats import Format
@@ -23,21 +21,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.answers.tune.response.wishes import Trials
-    from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots.vary import Vary
-    from lyapcheck.simulate.task import Task
 
-ONE = (Fraction(1),)
 COMPARED = range(2, 7)
 """So many members are compared by runs of each."""
 WAYS = ("19", "proof")
 """How stability may be shown."""
-
-PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
-
-
 FORMATS = (*Format, "toml")
 """What every answer can be written in, and the gain file alone."""
 
@@ -121,16 +112,16 @@ def run(
     targeted = (overshoot, settle, rest_error) != (None, None, None)
     members = wrong.reading(parse_m, m or ("1" if targeted and _many(robot) else "1:3"))
     ranges = wrong.reading(varies, vary) or ()
-    targets = _targets(wrong, digits, peak_share, kv_share, kv_min, damping)
-    bounds = _bounds(wrong, robot, targets, torque, gravity, viscous_min)
-    against = wrong.reading(_against, robot, compare)
+    targets = targets_of(wrong, digits, peak_share, kv_share, kv_min, damping)
+    bounds = bounds_of(wrong, robot, targets, torque, gravity, viscous_min)
+    against = wrong.reading(gains_beside, robot, compare)
     asked = {"overshoot": overshoot, "settle": settle, "rest_error": rest_error}
     wishes = {name: value for name, value in asked.items() if value is not None}
     others = {"--kv-share": kv_share, "--kv-min": kv_min, "--damping": damping}
     if wishes:
         wrong.reading(_refuse, others, "cannot go with targets", "leave one of them out")
         ways = WAYS if stability == "both" else (stability,)
-        bench = wrong.reading(_bench, robot, wishes, peak_share, (start, goal), ways, digits)
+        bench = wrong.reading(trials_of, robot, wishes, peak_share, (start, goal), ways, digits)
     else:
         motion = {"--start": start, "--goal": goal}
         repair = "add --overshoot, --settle or --rest-error"
@@ -138,7 +129,7 @@ def run(
     wrong.raise_all()
     if wishes and bench is not None:
         return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
-    task = _tasks(robot, None, None)[0] if len(members or ()) in COMPARED else None
+    task = tasks_of(robot, None, None)[0] if len(members or ()) in COMPARED else None
     tuning = tune(robot, members or (), targets, bounds, against, ranges, task)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
@@ -189,49 +180,6 @@ def _tune_for(
     return tuning.exit
 
 
-def _bench(
-    robot: str,
-    wishes: dict[str, float],
-    peak_share: str,
-    motion: tuple[str | None, list[str] | None],
-    ways: tuple[str, ...],
-    digits: int,
-) -> Trials:
-    """What is asked, and of which motions.
-
-    Raises:
-        InputError: a target or an angle that cannot be used.
-    """
-    from lyapcheck.answers.tune.response.wishes import Trials, Wishes
-
-    tasks = _tasks(robot, *motion)
-    shares = parse_decimals("--peak-share", peak_share) or ONE
-    if len(set(shares)) > 1:
-        raise argument_error(
-            "--peak-share", peak_share, "is one share with targets", "write --peak-share 0.8"
-        )
-    share = None if shares[0] == 1 else float(shares[0])
-    return Trials(Wishes(**wishes, peak_share=share), tasks, ways, digits)
-
-
-def _tasks(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
-    """Motions from rest to rest: those asked for, or the paper's, or 45° for each joint.
-
-    Raises:
-        InputError: angles that cannot be used.
-    """
-    from lyapcheck.cli.task import SECONDS, task_of
-    from lyapcheck.robots import load
-
-    model = load(robot)
-    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
-    try:
-        return tuple(task_of(model, goal, start, SECONDS) for goal in goals or [default])
-    except InputError as error:
-        problems = [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
-        raise InputError(problems) from None
-
-
 def _refuse(given: dict[str, object], rule: str, repair: str) -> None:
     """Refuse options that have no meaning here.
 
@@ -241,79 +189,3 @@ def _refuse(given: dict[str, object], rule: str, repair: str) -> None:
     for option, value in given.items():
         if value is not None:
             raise argument_error(option, str(value), rule, repair)
-
-
-def _targets(
-    wrong: Complaints,
-    digits: int,
-    peak_share: str,
-    kv_share: str | None,
-    kv_min: str | None,
-    damping: str | None,
-) -> Targets:
-    """The targets given on the command line; those that cannot be read are left at their defaults."""
-    from lyapcheck.answers.tune.targets import Targets
-
-    shares = wrong.reading(parse_decimals, "--peak-share", peak_share)
-    others = (("--kv-share", kv_share), ("--kv-min", kv_min), ("--damping", damping))
-    return Targets(digits, shares or ONE, *(wrong.reading(parse_decimals, *each) for each in others))
-
-
-def _bounds(
-    wrong: Complaints,
-    robot: str,
-    targets: Targets,
-    torque: str | None,
-    gravity: str | None,
-    viscous_min: str | None,
-) -> Bounds:
-    """The limits given on the command line; these and the targets are held against the joints of the arm."""
-    from lyapcheck.answers.tune.targets import require_usable
-    from lyapcheck.control.gains import Bounds
-    from lyapcheck.robots import load
-
-    torques = wrong.reading(parse_decimals, "--torque", torque)
-    gravities = wrong.reading(parse_decimals, "--gravity", gravity)
-    friction = wrong.reading(parse_decimal, "--viscous-min", viscous_min)
-    model = wrong.reading(load, robot)
-    if model is not None:
-        wrong.reading(require_usable, targets, model.n)
-    n = None if model is None else model.n
-    wrong.reading(_require_limits, "--torque", torques, n, True)
-    wrong.reading(_require_limits, "--gravity", gravities, n, False)
-    wrong.reading(_require_limits, "--viscous-min", None if friction is None else (friction,), None, True)
-    return Bounds(friction, torques, gravities)
-
-
-def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | None, positive: bool) -> None:
-    """Refuse a negative limit, or another number of them than joints where that is known.
-
-    Raises:
-        InputError: the first that is wrong.
-    """
-    if values is None:
-        return
-    if n is not None and len(values) != n:
-        rule = f"has {len(values)} values for {n} joints"
-        raise argument_error(option, _written(values), rule, f"give {n}, separated by commas")
-    if min(values) < 0 or (positive and min(values) == 0):
-        rule = "must be positive" if positive else "must not be negative"
-        raise argument_error(option, _written((min(values),)), rule, "correct the value")
-
-
-def _written(values: tuple[Fraction, ...]) -> str:
-    from lyapcheck.files.decimals import decimal_text
-
-    return ",".join(map(decimal_text, values))
-
-
-def _against(robot: str, compare: Path | None) -> GainFile | None:
-    """The gains to compare with."""
-    from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.control.paper import paper_gain_file
-
-    if compare is not None:
-        return read_gain_file(compare)
-    if robot != PAPERS_ARM:
-        return None
-    return replace(read_gain_file(paper_gain_file(PAPERS_GAINS)), path="the paper's Table 2")

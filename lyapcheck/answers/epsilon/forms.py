@@ -1,0 +1,63 @@
+"""The ε₀ that need no search: the end of (18), and that of the scalar form, from norms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.constants import robot_bounds
+from lyapcheck.files.decimals import significant_down
+from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.family.base import FamilyConstants
+
+
+_DIGITS = 9
+
+
+def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, dict[str, str]]:
+    """The published ε₀, the scalar one, and why one of them is missing; no search."""
+    gain_set, constants = controlled.gains, controlled.family.constants()
+    bounds = robot_bounds(controlled.model)
+    published, reason = _published(gain_set, constants, bounds)
+    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
+    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
+    scalar = _scalar(controlled, bounds) or sharp
+    return published, scalar, {"published": reason, "scalar": scalar.reason}
+
+
+def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof | None:
+    """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
+    if eps0 is None or not controlled.family.bounded:
+        return None
+    proof = DecreaseProof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
+    return proof if certifies(proof.loop.tail, eps0) and proof.accepted() else None
+
+
+def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | None:
+    """The scalar form of what the setting is about; ``None`` where h is unbounded."""
+    if not controlled.family.bounded:
+        return None
+    if controlled.ranges:
+        return scalar_epsilon(controlled.loop(Fraction(1)).tail, conic=False)
+    form = scalar_form(controlled.gains, controlled.family.constants(), bounds)
+    return None if form is None else scalar_epsilon(form, conic=False)
+
+
+def _published(
+    gain_set: GainSet, constants: FamilyConstants, bounds: RobotBounds
+) -> tuple[Fraction | None, str]:
+    """The end of (18), rounded down, or why there is none."""
+    if constants.gamma is None:
+        return None, "(18) needs a bounded h, and the linear one has no γ"
+    limit = published_limit(gain_set, constants, bounds)
+    if limit is None:
+        return None, "(19) fails, so that (18) is empty; lower the gains k_v to below λmin(B)/(√n γ)"
+    return significant_down(limit.lower, _DIGITS), ""

@@ -1,0 +1,88 @@
+"""The cuts of boxes into halves: what was found below some boxes, and the whole as a tree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lyapcheck._types import Array
+
+Boxes = Array
+"""(count, 2, dimensions): lower and upper ends."""
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """What was found below some boxes.
+
+    Args:
+        levels: how many boxes were looked at, level by level, from theirs on.
+        cuts: of each level the boxes that were cut, the sides, and the halves; the first boxes have the
+            first numbers.
+        late: whether the time was up.
+        point: the point of the last level that resisted; none where all of it was proved or cut.
+        waiting: the boxes of a level that was left, with their numbers.
+    """
+
+    levels: list[int]
+    cuts: list[tuple[Indices, Indices, Indices]]
+    late: bool = False
+    point: Array | None = None
+    waiting: tuple[Boxes, Indices] | None = None
+
+
+class Nodes:
+    """The tree of cuts, as arrays that grow: of each box that was cut, the side and both halves."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.parts: list[tuple[Indices, Indices, Indices]] = []
+
+    def add(self, count: int) -> Indices:
+        """Names for new boxes."""
+        self.count += count
+        return np.arange(self.count - count, self.count)
+
+    def cut(self, names: Indices, sides: Indices) -> Indices:
+        """Note that boxes were cut; the names of all left halves, then of all right ones."""
+        halves = self.add(2 * len(names))
+        self.parts.append((names, sides, halves))
+        return halves
+
+    def graft(self, names: Indices, below: Branches) -> Indices:
+        """Take over the cuts that others made below the boxes with these names; the names of all theirs."""
+        new = max((int(halves[-1]) + 1 for _, _, halves in below.cuts), default=len(names)) - len(names)
+        renamed = np.concatenate([names, self.add(new)])
+        self.parts += [(renamed[cut], sides, renamed[halves]) for cut, sides, halves in below.cuts]
+        return renamed
+
+    def preorder(self) -> tuple[str, list[int]]:
+        """The tree as text, and the names of its leaves in their order."""
+        side = np.full(self.count, -1, dtype=np.intp)
+        left, right = np.zeros((2, self.count), dtype=np.intp)
+        for names, sides, halves in self.parts:
+            side[names], left[names], right[names] = sides, halves[: len(names)], halves[len(names) :]
+        sides_of, lefts, rights = side.tolist(), left.tolist(), right.tolist()
+        text, leaves, stack = [], [], [0]
+        while stack:
+            node = stack.pop()
+            if sides_of[node] < 0:
+                text.append(".")
+                leaves.append(node)
+            else:
+                text.append(chr(ord("0") + sides_of[node]))
+                stack += (rights[node], lefts[node])
+        return "".join(text), leaves
+
+
+def halve(boxes: Boxes, side: Indices) -> Boxes:
+    """Both halves of every box, cut in the middle of its chosen side: all left ones, then all right ones."""
+    rows = np.arange(len(boxes))
+    middle = 0.5 * (boxes[rows, 0, side] + boxes[rows, 1, side])
+    left, right = boxes.copy(), boxes.copy()
+    left[rows, 1, side] = middle
+    right[rows, 0, side] = middle
+    return np.concatenate([left, right])
