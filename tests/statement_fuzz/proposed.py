@@ -42,6 +42,10 @@ class ByLimits(Proposed):
     """dV/dt < 0 within limits of speed and of error."""
 
 
+class ByMotion(Proposed):
+    """‖C(q, x)x‖ below a bound by forms of the motion."""
+
+
 class Altered(Proposed):
     """A certificate of the arena, in which something was changed; it may ask for more than anyone waits."""
 

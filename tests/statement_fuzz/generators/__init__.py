@@ -63,6 +63,7 @@ def _load() -> None:
     from tests.statement_fuzz.generators import (  # noqa: F401
         altered,
         arms,
+        chains,
         constants,
         controlled,
         every_n,

@@ -225,7 +225,7 @@ def by_larger_kv(random: Random) -> Made:
     return Made(ByLargerKv(changed, bent(random, proof)), what)
 
 
-def _link(random: Random) -> RigidLink:
+def link(random: Random) -> RigidLink:
     def some() -> Fraction:
         return F(random.choice((-2, -1, 0, 0, 1, 3)), random.choice((2, 5, 10)))
 
@@ -245,7 +245,7 @@ def _mass_of(links: tuple[RigidLink, ...]) -> Rows:
 @generates("ByLinks", 0.005)
 def by_links(random: Random) -> Made:
     """dV/dt < 0 of two links, the last of which may have a range of masses."""
-    links = (_link(random), _link(random))
+    links = (link(random), link(random))
     loaded = (links[0], replace(links[1], mass=links[1].mass * random.choice((1, 2))))
     arms = (links,) if loaded == links else (links, loaded)
     light, heavy = _mass_of(links), _mass_of(loaded)

@@ -62,6 +62,7 @@ def _load() -> None:
     from tests.statement_fuzz.oracle import (  # noqa: F401
         arms,
         bounds,
+        chains,
         decreasing,
         every_n,
         nearby,
