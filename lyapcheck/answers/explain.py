@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.check.claim import one_line
 from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
@@ -84,7 +85,7 @@ class Explanation(Answer):
             Section("What uses it", (_claims(self.used_by),)),
             Section("To decide it", (Code(self._command()),)),
         )
-        return Document(f"{self.id}: “{_one_line(self.says)}” (the author's words)", blocks)
+        return Document(f"{self.id}: “{one_line(self.says)}” (the author's words)", blocks)
 
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
@@ -245,7 +246,7 @@ def _meant(claim_id: str, ids: Collection[str]) -> str | None:
 def _claims(claims: tuple[tuple[str, str], ...]) -> Block:
     if not claims:
         return Paragraph("No other claim.")
-    rows = tuple((known, _one_line(says)) for known, says in claims)
+    rows = tuple((known, one_line(says)) for known, says in claims)
     return Table(("claim", "the author's words"), rows, align="ll")
 
 
@@ -253,13 +254,9 @@ def _blocks(text: str) -> Iterator[Block]:
     """Paragraphs and lists of a documentation."""
     for block in text.split("\n\n"):
         if block.startswith("- "):
-            yield Bullets(tuple(map(_one_line, block[2:].split("\n- "))))
+            yield Bullets(tuple(map(one_line, block[2:].split("\n- "))))
         else:
-            yield Paragraph(_one_line(block))
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
+            yield Paragraph(one_line(block))
 
 
 def _named(claim: ClaimData) -> tuple[str, str]:

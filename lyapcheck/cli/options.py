@@ -68,6 +68,6 @@ def add_no_store(parser: Parser) -> None:
     parser.add_argument("--no-store", action="store_true", help=about)
 
 
-def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat, default: str = "text") -> None:
+def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:
     """``--format``, the name of one of some formats."""
-    parser.add_choice("--format", formats, "How to write it.", default=default)
+    parser.add_choice("--format", formats, "How to write it.", default="text")

@@ -118,11 +118,8 @@ class SetPointRuns(Simulation[Run]):
             "printed": _paper(one),
         }
 
-    def records(self) -> list[dict[str, Any]]:
+    def rows_of(self, one: Run) -> list[dict[str, Any]]:
         """A row a run and joint; names and units as in `data`."""
-        return [record for one in self.results for record in self._joint_records(one)]
-
-    def _joint_records(self, one: Run) -> list[dict[str, Any]]:
         data = self.plain_data(one)
         head = {key: data[key] for key in ("name", "m", "robot", "kind", "complete", "time", "reached")}
         tail = {key: data[key] for key in PER_RUN}

@@ -119,6 +119,10 @@ class Simulation(Answer, Generic[Result]):
         """``results: [{name, m, robot, kind, …}], notes``: degrees, N·m, s, J; ``None`` without a number."""
         return {"results": [self.plain_data(one) for one in self.results], "notes": self._notes()}
 
+    def records(self) -> list[dict[str, Any]]:
+        """The rows of every gain set."""
+        return [row for one in self.results for row in self.rows_of(one)]
+
     def annotations(self) -> list[Annotation]:
         """A case a gain set."""
         return [self._annotation(name) for name in self._names()]
@@ -134,6 +138,10 @@ class Simulation(Answer, Generic[Result]):
     @abstractmethod
     def plain_data(self, one: Result) -> dict[str, Any]:
         """The same for programs."""
+
+    @abstractmethod
+    def rows_of(self, one: Result) -> list[dict[str, Any]]:
+        """The same as rows of a table."""
 
     def opening(self) -> Sequence[Block]:
         """What all gain sets have in common."""

@@ -99,11 +99,8 @@ class RandomStarts(Simulation[Sweep]):
             "breach": None if one.breach is None else one.breach.data,
         }
 
-    def records(self) -> list[dict[str, Any]]:
+    def rows_of(self, one: Sweep) -> list[dict[str, Any]]:
         """A row a gain set and quantity."""
-        return [record for one in self.results for record in self._quantity_records(one)]
-
-    def _quantity_records(self, one: Sweep) -> list[dict[str, Any]]:
         data = self.plain_data(one)
         keys = ("name", "m", "robot", "kind", "runs", "spread", "seed", "time", "finished", "eps0")
         head = {key: data[key] for key in (*keys, "V_rose", "beyond_limits")}

@@ -95,11 +95,8 @@ class TrackingRuns(Simulation[TrackingRun]):
             "breach": None if one.breach is None else one.breach.data,
         }
 
-    def records(self) -> list[dict[str, Any]]:
+    def rows_of(self, one: TrackingRun) -> list[dict[str, Any]]:
         """A row a run and joint; names and units as in `data`."""
-        return [record for one in self.results for record in self._joint_records(one)]
-
-    def _joint_records(self, one: TrackingRun) -> list[dict[str, Any]]:
         data = self.plain_data(one)
         keys = ("name", "m", "robot", "kind", "reference", "complete", "time", "reached")
         promised = data["promised"]

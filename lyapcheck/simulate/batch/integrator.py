@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,16 +73,3 @@ def empty_paths(problems: InitialValueProblems) -> Paths:
         np.empty(runs, np.int32),
         np.empty(runs, np.int32),
     )
-
-
-class Integrator(Protocol):
-    """Solves (11) for many runs on one arm and for one family."""
-
-    name: str
-    """``compiled`` or ``numpy``."""
-
-    def __call__(self, problems: InitialValueProblems) -> Paths:
-        """Integrate every run to T.
-
-        Soundness: an error estimate per step is not a bound: compare with a smaller tolerance.
-        """
