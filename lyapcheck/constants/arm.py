@@ -68,11 +68,11 @@ def arm_constants(
             if on_progress is not None:
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
-        progress(0.0, "sampling")
-        thorough = max_boxes * model.n**2 >= THOROUGH
         if arm is None:
-            result.append(chain_constant(fixed, name, thorough, enough))
+            thorough = max_boxes * model.n**2 >= THOROUGH
+            result.append(chain_constant(fixed, name, thorough, enough, progress))
         else:
+            progress(0.0, "sampling")
             result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))
     return tuple(result)
 

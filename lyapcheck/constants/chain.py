@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 
+from lyapcheck._types import Progress, silent
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import ConstantResult
 from lyapcheck.constants.coriolis_chain import coriolis_bound
@@ -14,7 +15,9 @@ from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
 
-def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> ConstantResult:
+def chain_constant(
+    plant: Plant, name: str, thorough: bool, gap: float, on_progress: Progress = silent
+) -> ConstantResult:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Args:
@@ -22,10 +25,12 @@ def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Const
         name: of the constant.
         thorough: whether k_c may take a minute; else masses and distances alone bound it.
         gap: relative width that is good enough for k_c.
+        on_progress: receives the share of the work done.
 
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, or
         for k_c the lower bound of `lyapcheck.constants.coriolis_chain`.
     """
+    on_progress(0.0, "posture")
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
     outer = from_distances(plant, name)
@@ -35,7 +40,10 @@ def chain_constant(plant: Plant, name: str, thorough: bool, gap: float) -> Const
         still = name.startswith("k_g") and inner.value == 0
         shown = storage_proof(chain, name, still=True) if still else None
         if shown is None and (name != "k_c" or thorough or outer is None):
+            on_progress(0.1, "forms along the links")
             shown = storage_proof(chain, name)
+        if lattice is not None:
+            on_progress(0.5, "points of a lattice")
     if shown is not None:
         outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
     if lattice is not None:

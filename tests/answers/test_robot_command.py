@@ -17,12 +17,18 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
+from lyapcheck.answers.robot.facts import ArmFacts
+from lyapcheck.answers.robot.page import page
+from lyapcheck.answers.robot.properties import PropertyResult
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.harmonics import derivative, harmonics
-from lyapcheck.constants import arm_constants
+from lyapcheck.claims.decision import undecided
+from lyapcheck.constants import ConstantResult, arm_constants
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.basis import basis_of
 from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
 from lyapcheck.errors import InputError
+from lyapcheck.output import text as plain
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import trig
@@ -180,6 +186,42 @@ def test_known_extremes_of_the_two_joint_arm() -> None:
     level = np.hypot(38.46501 + 1.82466, 1.82466)
     assert result["k_g"].lower <= Fraction(level) * (1 + Fraction(1, 10**9))
     assert Fraction(level) * (1 - Fraction(1, 10**9)) <= result["k_g"].upper
+
+
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [
+        ("pelican2", "try a larger --max-boxes"),
+        ("ur5", "with --max-boxes 4167 or more, as by default, points of a lattice are tried"),
+        ("generic8", "bounded by the best forms along the links, which more boxes do not change"),
+    ],
+)
+def test_what_is_wide_comes_with_a_word_about_it(tmp_path: Path, name: str, advice: str) -> None:
+    (tmp_path / "generic8.urdf").write_text(generic(8))
+    path = {"ur5": ARMS / "ur5.urdf", "generic8": tmp_path / "generic8.urdf"}.get(name, name)
+    arm = robots.load(path)
+    wide, narrow = (
+        ConstantResult(of, "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 2 * arm.n, 0)
+        for of, low in (("k_c", "1"), ("lambda_max", "1.9"))
+    )
+    row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
+    text = plain.render(page(ArmFacts(arm, (row,), (wide, narrow))))
+    assert f"k_c is wide, 50 %: {advice}" in " ".join(text.split())
+    assert "λmax(M) = β_M is wide" not in text
+
+
+def test_progress_names_what_is_done_along_a_chain(tmp_path: Path) -> None:
+    (tmp_path / "arm.urdf").write_text(generic(4))
+    steps: list[tuple[float, str]] = []
+    arm_constants(
+        robots.load(tmp_path / "arm.urdf"),
+        100,
+        on_progress=lambda *step: steps.append(step),
+        names=("lambda_min", "lambda_max"),
+    )
+    kinds = ("posture", "forms along the links")
+    assert [note for _, note in steps] == [f"{of}: {k}" for of in ("lambda_min", "lambda_max") for k in kinds]
+    assert steps == sorted(steps)
 
 
 @pytest.mark.slow

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.entries import inertia_sections
+from lyapcheck.constants.arm import THOROUGH
+from lyapcheck.constants.coriolis_chain import MOST_JOINTS
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict
 
@@ -35,6 +38,8 @@ CONSTANT_HEADS = (
 )
 JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
 NOMINAL = "At nominal parameters: ends that certificates show, and the sharper ones of floating point."
+WIDE = 0.25
+"""The gap from which a word is said about it."""
 PRINT = "As the source prints it"
 
 
@@ -98,7 +103,19 @@ def _constants(report: ArmFacts) -> Section:
     states = [row for constant in report.constants for row in _state_rows(report, constant)]
     table = Table(CONSTANT_HEADS, tuple(rows), align="llrrrrr")
     shown = Table(("constant", "shown at q [rad]"), tuple(states), align="ll")
-    return Section("Constants", (Paragraph(NOMINAL), table, shown))
+    wide = [_wide(constant, report.model) for constant in report.constants if constant.gap > WIDE]
+    return Section("Constants", (Paragraph(NOMINAL), table, *([Bullets(tuple(wide))] if wide else []), shown))
+
+
+def _wide(constant: ConstantResult, model: RobotModel) -> str:
+    """How wide an enclosure is, and what might narrow it."""
+    advice = "try a larger --max-boxes"
+    if model.n > FEW_JOINTS and model.fixed().chain is not None:
+        advice = "bounded by the best forms along the links, which more boxes do not change"
+        if constant.name == "k_c" and model.n <= MOST_JOINTS:
+            least = -(-THOROUGH // model.n**2)
+            advice = f"with --max-boxes {least} or more, as by default, points of a lattice are tried"
+    return f"{_symbol(constant)} is wide, {100 * constant.gap:.2g} %: {advice}"
 
 
 def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
