@@ -38,7 +38,7 @@ from lyapcheck.search.decay.heaviest import heaviest
 from lyapcheck.search.decay.margins import Attempt, attempts, margin_at
 from lyapcheck.simulate.disturbed import DisturbedRun, disturbed
 from tests.arena.extra import DOMINANT
-from tests.helpers.shares import one_in
+from tests.helpers.shares import but, one_in
 
 F = Fraction
 TABLE = {"buap3": "table2", "reyes-kelly2": "table2_shoulder_elbow"}
@@ -296,11 +296,20 @@ def test_a_margin_that_is_too_large_is_refused() -> None:
     assert not shown(replace(margin, friction=F(19, 20)), at.inertia_proof, result.by)
     assert not shown(replace(margin, stiffness=F(1)), at.inertia_proof, result.by)
     assert not shown(replace(margin, split=F(3, 5), slack=F(2, 5)), at.inertia_proof, result.by)
-    lighter = tuple(u / 2 for u in margin.heaviest)
-    assert not shown(replace(margin, heaviest=lighter), at.inertia_proof, result.by)
     assert not shown(
         margin_at(at, F(1), margin.friction, F(0), margin.heaviest), at.inertia_proof, BoxTree(".")
     )
+
+
+@pytest.mark.parametrize("robot", but(["pendulum1"], ["pendulum1", "reyes-kelly2"]))
+def test_a_diagonal_below_m_is_refused(robot: str) -> None:
+    at = single(robot)
+    heavy = heaviest(at)
+    assert heavy is not None
+    statement = statement_of(at.loop(F(1, 100)))
+    assert verify(statement.mass_below(heavy.diagonal), Bisection()).verdict == "proved"
+    with pytest.raises(Refused):
+        verify(statement.mass_below(tuple(u / 2 for u in heavy.diagonal)), Bisection())
 
 
 @pytest.mark.parametrize("robot", ["buap3", "reyes-kelly2", "pelican2"])
