@@ -162,8 +162,12 @@ def root(square: Fraction) -> Tree:
 
 def _between(ends: Enclosure, value: Fraction) -> bool:
     """Whether a value lies between two others; in integers, since comparing fractions takes longer."""
-    (a, b), (n, d), (e, f) = (x.as_integer_ratio() for x in (ends.lower, value, ends.upper))
-    return a * d <= n * b and n * f <= e * d
+    n, d = value.as_integer_ratio()
+    a, b = ends.lower.as_integer_ratio()
+    if a * d > n * b:
+        return False
+    e, f = ends.upper.as_integer_ratio()
+    return n * f <= e * d
 
 
 def _plain_root(square: Fraction) -> Tree:

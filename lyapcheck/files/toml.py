@@ -42,11 +42,10 @@ class TomlFile:
 
     def place(self, path: KeyPath) -> Place | None:
         """Where a key stands, or the nearest table or list around it that stands in the file."""
-        while path and path not in self._offsets:
+        while (offset := self._offsets.get(path)) is None:
+            if not path:
+                return None
             path = path[:-1]
-        if path not in self._offsets:
-            return None
-        offset = self._offsets[path]
         line = bisect_right(self._lines, offset)
         return Place(line, offset - self._lines[line - 1] + 1)
 

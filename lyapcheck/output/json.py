@@ -17,7 +17,7 @@ LONGEST = 400
 """Characters of a value that stands on one line."""
 NESTING = (dict, list, tuple)
 """What has parts."""
-_encode = JSONEncoder(ensure_ascii=False, allow_nan=False).encode
+_encode = JSONEncoder(ensure_ascii=False, allow_nan=False, check_circular=False).encode
 
 
 def render(answer: Answer) -> str:
@@ -61,7 +61,7 @@ def _lay_out(value: Any, line: str, text: list[str]) -> None:
 def _shallow(parts: Iterable[Any]) -> bool:
     """Whether no part of a part has parts."""
     for part in parts:
-        if isinstance(part, NESTING):
+        if not isinstance(part, str) and isinstance(part, NESTING):  # the former is quick to tell, and usual
             for inner in part.values() if isinstance(part, dict) else part:
                 if isinstance(inner, NESTING) and inner:
                     return False

@@ -25,10 +25,11 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
-from lyapcheck.search.proof import DecreaseProof, RateData
+from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.search.proof import RateData
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,9 +27,12 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.digits import short_below
 from lyapcheck.search.decay.phases import floor_below, light_proof, lightest
 from lyapcheck.search.falsify import RisingState, promising, smallest_refuted
-from lyapcheck.search.proof import DecreaseProof, RateData
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.sample import States, fastest_directions, sample, slow_sample, spread
 from lyapcheck.search.worst_states import finite_states, slow_states
+
+if TYPE_CHECKING:
+    from lyapcheck.search.proof import RateData
 
 SAMPLES = 20_000
 NEAR_STARTS = 10

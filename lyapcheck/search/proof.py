@@ -4,23 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from lyapcheck.check.kinds.at_corners import MassAtCorners
-from lyapcheck.check.kinds.decreasing import (
-    BoxTree,
-    LargerKv,
-    PositiveAndDecreasing,
-    statement_of,
-)
-from lyapcheck.check.kinds.inertia import Bisection, Links
-from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.kinds.decreasing import LargerKv, PositiveAndDecreasing, statement_of
 from lyapcheck.check.loop.processes import shared_between
-from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.judgement import proves
 
-RateData = BoxTree | LinkBounds
-"""What may show dV/dt < 0."""
+if TYPE_CHECKING:
+    from lyapcheck.check.kinds.at_corners import MassAtCorners
+    from lyapcheck.check.kinds.decreasing import BoxTree
+    from lyapcheck.check.kinds.inertia import Bisection, Links
+    from lyapcheck.check.kinds.link_bounds import LinkBounds
+    from lyapcheck.check.loop.closed_loop import ClosedLoop
+    from lyapcheck.check.statement import Proof, Statement
+
+    RateData = BoxTree | LinkBounds
+    """What may show dV/dt < 0."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from hashlib import sha256
 from itertools import chain
 from math import prod
 
@@ -88,6 +87,8 @@ def written_out(entries: list[str], what: str, data: object, parameters: tuple[E
     written = ", ".join([*entries, *ranged])
     if len(written) <= LONGEST:
         return written
+    from hashlib import sha256  # which loads a library of its own, and is seldom needed
+
     digest = sha256(repr((data, parameters)).encode()).hexdigest()[:32]
     more = f" and {len(parameters)} uncertain numbers" if parameters else ""
     return f"the {what}{more} with digest {digest}"
