@@ -175,6 +175,8 @@ x, y = var("x"), var("y")
         (expr("-1/3") ** 2, "(−1/3)²"),
         (sqrt(3) * gamma(2), "√3·γ_2"),
         (sqrt(x + 1), "√(x + 1)"),
+        (sqrt(x) ** 2, "(√x)²"),
+        (1 / sqrt(x**2), "1/√(x²)"),
         (abs(x) * tanh(y), "|x|·tanh(y)"),
         (h(3, x) - dh(3, x), "h_3(x) − h_3′(x)"),
         (log(cosh(x)) + potential(1, y), "ln(cosh(x)) + U_1(y)"),

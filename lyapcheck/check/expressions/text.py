@@ -90,7 +90,7 @@ def angles_text(values: Iterable[Fraction | None]) -> str:
 
 def _root(rest: list[Any]) -> Text:
     text, binding = _text(rest[0])
-    return (f"√{text}" if binding == ATOM and text.isalnum() else f"√({text})"), ATOM
+    return (f"√{text}" if binding == ATOM and text.isalnum() else f"√({text})"), POWER
 
 
 def _sum(rest: list[Any]) -> Text:
