@@ -51,6 +51,8 @@ def run(words: Sequence[str]) -> int:
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
     _same_bytes_everywhere()
+    # matrices are small here: threads of BLAS wait for each other and double the time
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     atexit.register(gc.freeze)  # a last look for garbage takes longer than the gate to decide
     try:
         _require_output()
