@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import partial
 
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
-from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.constants.storage.motion import coriolis_forms
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
@@ -88,18 +87,11 @@ def storage_proof(
 
 
 def _coriolis_proof(chain: Chain, high: Fraction) -> BoundWithProof | None:
-    least = _coriolis_shown(chain.links, Fraction(0))
-    return least if least is None or high <= least.bound else _coriolis_shown(chain.links, high)
-
-
-@lru_cache(maxsize=2)  # its constants and Property 2.6 ask for the same of an arm, which takes seconds
-def _coriolis_shown(links: tuple[RigidLink, ...], high: Fraction) -> BoundWithProof | None:
     """The least bound, or one that is not below it."""
-    chain = Chain(links, (Fraction(0),) * 3)
     for margin in _MARGINS_OF_CORIOLIS:
         forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)))
         if forms is not None:
-            shown = _accepted(BoundWithProof(ChainCoriolisBelow(links, forms[0]), forms[1]))
+            shown = _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
             if shown is not None:
                 return shown
     return None

@@ -20,6 +20,7 @@ from flint import fmpq, fmpq_mat, fmpq_mpoly
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.chain_coriolis import MotionForms
 from lyapcheck.check.loop import motion
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.motion import (
     COSINE,
     COUNT,
@@ -65,14 +66,21 @@ def coriolis_forms(
         rounded: a number that is not below.
         margin: the least eigenvalues that are sought, relative to the largest entry of an inertia.
     """
-    if len(chain.links) < 2:
+    solved = None if len(chain.links) < 2 else _solved(chain.links, margin)
+    if solved is None:
         return None
-    program = _Program(hinges(chain.links), margin)
-    x = solve(program.blocks, program.unknowns, _TOLERANCE)
-    if x is None or not x[0] > 0:
-        return None
+    program, x = solved
     kappa = rounded(Fraction(float(x[0])) * (1 + _RAISED))
     return kappa, program.proof(x, kappa)
+
+
+@lru_cache(
+    maxsize=2
+)  # constants, Property 2.6 and larger bounds of an arm ask for the same, which takes seconds
+def _solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
+    program = _Program(hinges(links), margin)
+    x = solve(program.blocks, program.unknowns, _TOLERANCE)
+    return None if x is None or not x[0] > 0 else (program, x)
 
 
 class _Squares:
