@@ -16,6 +16,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED, Array
+from lyapcheck.compiled.threads import over_shares
 from lyapcheck.constants.circles import TERMS, Circles
 from lyapcheck.constants.lattice import FIRST, Lattice, norms_above
 from lyapcheck.constants.products import common_factor
@@ -107,8 +108,15 @@ def _largest(entries: Circles, around: Sequence[int]) -> float:
     """The largest norm on a grid of so many points a circle."""
     circles = [2 * np.pi * np.arange(count) / count for count in around[:FIRST]]
     first = np.stack(np.meshgrid(*circles, indexing="ij"), axis=-1).reshape(-1, len(circles))
-    largest = 0.0
-    for _, values in entries.on(first, around[FIRST:]):
-        norms = norms_above(values.reshape(-1, *values.shape[2:]), largest)
-        largest = max(largest, float(norms.max()))
-    return largest
+    tops = [0.0]
+
+    def look(start: int, stop: int) -> int:
+        largest = max(tops)
+        for _, values in entries.on(first[start:stop], around[FIRST:]):
+            norms = norms_above(values.reshape(-1, *values.shape[2:]), largest)
+            largest = max(largest, float(norms.max()))
+        tops.append(largest)
+        return stop - start
+
+    over_shares(look, len(first))
+    return max(tops)

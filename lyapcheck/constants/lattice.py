@@ -16,10 +16,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
+from operator import itemgetter
 
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.compiled.threads import over_shares
 from lyapcheck.constants.circles import Circles
 from lyapcheck.constants.products import common_factor
 
@@ -118,18 +120,24 @@ class Lattice:
             The bounds, (count,); where they are above the cut, and matrices that no L brings below it.
         """
         tops, factors = np.full(len(first), cut), np.array(self.factors)
-        hard: list[int] = []
-        found: list[Array] = []
-        for places, values in spread.on(first, counts):
-            self.points += values.shape[0] * values.shape[1]
-            norms = norms_above(values.reshape(-1, *values.shape[2:]), cut).reshape(len(places), -1)
-            for row in np.flatnonzero(norms.max(axis=1) > cut):
-                worst = _worst(values[row], norms[row], factors, cut)
-                if norms[row, worst] > cut:
-                    tops[places[row]] = norms[row].max()
-                    hard.append(int(places[row]))
-                    found.append(values[row, worst])
-        return tops, hard, np.array(found)
+        found: list[tuple[int, Array]] = []
+
+        def look(start: int, stop: int) -> int:
+            points = 0
+            for places, values in spread.on(first[start:stop], counts):
+                points += values.shape[0] * values.shape[1]
+                norms = norms_above(values.reshape(-1, *values.shape[2:]), cut).reshape(len(places), -1)
+                for row in np.flatnonzero(norms.max(axis=1) > cut):
+                    worst = _worst(values[row], norms[row], factors, cut)
+                    if norms[row, worst] > cut:
+                        place = start + int(places[row])
+                        tops[place] = norms[row].max()
+                        found.append((place, values[row, worst]))
+            return points
+
+        self.points += over_shares(look, len(first))
+        found.sort(key=itemgetter(0))
+        return tops, [place for place, _ in found], np.array([matrix for _, matrix in found])
 
     def _add_factors(self, first: Array, tops: Array, matrices: Array, cut: float, tries: int) -> None:
         """An L for the worst matrix and those like it, and so on for those that stay above the cut."""
