@@ -15,6 +15,8 @@ from lyapcheck.verdicts import Grade, Verdict
 class Decision:
     """A verdict with its grade, the method, and a witness (refuted) or a reason with advice (undecided).
 
+    The reason of a proved claim is a remark: that no point was found to meet its hypotheses.
+
     ``evidence`` holds what else was found, as plain data (boxes used, samples without a counterexample, the
     value that would have made a printed number right). ``certificate`` is what the checker accepted, by
     ``rules``, taking for granted what ``granted`` says.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TypeVar
 
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.agrees import Agrees
@@ -19,6 +20,8 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import Expr, expr, var
+
+T = TypeVar("T")
 
 __all__ = [
     "Agrees",
@@ -57,9 +60,9 @@ class Missing:
     reason: str
 
 
-def identity(left: object, right: object, variables: tuple[Variable, ...] = ()) -> Identity:
+def identity(left: object, right: object, variables: Iterable[Variable] = ()) -> Identity:
     """``left = right`` for all values of the variables; those that ``variables`` does not name are real."""
-    return Identity(expr(left).tree, expr(right).tree, variables)
+    return Identity(expr(left).tree, expr(right).tree, _list(Variable, variables, "variables"))
 
 
 def for_all(
@@ -71,7 +74,7 @@ def for_all(
     variable: str = "x",
 ) -> ForAll:
     """A relation for every x from low to high, ends included unless said to be open; None is infinity."""
-    return ForAll(relation, _end(low), _end(high), open_low, open_high, variable)
+    return ForAll(_one(Relation, relation, "relation"), _end(low), _end(high), open_low, open_high, variable)
 
 
 def norm_bound(component: Expr, n: int, bound: object, power: int = 0) -> NormBound:
@@ -121,14 +124,15 @@ class Reals:
 
     def implies(self, hypotheses: Iterable[Relation], conclusion: Relation) -> Implies:
         """For all values of the variables: the hypotheses together give the conclusion."""
-        given = tuple(hypotheses)
-        return Implies(self.ranges(*given, conclusion), given, conclusion)
+        result = implies((), hypotheses, conclusion)
+        return replace(result, variables=self.ranges(*result.hypotheses, conclusion))
 
     def for_small(
         self, small: str, conclusion: Relation, given: Iterable[Relation] = (), unit: str = ""
     ) -> ForSmall:
         """The conclusion for every small enough value of one variable, and all of ``unit`` in (0, 1]."""
-        hypotheses, bounded = tuple(given), tuple(unit.split())
+        hypotheses, bounded = _list(Relation, given, "given"), tuple(unit.split())
+        _one(Relation, conclusion, "conclusion")
         over = (v for v in self.ranges(*hypotheses, conclusion) if v.name not in (small, *bounded))
         return ForSmall(small, tuple(over), hypotheses, conclusion, bounded)
 
@@ -148,21 +152,52 @@ class Reals:
         return [var(v.name) for v in variables]
 
 
-def implies(
-    variables: tuple[Variable, ...], hypotheses: tuple[Relation, ...], conclusion: Relation
-) -> Implies:
-    """For all values of the variables: the hypotheses together give the conclusion."""
-    return Implies(variables, hypotheses, conclusion)
+def implies(variables: Iterable[Variable], hypotheses: Iterable[Relation], conclusion: Relation) -> Implies:
+    """For all values of the variables: the hypotheses together give the conclusion.
+
+    Raises:
+        ValueError: something else stands where a relation or a variable is asked for.
+    """
+    return Implies(
+        _list(Variable, variables, "variables"),
+        _list(Relation, hypotheses, "hypotheses"),
+        _one(Relation, conclusion, "conclusion"),
+    )
 
 
 def all_of(**parts: Statement) -> AllOf:
     """Every part holds; the keywords name them (underscores read as spaces)."""
-    return AllOf(tuple((name.replace("_", " "), part) for name, part in parts.items()))
+    return AllOf(tuple((name.replace("_", " "), _one(Statement, part, name)) for name, part in parts.items()))
 
 
 def agrees(formula: Expr, printed: str, solve_for: str | None = None, **inputs: str) -> Agrees:
     """A printed number agrees with a formula whose variables are the printed numbers ``inputs``."""
     return Agrees(formula.tree, tuple(sorted(inputs.items())), printed, solve_for)
+
+
+HOW: dict[type, str] = {
+    Relation: "write relations, as in (x <= 1, y < 2), plain numbers as expr(1)",
+    Variable: 'write positive("x", "y"), or a sum of such: positive("x") + reals("y")',
+    Statement: "write for_all(...), implies(...) or another statement",
+}
+
+
+def _list(kind: type[T], values: object, subject: str) -> tuple[T, ...]:
+    """A tuple of what an author listed, each looked at.
+
+    Raises:
+        ValueError: it is no list, or something else is in it.
+    """
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise ValueError(f"{subject} must be a list, not {type(values).__name__}; {HOW[kind]}")
+    return tuple(_one(kind, value, f"{subject}[{index}]") for index, value in enumerate(values))
+
+
+def _one(kind: type[T], value: object, subject: str) -> T:
+    if not isinstance(value, kind):
+        wanted = kind.__name__.lower()
+        raise ValueError(f"{subject} must be a {wanted}, not {type(value).__name__}; {HOW[kind]}")
+    return value
 
 
 def _end(value: object | None) -> Fraction | None:

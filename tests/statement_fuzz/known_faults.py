@@ -168,7 +168,7 @@ FAULTS: tuple[KnownFault, ...] = (
     ),
     KnownFault(
         "root to the power 0 of what is negative",
-        implies(reals("v"), (sqrt(v) ** 0 <= 1,), expr(0) < v),
+        implies(reals("v"), (sqrt(v) ** 0 <= 1,), expr(0) <= v),
         Witness((("v", Fraction(-1)),)),
         "enclosure",
         "refuted",

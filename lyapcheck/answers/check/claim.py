@@ -12,17 +12,19 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.record import GRADE, accepted_before
+from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.claims.decision import Decision
     from lyapcheck.claims.statements import Missing
-    from lyapcheck.verdicts import Verdict
 
 SHOWN_COORDINATES = 12
 """Of a witness; the rest of them are counted."""
 SIDES = ("point", "left", "operator", "right")
 """What every witness says; whatever else is in one is said after it."""
 RELATIONS = {"<=": "≤"}
+REASONS = {Verdict.REFUTED: "where it fails", Verdict.PROVED: "remark"}
+"""What the reason of a decision is called, where it is not the reason that nothing was decided."""
 
 
 def statement_text(stated: Statement) -> str:
@@ -79,7 +81,7 @@ class ClaimResult:
 
     @property
     def support(self) -> tuple[str, ...]:
-        """What supports the verdict: the witness, the reason, the claims that broke it."""
+        """What supports the verdict: the witness, the reason or a remark, the claims that broke it."""
         return tuple(self._support())
 
     def data(self, timings: bool = False) -> dict[str, Any]:
@@ -116,7 +118,7 @@ class ClaimResult:
         if witness is not None:
             yield f"witness: {witness_text(witness)}"
         if reason:
-            yield f"{'reason' if witness is None else 'where it fails'}: {reason}"
+            yield f"{REASONS.get(self.verdict, 'reason')}: {reason}"
         if self.broken and "rests on" not in reason:
             yield f"rests on {', '.join(self.broken)}, not proved"
 

@@ -78,6 +78,7 @@ class ProofResult(Answer):
         blocks: tuple[Block, ...] = (
             Paragraph(self._run()),
             *self._index(),
+            *self._of_nothing(),
             *self._sections(),
             *self._assumed(),
         )
@@ -101,11 +102,11 @@ class ProofResult(Answer):
         return [row.record(self.timings) for row in self.claims]
 
     def annotations(self) -> list[Annotation]:
-        """A case a claim and m; no line, since a claim has none of its own."""
-        return [self._annotation(row) for row in self.claims]
+        """A case a claim and m, and a remark where one is proved of nothing; claims have no line."""
+        remarks = [self._annotation(row, Level.REMARK) for row in self._remarked()]
+        return [*(self._annotation(row, LEVELS[row.verdict]) for row in self.claims), *remarks]
 
-    def _annotation(self, row: ClaimResult) -> Annotation:
-        level = LEVELS[row.verdict]
+    def _annotation(self, row: ClaimResult, level: Level) -> Annotation:
         said = [row.statement, *row.support, row.words]
         message = "" if level is Level.PASSED else f"{row.id} {row.verdict}: {'; '.join(said)}"
         case = "" if row.m is None else f"m = {row.m}"
@@ -131,6 +132,14 @@ class ProofResult(Answer):
         ]
         if sum(int(count) for _, count, _ in rows) > 1:
             yield Table(("verdict", "count", "claims"), tuple(rows), align="lrl")
+
+    def _of_nothing(self) -> Iterator[Paragraph]:
+        """Before all else: which of the proved claims may say nothing."""
+        if rows := self._remarked():
+            yield Paragraph(f"Proved, but perhaps of nothing; see the remark at each: {_ids(rows)}.")
+
+    def _remarked(self) -> list[ClaimResult]:
+        return [row for row in self.claims if row.verdict is Verdict.PROVED and row.decision.reason]
 
     def _sections(self) -> Iterator[Section]:
         """A section a verdict, in it one for each part of the text; the claims of each as a table."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +23,13 @@ from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.decision import decided, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import CaseData, Handover, Key, ScriptRequest
+from lyapcheck.claims.hypotheses import remarks
 from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.search_result import SearchResult
-from lyapcheck.claims.statements import Missing, Statement
+from lyapcheck.claims.statements import Implies, Missing, Statement
 from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
 
@@ -168,12 +170,14 @@ def _search(statement: Statement | Missing) -> SearchResult:
 def _keep(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> None:
     """Put what the checker has accepted into the store."""
     for key, row in proposals.items():
-        result = row.finding
-        if isinstance(row.stated, Missing) or result.proof is None or not judged[key].accepted:
-            continue
-        if not store.has(question := _question(row.stated)):
-            written = {**vars(result), "grade": result.grade.label, "proof": to_json(result.proof)}
-            store.put(question, written)
+        if not isinstance(row.stated, Missing) and row.finding.proof is not None and judged[key].accepted:
+            _put(row.stated, row.finding)
+
+
+def _put(statement: Statement, result: SearchResult) -> None:
+    if result.proof is not None and not store.has(question := _question(statement)):
+        written = {**vars(result), "grade": result.grade.label, "proof": to_json(result.proof)}
+        store.put(question, written)
 
 
 def _question(statement: Statement) -> dict[str, str]:
@@ -200,6 +204,9 @@ def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[
         broken = tuple(used for used, m in row.used if result[used, m].verdict is not Verdict.PROVED)
         if decision.verdict is Verdict.PROVED and broken:
             decision = undecided(rests_on(broken), decision.method, **decision.evidence)
+        elif decision.verdict in (Verdict.PROVED, Verdict.UNDECIDED) and not isinstance(row.stated, Missing):
+            said = (decision.reason, *remarks(row.stated, _judged))
+            decision = replace(decision, reason="; ".join(filter(None, said)))
         result[key] = ClaimResult(
             id=claim.id,
             m=row.m,
@@ -214,6 +221,13 @@ def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[
             stated=row.stated,
             seconds=row.seconds,
         )
+    return result
+
+
+def _judged(statement: Implies) -> SearchResult:
+    """What the checker accepts, in this process: enough for a remark."""
+    result = _search(statement)
+    _put(statement, result)
     return result
 
 

@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.expressions.expression import Algebra, Tree, evaluate
 from lyapcheck.check.statement import Relation, Variable
-from lyapcheck.claims.procedures.search import Point
+from lyapcheck.claims.procedures.search import Point, round_points
 
 SEED = 20190561
 SAMPLES = 20_000
 KEPT = 12
 CLIMB_STEPS = 60
+OUTSIDE, NEARLY = 2.0, 1e-3
+"""What is added to the score where a hypothesis fails, and by how little it may: rounding can meet it."""
+DENOMINATORS = (1, 12, 1000)
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +57,7 @@ def values_of(tree: Tree, points: dict[str, Floats]) -> Floats:
 def candidates(
     variables: tuple[Variable, ...], hypotheses: tuple[Relation, ...], conclusion: Relation
 ) -> Iterator[Point]:
-    """Exact points, the most promising first, at which the conclusion seems to fail; the seed is fixed."""
+    """Exact points, always the same: where the conclusion seems to fail, the worst first, then round ones."""
     generator = np.random.default_rng(SEED)
     points = {v.name: _draw(v, SAMPLES, generator) for v in variables}
     score = _score(points, hypotheses, conclusion)
@@ -64,8 +67,13 @@ def candidates(
             break
         points, score = _climb(points, order, step, variables, hypotheses, conclusion, generator)
     for index in np.argsort(score, kind="stable")[:KEPT]:
+        place = {v.name: float(points[v.name][index]) for v in variables}
         if score[index] < 0 or (conclusion.strict and score[index] == 0):
-            yield {v.name: _exact(float(points[v.name][index]), v) for v in variables}
+            yield {v.name: _exact(place[v.name], v) for v in variables}
+        elif OUTSIDE <= score[index] < OUTSIDE + NEARLY:
+            for most in DENOMINATORS:
+                yield {name: Fraction(value).limit_denominator(most) for name, value in place.items()}
+    yield from round_points(variables)
 
 
 def lowest_points(relation: Relation, name: str, low: Fraction, high: Fraction) -> list[Fraction]:
@@ -98,14 +106,20 @@ def _draw(variable: Variable, count: int, generator: np.random.Generator) -> Flo
 
 
 def _score(points: dict[str, Floats], hypotheses: tuple[Relation, ...], conclusion: Relation) -> Floats:
-    """The relative gap of the conclusion: negative where it fails, infinite where a hypothesis does."""
-    left, right = values_of(conclusion.left, points), values_of(conclusion.right, points)
-    with np.errstate(all="ignore"):
-        score: Any = (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
+    """The relative gap of the conclusion, negative where it fails; where hypotheses do, how far, above it."""
+    score = _relative_gap(conclusion, points)
     for hypothesis in hypotheses:
-        gap = values_of(hypothesis.gap, points)
-        score = np.where((gap > 0) | ((gap == 0) & (not hypothesis.strict)), score, np.inf)
+        gap = _relative_gap(hypothesis, points)
+        met = (gap > 0) | ((gap == 0) & (not hypothesis.strict))
+        score = np.where(met, score, np.fmax(score, OUTSIDE - gap))
     return np.asarray(np.where(np.isnan(score), np.inf, score), dtype=np.float64)
+
+
+def _relative_gap(relation: Relation, points: dict[str, Floats]) -> Any:
+    """From −1 to 1: right − left, relative to the sizes of both."""
+    left, right = values_of(relation.left, points), values_of(relation.right, points)
+    with np.errstate(all="ignore"):
+        return (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
 
 
 def _climb(

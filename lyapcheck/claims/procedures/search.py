@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from random import Random
 from typing import Any
 
 from flint import ctx
@@ -13,7 +14,7 @@ from lyapcheck.check.expressions.expression import Unsupported, ball
 from lyapcheck.check.expressions.witness import Comparison, holds
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.statement import Point as Coordinates
-from lyapcheck.check.statement import Witness
+from lyapcheck.check.statement import Variable, Witness
 from lyapcheck.output.digits import decimals
 
 BITS = 192
@@ -25,6 +26,10 @@ MOST_DIGITS = 400
 
 ROUND = tuple(map(Fraction, ("0", "1", "1/2", "2", "1/10", "10", "1/100", "100")))
 """What a reader takes in at a glance, the roundest first."""
+
+TRIES, SEED = 300, 1
+VALUES = tuple(map(Fraction, ("1", "3/2", "2", "3", "1/2", "10", "1/10", "100", "1/100")))
+"""How many round points are drawn at random, and what from."""
 
 Point = dict[str, Fraction]
 
@@ -73,6 +78,24 @@ def rounder(failure: Failure, hypotheses: Sequence[Comparison] = ()) -> Failure:
         tries = ({**result[1], name: value} for value in signed)
         result = first_refutation(claim, tries, hypotheses) or result
     return result
+
+
+def round_points(variables: Sequence[Variable]) -> Iterator[Point]:
+    """All variables 1 above their ends, then one at a time at its end, then random ones; a fixed seed."""
+    random = Random(SEED)
+    ones = {v.name: (v.low or Fraction(0)) + 1 for v in variables}
+    yield ones
+    yield from (ones | {v.name: v.low} for v in variables if v.low is not None and not v.strict)
+    for _ in range(TRIES):
+        yield {v.name: _drawn(v, random) for v in variables}
+
+
+def _drawn(variable: Variable, random: Random) -> Fraction:
+    """A value in the range of a variable; its end, or 0, now and then."""
+    value = random.choice(VALUES)
+    if variable.low is None:
+        return random.choice((value, -value, Fraction(0)))
+    return variable.low + (value if variable.strict else random.choice((value, value, Fraction(0))))
 
 
 def _can_be_written(side: Enclosure) -> bool:

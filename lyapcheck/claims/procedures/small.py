@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from random import Random
 
 from flint import ctx
 
@@ -26,16 +25,13 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
-from lyapcheck.claims.procedures.search import BITS, Point, point_of
+from lyapcheck.claims.procedures.search import BITS, Point, point_of, round_points
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
 from lyapcheck.control.judgement import refutes
 from lyapcheck.output.digits import decimals
 
 METHOD = "small parameter"
-TRIES = 300
-SEED = 1
-VALUES = tuple(map(Fraction, ("1", "3/2", "2", "3", "1/2", "10", "1/10", "100", "1/100")))
 BELOW = (Fraction(1), Fraction(1, 2**10))
 
 
@@ -84,23 +80,10 @@ def _against(statement: ForSmall) -> SearchResult | None:
 
 
 def _points(statement: ForSmall) -> Iterator[Point]:
-    """All variables 1, then one at a time at its end, then random ones."""
+    """Round points; variables that run over (0, 1] are 1 at most."""
     unit = [Variable(name, Fraction(0)) for name in statement.bounded]
-    variables, random = [*statement.variables, *unit], Random(SEED)
-    ones = {v.name: (v.low or Fraction(0)) + 1 for v in variables}
-    yield ones
-    yield from (ones | {v.name: v.low} for v in variables if v.low is not None and not v.strict)
-    for _ in range(TRIES):
-        point = {v.name: _drawn(v, random) for v in variables}
+    for point in round_points([*statement.variables, *unit]):
         yield point | {name: min(point[name], Fraction(1)) for name in statement.bounded}
-
-
-def _drawn(variable: Variable, random: Random) -> Fraction:
-    """A value in the range of a variable; its end, or 0, now and then."""
-    value = random.choice(VALUES)
-    if variable.low is None:
-        return random.choice((value, -value, Fraction(0)))
-    return variable.low + (value if variable.strict else random.choice((value, value, Fraction(0))))
 
 
 def _breaks(statement: ForSmall, point: Point) -> bool:
