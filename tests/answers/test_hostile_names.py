@@ -182,6 +182,7 @@ SHORT = "--target 10 --time 0.1"
 COMMANDS: dict[str, Iterable[str]] = {
     "gate gains.toml": JudgedFormat,
     "table --m 1 --robot arm.toml": Format,
+    "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JudgedFormat,
     f"simulate gains.toml {SHORT}": JudgedFormat,
     f"simulate gains.toml {SHORT} --runs 2": JudgedFormat,
     "simulate gains.toml --reference reference.toml": JudgedFormat,
@@ -190,7 +191,6 @@ COMMANDS: dict[str, Iterable[str]] = {
     "robot arm.toml --max-boxes 20": JudgedFormat,
     "robot arm.urdf --max-boxes 20": JudgedFormat,
     "tune arm.toml --compare gains.toml": Format,
-    "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JudgedFormat,
 }
 
 
@@ -333,8 +333,8 @@ def test_what_does_not_print_is_refused_in_urdf_files(
         6,
         [
             *(f"gate ? --format {form}" for form in ("text", "json", "markdown", "junit", "sarif", "github")),
-            "epsilon ? --max-boxes 20 --starts 1",
             *(f"simulate ? {SHORT} --format {form}" for form in ("json", "sarif", "junit", "github")),
+            "epsilon ? --max-boxes 20 --starts 1",
             "tune arm.toml --compare ?",
             *(f"robot ? --format {form}" for form in ("text", "sarif", "junit", "github")),
         ],
