@@ -15,7 +15,7 @@ from tests.helpers.one_process import one_process
 # takes says more of the machine than of the code.
 NO_CLOCK = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("fast", NO_CLOCK, max_examples=10)
-settings.register_profile("thorough", NO_CLOCK, max_examples=400)
+settings.register_profile("thorough", NO_CLOCK, max_examples=250)
 settings.load_profile("fast")
 
 # Each of the many processes that tests start would else compile the whole package for itself.

@@ -6,15 +6,20 @@ import json
 import sys
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
 import pytest
 
+from lyapcheck.check import recheck
 from lyapcheck.check.codec import members
+from lyapcheck.check.files import Unreadable, gather
+from lyapcheck.check.guard import Guard
 from lyapcheck.check.judging import judged
+from lyapcheck.check.limits import Limits
 from lyapcheck.check.statement import Piece, Proof, Statement
 from lyapcheck.check.verify import rule_for
-from tests.arena.run import ARENA, faults
+from tests.arena.run import ARENA, ENDS, faults
 
 NEVER_ALONE = {
     "Sturm",
@@ -113,8 +118,26 @@ def test_what_is_judged_by_itself_is_accepted_or_refused_as_expected():
 
 
 @pytest.mark.slow
-def test_the_checker_says_of_each_entry_what_is_expected():
-    assert faults([sys.executable, "-m", "lyapcheck.check"]) == []
+def test_the_checker_says_of_each_entry_what_is_expected(monkeypatch):
+    """Entry by entry, by one process that judges them all."""
+
+    def said(path):
+        try:
+            return recheck.recheck(gather([path])).code
+        except Unreadable:
+            return 2
+
+    with Guard(Limits()) as guard:
+        monkeypatch.setattr(recheck, "Guard", lambda limits: nullcontext(guard))
+        outcomes = {entry["path"]: ENDS.get(said(ARENA / entry["path"])) for entry in ENTRIES}
+    assert [
+        path for path, entry in zip(outcomes, ENTRIES, strict=True) if outcomes[path] not in entry["expected"]
+    ] == []
+
+
+@pytest.mark.slow
+def test_so_does_the_command_which_judges_in_a_process_for_each():
+    assert faults([sys.executable, "-m", "lyapcheck.check"], one_in=20) == []
 
 
 def test_a_checker_that_believes_everything_is_found_out():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -22,8 +21,8 @@ def test_no_garbled_file_ends_in_another_error(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_hundred_thousand_garbled_files(tmp_path: Path) -> None:
-    outcome = run(100_000, tmp_path, seed=5)
+def test_many_garbled_files(tmp_path: Path) -> None:
+    outcome = run(25_000, tmp_path, seed=5)
     assert not outcome.failures, "\n".join(outcome.failures)
 
 
@@ -48,7 +47,11 @@ def test_a_reader_with_a_slip_is_found(tmp_path: Path) -> None:
 
 
 def test_a_reader_that_hangs_is_found(tmp_path: Path) -> None:
-    outcome = run(1, tmp_path, read=lambda file: time.sleep(5), seconds=0.05)
+    def hangs(file: Path) -> None:
+        while True:
+            pass
+
+    outcome = run(1, tmp_path, read=hangs, seconds=0.05)
     assert "TimeoutError" in outcome.failures[0]
 
 

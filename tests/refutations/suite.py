@@ -19,8 +19,9 @@ from tests.refutations.statements import Part, parts
 
 LEAST = 150
 """How many planted faults there must be."""
-FEW = 14
-"""Where some faults are enough they are planted in one statement of so many of a kind."""
+MANY, FEW = 4, 14
+"""Where some faults are enough they are planted in one statement of so many of a kind; ``python -m
+tests.refutations`` plants all."""
 
 Item = TypeVar("Item")
 Decide = Callable[[Statement], Verdict]
@@ -48,19 +49,13 @@ class Planted:
     unjudged: tuple[str, ...]
 
 
-@lru_cache(maxsize=1)
-def planted() -> Planted:
-    """Every fault in every statement of the proofs that the oracle does not already break."""
-    return plant(parts())
-
-
-@lru_cache(maxsize=1)
-def partly_planted() -> Planted:
-    """The same in a few of the statements of each kind: enough to catch a procedure that is unsound."""
+@lru_cache(maxsize=3)
+def planted(one_in: int = 1) -> Planted:
+    """Every fault in every statement of the proofs, or in one in so many of a kind, that holds as it is."""
     kinds: dict[type[Statement], list[Part]] = {}
     for part in parts():
         kinds.setdefault(type(part.statement), []).append(part)
-    return plant(part for result in kinds.values() for part in result[::FEW])
+    return plant(part for result in kinds.values() for part in result[::one_in])
 
 
 def plant(originals: Iterable[Part]) -> Planted:

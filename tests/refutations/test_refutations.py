@@ -40,25 +40,25 @@ from tests.refutations.mutations import RULES, faults_of
 from tests.refutations.oracle import DIGITS, family_number, is_false
 from tests.refutations.report import markdown, summary
 from tests.refutations.statements import Part, parts
-from tests.refutations.suite import LEAST, outcomes, partly_planted, planted, verdict_of, wrongly_proved
+from tests.refutations.suite import FEW, LEAST, MANY, outcomes, planted, verdict_of, wrongly_proved
 
 x, a, b, v = var("x"), var("a"), var("b"), any_vector("v")
 
 
 @pytest.mark.slow
 def test_there_are_enough_faults_of_every_kind() -> None:
-    assert len(planted().false) >= LEAST
-    assert {fault.kind for fault in planted().false} == set(RULES)
+    assert len(planted(MANY).false) >= LEAST
+    assert {fault.kind for fault in planted(MANY).false} == set(RULES)
 
 
 @pytest.mark.slow
 def test_there_are_faults_of_every_kind_that_an_unsound_procedure_takes_for_true() -> None:
-    assert {fault.kind for fault in partly_planted().false} >= set(SUSPECT)
+    assert {fault.kind for fault in planted(FEW).false} >= set(SUSPECT)
 
 
 @pytest.mark.slow
 def test_no_false_statement_is_proved() -> None:
-    result = outcomes(planted().false)
+    result = outcomes(planted(MANY).false)
     assert wrongly_proved(result) == []
     assert Verdict.ERROR not in {outcome.verdict for outcome in result}
     assert sum(outcome.verdict is Verdict.REFUTED for outcome in result) > 0.8 * len(result)
@@ -101,13 +101,13 @@ def blind_to_digits(statement: Statement) -> Verdict:
 @pytest.mark.slow
 @pytest.mark.parametrize("unsound", [credulous, blind_to_strictness, blind_to_constants])
 def test_an_unsound_procedure_is_caught(unsound: object) -> None:
-    suspects = [f for f in partly_planted().false if f.kind in SUSPECT]
+    suspects = [f for f in planted(FEW).false if f.kind in SUSPECT]
     assert wrongly_proved(outcomes(suspects, by=unsound))  # type: ignore[arg-type]
 
 
 @pytest.mark.slow
 def test_a_procedure_that_takes_near_numbers_for_equal_is_caught() -> None:
-    suspects = [fault for fault in planted().false if fault.kind in SUSPECT]
+    suspects = [fault for fault in planted(MANY).false if fault.kind in SUSPECT]
     assert wrongly_proved(outcomes(suspects, by=blind_to_digits))
 
 
@@ -117,12 +117,12 @@ SUSPECT = ("strict for weak", "factor of two", "√n missing", "constant rounded
 @pytest.mark.slow
 def test_the_suite_sees_one_proof_too_many() -> None:
     """A verdict that is wrong for a single fault turns up, by the name of that fault."""
-    target = partly_planted().false[7]
+    target = planted(FEW).false[7]
 
     def nearly_sound(statement: Statement) -> Verdict:
         return Verdict.PROVED if statement == target.statement else Verdict.REFUTED
 
-    assert wrongly_proved(outcomes(partly_planted().false, by=nearly_sound)) == [target.name]
+    assert wrongly_proved(outcomes(planted(FEW).false, by=nearly_sound)) == [target.name]
 
 
 FALSE = {
@@ -176,7 +176,7 @@ def test_the_oracle_has_its_own_constants_and_they_agree(m: int) -> None:
 def test_what_is_proved_of_the_proofs_is_not_broken_by_the_oracle() -> None:
     """Two opinions on the statements as they stand: proved here, a failing point there, cannot both be."""
     for part in parts():
-        if part.where in partly_planted().broken:
+        if part.where in planted(FEW).broken:
             assert verdict_of(part.statement) is not Verdict.PROVED, part.where
 
 
@@ -190,8 +190,8 @@ def test_faults_change_one_place_and_keep_to_the_names_of_the_statement() -> Non
 
 @pytest.mark.slow
 def test_the_same_input_gives_the_same_report() -> None:
-    result = outcomes(partly_planted().false, by=credulous)
-    text = markdown(partly_planted(), result)
-    assert text == markdown(partly_planted(), outcomes(partly_planted().false, by=credulous))
+    result = outcomes(planted(FEW).false, by=credulous)
+    text = markdown(planted(FEW), result)
+    assert text == markdown(planted(FEW), outcomes(planted(FEW).false, by=credulous))
     assert summary(result) in text
     assert f"| {len(result)} |" not in text.splitlines()[0]

@@ -23,7 +23,7 @@ from tests.statement_fuzz.shrink import shrunk
 from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
 FEW = 100
-MANY = 2_000
+MANY = 800
 
 x = var("x")
 
