@@ -23,7 +23,7 @@ def chain_constant(
     Args:
         plant: the arm.
         name: of the constant.
-        thorough: whether k_c may take a minute; else masses and distances alone bound it.
+        thorough: whether k_c may take a minute; else forms along the links alone bound it.
         gap: relative width that is good enough for k_c.
         on_progress: receives the share of the work done.
 
@@ -39,7 +39,7 @@ def chain_constant(
         lattice = pool.submit(coriolis_bound, plant, float(inner.value), gap) if points else None
         still = name.startswith("k_g") and inner.value == 0
         shown = storage_proof(chain, name, still=True) if still else None
-        if shown is None and (name != "k_c" or thorough or outer is None):
+        if shown is None:
             on_progress(0.1, "forms along the links")
             shown = storage_proof(chain, name)
         if lattice is not None:

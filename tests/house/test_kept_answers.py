@@ -24,6 +24,7 @@ from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.check.judging import certificate_of
+from lyapcheck.constants.storage import motion, storage_proof
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
@@ -258,3 +259,40 @@ def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) ->
     first = kept_constants(load("reyes-kelly2"), 500, None)
     monkeypatch.setattr(kept_arm, "arm_constants", never)
     assert kept_constants(load("reyes-kelly2"), 500, None) == first
+
+
+def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    chain = load("pelican2").fixed().chain
+    assert chain is not None
+    motion._solved.cache_clear()
+    first = storage_proof(chain, "k_c")
+    motion._solved.cache_clear()
+    with monkeypatch.context() as patch:
+        patch.setattr(motion, "solve", never)
+        assert first is not None
+        assert storage_proof(chain, "k_c") == first
+
+    def shortened(answer: list[float]) -> None:
+        answer.pop()
+
+    motion._solved.cache_clear()
+    rewritten(place, shortened)
+    assert storage_proof(chain, "k_c") == first
+    motion._solved.cache_clear()
+
+
+def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
+    chain = load("pelican2").fixed().chain
+    assert chain is not None
+    motion._solved.cache_clear()
+    first = storage_proof(chain, "k_c")
+    motion._solved.cache_clear()
+
+    def halved(answer: list[float]) -> None:
+        answer[0] /= 2
+
+    rewritten(place, halved)
+    second = storage_proof(chain, "k_c")
+    assert first is not None
+    assert second is None or second.bound >= first.bound * Fraction(99, 100)
+    motion._solved.cache_clear()

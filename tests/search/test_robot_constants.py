@@ -21,8 +21,10 @@ from lyapcheck.constants.gravity import gravity_task
 from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
 from lyapcheck.constants.maximise import maximise
 from lyapcheck.constants.quartic import quartic
+from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.committed import ROOT
 from tests.helpers.robot_cases import BUILT_IN, relaxed
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import ARMS
@@ -111,6 +113,20 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
     assert (bounds.beta_M, bounds.k_c) == (result.lambda_max.upper, result.k_c.upper)
     assert bounds.lambda_min_M == result.lambda_min.lower
     assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
+
+
+@pytest.mark.slow
+def test_k_c_of_many_joints_is_the_certified_one() -> None:
+    model = load(str(ROOT / "examples" / "px100.toml"))
+    chain = model.fixed().chain
+    assert chain is not None
+    shown = storage_proof(chain, "k_c")
+    assert shown is not None
+    assert robot_bounds(model).k_c == shown.bound
+    q, x = np.random.default_rng(1).normal(size=(2, 2000, 4))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    torques = np.einsum("cij,cj->ci", NumericModel(model.fixed()).coriolis(q, x), x)
+    assert 0.3 * float(shown.bound) < np.max(np.linalg.norm(torques, axis=1)) < float(shown.bound)
 
 
 @pytest.mark.parametrize("budget", one_in(3, [0, 1, 40, 300]))

@@ -17,6 +17,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
+from lyapcheck import store
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.chain_coriolis import MotionForms
 from lyapcheck.check.loop import motion
@@ -74,13 +75,18 @@ def coriolis_forms(
     return kappa, program.proof(x, kappa)
 
 
-@lru_cache(
-    maxsize=2
-)  # constants, Property 2.6 and larger bounds of an arm ask for the same, which takes seconds
+@lru_cache(maxsize=2)
 def _solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
-    program = _Program(hinges(links), margin)
+    """The program and its solution, from the store if it is there: it takes seconds, and several ask."""
+    program, asked = _Program(hinges(links), margin), {"motion": store.exact(links, margin)}
+    kept = store.take(asked)
+    if isinstance(kept, list) and len(kept) == program.unknowns:
+        return program, np.array(kept, dtype=np.float64)
     x = solve(program.blocks, program.unknowns, _TOLERANCE)
-    return None if x is None or not x[0] > 0 else (program, x)
+    if x is None or not x[0] > 0:
+        return None
+    store.put(asked, x.tolist())
+    return program, x
 
 
 class _Squares:
