@@ -80,15 +80,11 @@ def margin_text(check: Check, digits: int = 4) -> str:
     if check.limit is None or check.value is None:
         return ""
     a, b, c, d = *check.limit.lower.as_integer_ratio(), *check.value.as_integer_ratio()
-    return _down(a * d - b * c, b * d, digits)  # which need not be in lowest terms
+    return significant_text(a * d - b * c, b * d, digits)  # which need not be in lowest terms
 
 
-def significant_text(value: Fraction, digits: int) -> str:
-    """A decimal of a few significant digits that is not above ``value``."""
-    return _down(value.numerator, value.denominator, digits)
-
-
-def _down(numerator: int, denominator: int, digits: int) -> str:
+def significant_text(numerator: int, denominator: int, digits: int) -> str:
+    """A decimal of a few significant digits that is not above the quotient."""
     size, places = abs(numerator), digits
     while places < 40 and size * 10**places < denominator * 10 ** (digits - 1):
         places += 1
