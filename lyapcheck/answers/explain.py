@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from lyapcheck._types import Progress
 from lyapcheck.answers.check.claim import one_line
 from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.claims.ask import ask
@@ -18,6 +20,7 @@ from lyapcheck.claims.statements import AllOf, Missing, Statement
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 
+FORMULA = re.compile(r"\(\w+\)")
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
 
@@ -50,6 +53,7 @@ class Explanation(Answer):
         reference: the text.
         uses: the claims it rests on, and what they say.
         used_by: the claims that rest on it, and what they say.
+        near: the other claims about the same formulas of the text, and what they say.
         case: the m, n and arm at which the parts are written out; empty where they depend on none of them.
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
@@ -67,6 +71,7 @@ class Explanation(Answer):
     reference: str
     uses: tuple[tuple[str, str], ...]
     used_by: tuple[tuple[str, str], ...]
+    near: tuple[tuple[str, str], ...]
     case: str
     parts: tuple[Part, ...]
     lacking: str
@@ -83,6 +88,7 @@ class Explanation(Answer):
             Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
             Section("What it uses", (_claims(self.uses),)),
             Section("What uses it", (_claims(self.used_by),)),
+            *((Section(f"Also about {_formulas(self.place)}", (_claims(self.near),)),) if self.near else ()),
             Section("To decide it", (Code(self._command()),)),
         )
         return Document(f"{self.id}: “{one_line(self.says)}” (the author's words)", blocks)
@@ -90,7 +96,7 @@ class Explanation(Answer):
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
         result = asdict(self) | {"found": list(self.found)}
-        for key in ("uses", "used_by"):
+        for key in ("uses", "used_by", "near"):
             result[key] = [{"id": known, "says": says} for known, says in result[key]]
         return result | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
 
@@ -160,13 +166,16 @@ def list_claims(script: str | None = None) -> ClaimList:
     return ClaimList(tuple(proofs))
 
 
-def explain(claim_id: str, script: str | None = None, decide: bool = False) -> Explanation:
+def explain(
+    claim_id: str, script: str | None = None, decide: bool = False, on_progress: Progress | None = None
+) -> Explanation:
     """One claim explained.
 
     Args:
         claim_id: such as ``7a``; ``(7a)`` and ``7A`` mean the same where no other claim has that id.
         script: the proof script that makes it; by default the first of those that come with lyapcheck.
         decide: whether to decide it as well, for m = 1, 2, 3 and the paper's arm.
+        on_progress: called with the fraction of that done and the id at work.
 
     Raises:
         InputError: no such claim, no such script, or one that cannot be used.
@@ -186,6 +195,7 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
     answer = claim.answers[0]
     stated = handover.stated(answer)
     statement = None if isinstance(stated, Missing) else stated
+    formulas = set(FORMULA.findall(claim.place))
     return Explanation(
         id=claim.id,
         says=claim.says,
@@ -195,19 +205,24 @@ def explain(claim_id: str, script: str | None = None, decide: bool = False) -> E
         reference=handover.reference,
         uses=tuple(_named(claims[used]) for used in claim.uses),
         used_by=tuple(_named(other) for other in handover.claims if claim.id in other.uses),
+        near=tuple(
+            _named(other)
+            for other in handover.claims
+            if other != claim and formulas & {*FORMULA.findall(other.place)}
+        ),
         case=_shown_case(case, answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
-        found=_found(script_path, meant) if decide else (),
+        found=_found(script_path, meant, on_progress) if decide else (),
     )
 
 
-def _found(script: Path, claim: str) -> tuple[str, ...]:
+def _found(script: Path, claim: str, on_progress: Progress | None) -> tuple[str, ...]:
     """The verdict for each m, with its witness or reason."""
     from lyapcheck.answers.check.run import run_proof
 
-    rows = run_proof(script, only=(claim,)).claims
+    rows = run_proof(script, only=(claim,), on_progress=on_progress).claims
     return tuple(
         "; ".join(
             (
@@ -241,6 +256,10 @@ def _meant(claim_id: str, ids: Collection[str]) -> str | None:
             return wanted
     near = [known for known in ids if known.casefold() == bare.casefold()]
     return near[0] if len(near) == 1 else None
+
+
+def _formulas(place: str) -> str:
+    return ", ".join(FORMULA.findall(place))
 
 
 def _claims(claims: tuple[tuple[str, str], ...]) -> Block:

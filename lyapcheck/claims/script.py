@@ -95,10 +95,21 @@ def _run_once(path: Path, _content: bytes) -> dict[str, Any]:
     return runpy.run_path(str(path))
 
 
-def _raised(name: str, path: Path, error: BaseException) -> Problem:
+def line_of(error: BaseException, path: Path) -> int | None:
+    """The line of a script at which an error was raised, as far as it goes through it."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
-    line = frames[-1].lineno if frames else None
-    return Problem(name, line, "script", "", f"raises {type(error).__name__}: {error}", "correct the script")
+    return frames[-1].lineno if frames else None
+
+
+def _raised(name: str, path: Path, error: BaseException) -> Problem:
+    return Problem(
+        name,
+        line_of(error, path),
+        "script",
+        "",
+        f"raises {type(error).__name__}: {error}",
+        "correct the script",
+    )
 
 
 def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:

@@ -30,7 +30,7 @@ from lyapcheck.claims.handover import (
     write,
 )
 from lyapcheck.claims.order import in_order, needed
-from lyapcheck.claims.script import check_ids, load_proof
+from lyapcheck.claims.script import check_ids, line_of, load_proof
 from lyapcheck.claims.statements import Statement
 from lyapcheck.errors import InputError, Problem
 
@@ -98,18 +98,18 @@ def _handover(request: ScriptRequest) -> str:
 
 def _answers(claim: Claim, request: ScriptRequest, statements: Lines) -> Iterator[ScriptAnswer]:
     for case_data in request.asked:
-        yield _answer(claim, case_data, statements, request.shown)
+        yield _answer(claim, case_data, statements, request)
     for case_data in request.others:
         try:
-            yield _answer(claim, case_data, statements, request.shown)
+            yield _answer(claim, case_data, statements, request)
         except InputError as error:
             yield ScriptAnswer(None, str(error), ())
 
 
-def _answer(claim: Claim, case_data: CaseData, statements: Lines, shown: str) -> ScriptAnswer:
-    case = Case(*case_data)
+def _answer(claim: Claim, case_data: CaseData, statements: Lines, request: ScriptRequest) -> ScriptAnswer:
+    case, shown = Case(*case_data), request.shown
     try:
-        statement = _statement(claim, case, shown)
+        statement = _statement(claim, case, request)
         if statement not in statements:
             statements[statement] = len(statements), statement_json(statement)
     except Lacking as lack:
@@ -123,7 +123,7 @@ def _answer(claim: Claim, case_data: CaseData, statements: Lines, shown: str) ->
     return ScriptAnswer(statements[statement][0], "", tuple(sorted(case.read)))
 
 
-def _statement(claim: Claim, case: Case, shown: str) -> Statement:
+def _statement(claim: Claim, case: Case, request: ScriptRequest) -> Statement:
     """What a claim states for a case.
 
     Raises:
@@ -135,17 +135,19 @@ def _statement(claim: Claim, case: Case, shown: str) -> Statement:
     except (Lacking, InputError):
         raise
     except BaseException as error:  # a script must not choose the exit code
-        rule = f"its statement raises {type(error).__name__}: {error}"
-        raise InputError(
-            Problem(shown, None, claim.id, "", rule, "correct the function of this claim")
-        ) from error
+        rule, repair = (
+            f"its statement raises {type(error).__name__}: {error}",
+            "correct the function of this claim",
+        )
+        line = line_of(error, Path(request.path))
+        raise InputError(Problem(request.shown, line, claim.id, "", rule, repair)) from error
     returned: object = statement
     if not isinstance(returned, Statement):
         rule = f"its function returns a {type(returned).__name__}, not a statement"
         repair = (
             "return for_all(...), identity(...), norm_bound(...), implies(...), agrees(...) or all_of(...)"
         )
-        raise InputError(Problem(shown, None, claim.id, "", rule, repair))
+        raise InputError(Problem(request.shown, None, claim.id, "", rule, repair))
     return statement
 
 

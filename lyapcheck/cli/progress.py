@@ -15,15 +15,22 @@ SILENCE = 1.0
 
 @contextmanager
 def progress(label: str, quiet: bool = False) -> Iterator[Progress]:
-    """Show how far a piece of work has come; yields the function that the work calls to say so."""
+    """Show how far a piece of work has come; yields the function that the work calls to say so.
+
+    What is shown never falls: work that begins anew, with fewer boxes or another ε₀, stays where it was.
+    """
     if quiet:
         yield silent
-    elif sys.stderr.isatty():
-        with _bar(label) as advance:
-            yield advance
-    else:
-        with _lines(label) as advance:
-            yield advance
+        return
+    reached = 0.0
+    with _bar(label) if sys.stderr.isatty() else _lines(label) as advance:
+
+        def upwards(fraction: float, note: str) -> None:
+            nonlocal reached
+            reached = max(reached, fraction)
+            advance(reached, note)
+
+        yield upwards
 
 
 @contextmanager

@@ -11,11 +11,11 @@ from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Pa
 from lyapcheck.output.escapes import printable
 
 LAYOUT = """#set document(title: {title}, date: none)
-#set page(paper: "a4", margin: (x: 17mm, top: 20mm, bottom: 18mm), numbering: "1 / 1",
+#set page(paper: "a4", margin: (x: 17mm, top: 18mm, bottom: 15mm), numbering: "1 / 1",
   header: context if counter(page).get().first() > 1 {{ text(8pt, fill: gray.darken(40%))[#{running}] }})
-#set text(font: ("Libertinus Serif", "New Computer Modern", "DejaVu Sans Mono"), size: 9.4pt, lang: "en")
-#set par(justify: false, leading: 0.55em, spacing: 0.75em)
-#set list(spacing: 0.5em)
+#set text(font: ("Libertinus Serif", "New Computer Modern", "DejaVu Sans Mono"), size: 9.2pt, lang: "en")
+#set par(justify: false, leading: 0.55em, spacing: 0.7em)
+#set list(spacing: 0.45em)
 #show heading: set block(above: 1.1em, below: 0.55em, sticky: true)
 #show heading.where(level: 1): set text(15pt)
 #show heading.where(level: 2): set text(12pt)
@@ -60,13 +60,32 @@ def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
                 yield f"#raw(block: true, {quoted_lines(text)})"
             case Figure(path, caption):
                 words = f"caption: [#{quoted(caption)}]"
-                image = f"image({quoted(path)}, height: 34mm)"
+                image = f"image({quoted(path)}, height: 28mm)"
                 yield f"#figure({image}, {words}, numbering: none)"
             case Section(title, inner):
                 yield f"#heading(level: {level}, {quoted(title)})"
-                yield from _blocks(inner, level + 1)
+                yield from _beside(inner) if _ends_drawn(inner) else _blocks(inner, level + 1)
             case Table():
                 yield from _table(block)
+
+
+def _ends_drawn(blocks: tuple[Block, ...]) -> bool:
+    """Whether words, and nothing wide, end with a drawing."""
+    *words, last = blocks or (None,)
+    return (
+        bool(words)
+        and isinstance(last, Figure)
+        and all(isinstance(one, Paragraph | Bullets) for one in words)
+    )
+
+
+def _beside(blocks: tuple[Block, ...]) -> Iterator[str]:
+    """Words on the left, the drawing that ends them on the right."""
+    yield "#grid(columns: (1fr, 62mm), column-gutter: 5mm, ["
+    yield from _blocks(blocks[:-1], 0)
+    yield "], ["
+    yield from _blocks(blocks[-1:], 0)
+    yield "])"
 
 
 def quoted_lines(text: str) -> str:

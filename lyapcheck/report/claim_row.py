@@ -56,7 +56,7 @@ class ClaimRow:
         own = {
             "proof": result.name,
             "title": result.title,
-            "details": [claim.words, *claim.support],
+            "details": list(filter(None, (claim.words, *claim.support))),
             "certificate": path,
             "digest": digest,
             "rules": claim.decision.rules,

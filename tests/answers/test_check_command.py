@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from lyapcheck.cli.progress import progress
 from lyapcheck.output.formats import Format, JudgedFormat
 from tests.helpers.command import lyapcheck
 from tests.helpers.shares import one_in
@@ -54,6 +55,23 @@ def test_explain_needs_no_decision(tmp_path):
     run = lyapcheck("explain", "7b", folder=tmp_path)
     assert run.returncode == 0
     assert "(7), second line" in run.stdout
+
+
+def test_what_is_assumed_about_an_arm_is_said_where_a_claim_looks_at_it(tmp_path):
+    said = {
+        claim: "Assumed about buap3"
+        in lyapcheck("check", "published.py", "--only", claim, folder=tmp_path).stdout
+        for claim in ("2.7", "19")
+    }
+    assert said == {"2.7": True, "19": False}
+
+
+def test_progress_never_falls(capsys, monkeypatch):
+    monkeypatch.setattr("lyapcheck.cli.progress.SILENCE", 0.0)
+    with progress("work") as advance:
+        for share, note in ((0.5, "first"), (0.1, "second"), (0.7, "third")):
+            advance(share, note)
+    assert [line.split()[1] for line in capsys.readouterr().err.splitlines()] == ["50", "50", "70"]
 
 
 def test_markdown_is_one_table_a_section(tmp_path):

@@ -101,7 +101,7 @@ def test_an_open_claim_of_nothing_is_told_so_beside_what_to_try(tmp_path, in_thi
     path.write_text(BODY, encoding="utf-8")
     (row,) = run_proof(path, (1,), n=1, only=("open",)).claims
     assert row.verdict is Verdict.UNDECIDED
-    assert row.decision.reason.endswith(f"variables; {NOTHING}")
+    assert row.decision.reason.endswith(f"0 <= (x - y)**2; {NOTHING}")
 
 
 NESTED = {

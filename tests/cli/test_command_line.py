@@ -260,7 +260,7 @@ def test_a_claim_cannot_choose_the_exit_code(run, tmp_path, monkeypatch):
     Path("mine.py").write_text(script, encoding="utf-8")
     code, out, err = run("check", "mine.py")
     assert (code, out) == (2, "")
-    assert "mine.py: a: its statement raises SystemExit" in err
+    assert "mine.py:5: a: its statement raises SystemExit" in err
 
 
 @pytest.mark.parametrize("arguments", [("table", "--m", "1:2"), ("gate", TABLE2), ("table", "--m", "1:300")])

@@ -1,4 +1,4 @@
-"""The report on paper: at most six pages, the same bytes, nothing obeyed."""
+"""The report on paper: a few pages, the same bytes, nothing obeyed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.typst import markup, quoted
 
 typst = pytest.importorskip("typst")
@@ -31,3 +31,11 @@ def test_a_text_is_a_literal(text: str, tmp_path: Path) -> None:
     first, second = (typst.compile(str(source), root=str(tmp_path), ignore_system_fonts=True) for _ in "ab")
     assert first == second
     assert first.startswith(b"%PDF")
+
+
+def test_a_drawing_that_ends_words_stands_beside_them_and_one_below_a_table_does_not():
+    words, drawing = Paragraph("words"), Figure("figures/a.svg", "a")
+    table = Table(("head",), (("cell",),))
+    for blocks, beside in (((words, drawing), True), ((table, drawing), False), ((drawing,), False)):
+        text = markup(Document("title", (Section("section", blocks),)), "running")
+        assert ("#grid(" in text) is beside, blocks

@@ -76,8 +76,8 @@ class ClaimResult:
 
     @property
     def words(self) -> str:
-        """What the author calls it, marked as such."""
-        return f"the author's words: “{one_line(self.comment)}”"
+        """What the author calls it, marked as such; empty where that is nothing."""
+        return f"the author's words: “{one_line(self.comment)}”" if self.comment.strip() else ""
 
     @property
     def support(self) -> tuple[str, ...]:

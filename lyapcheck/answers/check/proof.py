@@ -45,7 +45,7 @@ class ProofResult(Answer):
         n: the number of joints.
         robot: the arm, if there is one.
         claims: the rows that were asked for.
-        assumptions: about the arm.
+        assumptions: about the arm, where some claim looked at it.
         certificates: by file name those that the checker has accepted, also of what these rows use.
         script: the path of the script, as it was given.
         timings: whether to say how many seconds each claim took.
@@ -107,7 +107,7 @@ class ProofResult(Answer):
         return [*(self._annotation(row, LEVELS[row.verdict]) for row in self.claims), *remarks]
 
     def _annotation(self, row: ClaimResult, level: Level) -> Annotation:
-        said = [row.statement, *row.support, row.words]
+        said = filter(None, (row.statement, *row.support, row.words))
         message = "" if level is Level.PASSED else f"{row.id} {row.verdict}: {'; '.join(said)}"
         case = "" if row.m is None else f"m = {row.m}"
         return Annotation(level, row.id, row.words, self.title or self.name, case, message, self.script)
@@ -210,4 +210,4 @@ def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
         own = [*(text for text in result if text not in common), *([] if same else [method])]
         yield from ({"statement": text} for text in own)
     last = [*common, rows[0].words, *(methods[:1] if same else [])]
-    yield from ({"statement": text} for text in last)
+    yield from ({"statement": text} for text in last if text)

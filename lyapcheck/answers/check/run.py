@@ -81,6 +81,7 @@ def run_proof(
     judged = judge_afresh(made)
     _keep(proposals, judged)
     results = _results(proposals, judged)
+    about_arm = any("robot" in answer.read for claim in handover.claims for answer in claim.answers)
     places = {claim.id: k for k, claim in enumerate(handover.claims)}
     every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
     return ProofResult(
@@ -90,7 +91,7 @@ def run_proof(
         joints,
         model.name if model else None,
         tuple(results[key] for key in every if not only or key[0] in only),
-        model.assumptions if model else (),
+        model.assumptions if model is not None and about_arm else (),
         {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
         str(path),
     )

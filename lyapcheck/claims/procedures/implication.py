@@ -47,7 +47,8 @@ def find_implies(statement: Implies) -> SearchResult:
             return result
     return still_open(
         "no certificate of signs and no counterexample among the points tried; "
-        "split the claim, or add a hypothesis that bounds the variables",
+        "split the claim, or add a hypothesis: a bound of the variables, or what always holds, as "
+        "0 <= (x - y)**2",
         METHOD,
     )
 

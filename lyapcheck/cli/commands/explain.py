@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.options import add_format, add_no_store
+from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
@@ -43,5 +44,10 @@ def run(
 
     if no_store:
         store.switch_off()
-    show(list_claims(proof) if id is None else explain(id, proof, decide=True), format)
+    if id is None:
+        show(list_claims(proof), format)
+        return Exit.PROVED
+    with progress("explain") as advance:
+        answer = explain(id, proof, decide=True, on_progress=advance)
+    show(answer, format)
     return Exit.PROVED
