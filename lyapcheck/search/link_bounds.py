@@ -19,7 +19,7 @@ from lyapcheck._types import Array, Progress
 from lyapcheck.check.kinds.link_bounds import LinkBounds, Shown
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
-from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import RESISTS
 from lyapcheck.search.error_boxes import ErrorBoxes
@@ -87,6 +87,18 @@ def linked_epsilon(
     if result is not None and not result.accepted():
         return None, looked_at, "the checker refused the boxes"
     return result, looked_at, reason
+
+
+def linked_proof(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof | None:
+    """A proof for one ε₀ of an arm of many joints, that the checker has yet to judge."""
+    loop = controlled.loop(eps0)
+    bounds = link_bounds(controlled) if controlled.n > FEW_JOINTS and loop.admissible else None
+    if bounds is None:
+        return None
+    outcome = ErrorBoxes(loop, bounds).covered(MAX_BOXES)
+    if not outcome.proved:
+        return None
+    return controlled.proof(loop, replace(bounds, tree=outcome.tree, scales=outcome.scales))
 
 
 def link_bounds(controlled: ControlledArm) -> LinkBounds | None:

@@ -13,12 +13,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lyapcheck.answers.epsilon.forms import by_forms
+from lyapcheck.answers.epsilon.forms import proof_of as scalar_proof_of
 from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Links
 from lyapcheck.check.kinds.link_bounds import BITS, EnergyBelow, LinkBounds
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.loop.error_form import BoxForm
+from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.loop.schur import inverse_one_plus_root
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb
@@ -32,6 +35,7 @@ from lyapcheck.search.decay.heaviest import heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import link_bounds
 from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.sample import quadratic, sample
 from tests.helpers.shares import but
 
 F = Fraction
@@ -98,6 +102,22 @@ def test_four_and_five_joints_are_as_tight_as_asked(name: str, m: int) -> None:
     assert judged(found.statement, found, data_of(found)) == "proved"
     with pytest.raises(Refused):
         judged(statement_of(replace(found.loop, eps0=PINCHER[name, m])), found, data_of(found))
+
+
+@pytest.mark.slow
+def test_the_scalar_epsilon_of_the_certified_k_c_has_a_certificate() -> None:
+    controlled = example("px100", 1)
+    _, scalar, _ = by_forms(controlled)
+    assert scalar.eps0 is not None
+    assert F("0.9") < scalar.eps0 < PINCHER["px100", 1]
+    # norms as the checker knows them, from rows of M and sums of squares, prove less
+    assert not certifies(controlled.loop(F(1)).tail, scalar.eps0)
+    found = scalar_proof_of(controlled, scalar.eps0)
+    assert found is not None
+    assert found.loop.eps0 == scalar.eps0
+    assert judged(found.statement, found, data_of(found)) == "proved"
+    refuted = quadratic(controlled, sample(controlled, 20_000, 3)).reciprocal().max()
+    assert float(scalar.eps0) * refuted < 1
 
 
 def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:

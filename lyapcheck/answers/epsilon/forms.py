@@ -11,6 +11,7 @@ from lyapcheck.constants import robot_bounds
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.link_bounds import linked_proof
 from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 
@@ -34,11 +35,13 @@ def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, 
 
 
 def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof | None:
-    """The proof of the scalar ε₀ by norms alone, if the checker accepts it."""
+    """The proof of the scalar ε₀ by norms alone or by bounds along the links, if the checker accepts it."""
     if eps0 is None or not controlled.family.bounded:
         return None
-    proof = DecreaseProof(controlled.loop(eps0), BoxTree("."), controlled.inertia_proof)
-    return proof if certifies(proof.loop.tail, eps0) and proof.accepted() else None
+    loop = controlled.loop(eps0)
+    by_norms = certifies(loop.tail, eps0)
+    proof = controlled.proof(loop, BoxTree(".")) if by_norms else linked_proof(controlled, eps0)
+    return proof if proof is not None and proof.accepted() else None
 
 
 def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | None:

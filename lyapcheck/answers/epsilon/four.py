@@ -40,7 +40,7 @@ class FourEpsilons:
         boxes: how many boxes branch and bound looked at.
         certified_by: which search proposed the proof behind ``certified``.
         proof: behind ``certified``, accepted by the checker.
-        scalar_proof: behind ``scalar``, accepted by the checker; ``None`` where norms alone prove less.
+        scalar_proof: behind ``scalar``, accepted by the checker; ``None`` where it accepted none.
         against: what ``witness`` refutes, and the arm it is a state of.
         weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
         ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.

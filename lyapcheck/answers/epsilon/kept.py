@@ -16,7 +16,7 @@ from lyapcheck._types import Progress, silent
 from lyapcheck.answers.epsilon.assembled import put_together
 from lyapcheck.answers.epsilon.compute import four
 from lyapcheck.answers.epsilon.consistency import Contradiction
-from lyapcheck.answers.epsilon.forms import by_forms, proof_of
+from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.four import Refutation
 from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options
@@ -75,7 +75,7 @@ def written(result: EpsilonResult) -> dict[str, Any]:
         "certified_by": result.certified_by,
         "reasons": dict(result.reasons),
         "proof": None if result.proof is None else _written(result.proof),
-        "scalar_proof": result.scalar_proof is not None,
+        "scalar_proof": None if result.scalar_proof is None else _written(result.scalar_proof),
         "weighted": None
         if weighted is None
         else {**_written(weighted.proof), "states": weighted.states, "looked_at": weighted.looked_at},
@@ -105,7 +105,7 @@ def _read(
 ) -> EpsilonResult | None:
     proof, heavier = _proof(kept["proof"], controlled), kept["weighted"]
     weighted, (published, scalar, reasons) = _proof(heavier, controlled), by_forms(controlled)
-    scalar_proof = proof_of(controlled, scalar.eps0) if kept["scalar_proof"] else None
+    scalar_proof = _proof(kept["scalar_proof"], controlled)
     at, seen = controlled, kept["witness"]
     witness = None
     if seen is not None:
@@ -113,8 +113,8 @@ def _read(
             at = replace(controlled, model=_arm(seen["arm"], controlled), ranges=False)
         state = from_json(State, seen["state"], "state")
         witness = confirmed(at, Fraction(seen["eps0"]), str(seen["kind"]), state)
-    proofs = [one for one in (proof, weighted) if one is not None]
-    lost = (witness is None and seen is not None) or (scalar_proof is None and kept["scalar_proof"])
+    proofs = [one for one in (proof, scalar_proof, weighted) if one is not None]
+    lost = (witness is None and seen is not None) or (scalar_proof and scalar_proof.loop.eps0 != scalar.eps0)
     if lost or not all(one.accepted(jobs) for one in proofs):
         return None
     return put_together(
