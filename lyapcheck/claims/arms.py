@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from lyapcheck.claims.case import lacking
 from lyapcheck.claims.expressions import Expr, cos, diff, expr, sin, total, var
 from lyapcheck.claims.products import Matrix, Vector, vector
+from lyapcheck.control import arm_limits
 
 if TYPE_CHECKING:
-    from lyapcheck.robots import Number, RobotModel
+    from lyapcheck.robots import RobotModel
     from lyapcheck.robots.dynamics import ArmAtAngles
 
 
@@ -49,20 +50,12 @@ def torque_limits(robot: RobotModel) -> list[Fraction]:
     Raises:
         Lacking: the robot has none for some joint.
     """
-    return _known(robot.torque_limit, "torque limit")
+    result = [number.value for number in robot.torque_limit if number is not None]
+    if len(result) < robot.n:
+        raise lacking("needs a torque limit for every joint; add it to the arm file")
+    return result
 
 
 def gravity_bounds(robot: RobotModel) -> list[Fraction]:
-    """k_gi of each joint, N·m.
-
-    Raises:
-        Lacking: the robot has none for some joint.
-    """
-    return _known(robot.gravity_bound, "gravity bound")
-
-
-def _known(numbers: Sequence[Number | None], what: str) -> list[Fraction]:
-    result = [number.value for number in numbers if number is not None]
-    if len(result) < len(numbers):
-        raise lacking(f"needs a {what} for every joint; add it to the arm file")
-    return result
+    """k_gi of each joint at nominal numbers, N·m: those that the gate takes, printed or not."""
+    return list(arm_limits.gravity_bounds(robot.fixed()))

@@ -190,6 +190,16 @@ def test_the_gains_at_hand_matter(tmp_path, elbow, damping, verdicts):
     assert tuple(outcome[name] for name in ids) == verdicts
 
 
+@pytest.mark.parametrize(("shoulder", "verdict"), [("75", "proved"), ("76", "refuted")])
+def test_10p_is_decided_for_an_arm_whose_gravity_bounds_no_source_prints(tmp_path, shoulder, verdict):
+    """By those that the gate takes: (150 − 42.1)/√2 = 76.29."""
+    path = tmp_path / "own.toml"
+    text = f'[[gains]]\nname = "own"\nm = 1\nkp = [{shoulder}, 5]\nkv = [1, 1]\n'
+    path.write_text(text, encoding="utf-8")
+    (row,) = run_proof("published.py", ms=(1,), robot="reyes-kelly2", gains=path, only=("10p.gains",)).claims
+    assert row.verdict.value == verdict
+
+
 def test_whether_a_bound_of_the_damping_is_necessary_depends_on_the_bound(tmp_path):
     """With 1000 times the bound, gains that break it are found too: no bound of K_v is necessary."""
     source = ONE.read_text(encoding="utf-8")

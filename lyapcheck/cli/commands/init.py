@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 GAINS, ARM = "gains.toml", "arm.toml"
 GAIN_TEXT = """\
 # Gains for lyapcheck gate; every decimal is read exactly.
-robot = "arm.toml"              # an arm file beside this one, or the name of a built-in arm: lyapcheck robot
+robot = "arm.toml"              # an arm or URDF file beside this one, or a built-in arm: lyapcheck robot
 
 [[gains]]
 name = "first"
@@ -55,7 +55,7 @@ torque_limit = 20
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "The folder; this one if missing."
+    about = "The folder to start them in; this one if missing."
     parser.add_argument("folder", metavar="DIR", nargs="?", type=Path, default=Path(), help=about)
 
 
@@ -68,6 +68,7 @@ def run(folder: Path) -> Exit:
 
     Examples:
       lyapcheck init bench && lyapcheck gate bench/gains.toml
+      lyapcheck tune arm.urdf --out gains.toml      instead, for an arm in a URDF file
     """
     from lyapcheck.cli.output import open_folder, write_whole
 
