@@ -136,8 +136,10 @@ class ControlledArm:
         """What shows M ≻ 0."""
         if self.ranges:
             # boxes of many angles are too many
-            known = self.n > FEW_JOINTS and self.chains
-            return MassAtCorners(tuple(Links(chain.links) for chain in self.chains)) if known else Bisection()
+            known = tuple(Links(chain.links) for chain in self.chains) if self.n > FEW_JOINTS else ()
+            if len(known) == 1:  # friction alone ranges
+                return known[0]
+            return MassAtCorners(known) if known else Bisection()
         remember(self.fixed)
         return mass_proof(mass_of(self.fixed))
 

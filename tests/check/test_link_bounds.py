@@ -33,7 +33,8 @@ from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.decay.heaviest import heaviest
 from lyapcheck.search.error_boxes import ErrorBoxes
-from lyapcheck.search.link_bounds import link_bounds
+from lyapcheck.search.link_bounds import link_bounds, linked_proof
+from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.sample import quadratic, sample
 from tests.helpers.shares import but
@@ -249,6 +250,21 @@ def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -
     wider = replace(found.loop, parameters=((low, high + 1),))
     with pytest.raises(Refused):
         judged(statement_of(wider), found, data)
+
+
+@pytest.mark.slow
+def test_ranges_of_friction_alone_are_proved_by_the_links() -> None:
+    controlled = example("px100", 1)
+    friction = replace(controlled, model=varied(controlled.model, RANGES[:1]), ranges=True)
+    assert unphysical(friction) == ""
+    found = linked_proof(friction, F(1))
+    assert found is not None
+    (low, high), *_ = found.loop.viscous
+    assert low * 13 == high * 7
+    assert judged(found.statement, found, data_of(found)) == "proved"
+    weaker = replace(found.loop, viscous=tuple((b / 100, top) for b, top in found.loop.viscous))
+    with pytest.raises(Refused):
+        judged(statement_of(weaker), found, data_of(found))
 
 
 @pytest.mark.slow
