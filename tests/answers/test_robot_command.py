@@ -34,7 +34,6 @@ from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.command import invoke
-from tests.helpers.robot_cases import relaxed
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import ARMS, TWO, generic
 
@@ -93,7 +92,6 @@ def test_harmonics_are_the_same_polynomial() -> None:
         assert np.allclose(result, expected, atol=1e-12)
 
 
-@relaxed
 @given(SEEDS, st.integers(1, 6), st.floats(0, 2))
 def test_eigenvalue_bounds_hold_for_every_matrix_in_reach(seed: int, n: int, size: float) -> None:
     rng = np.random.default_rng(seed)
@@ -107,7 +105,6 @@ def test_eigenvalue_bounds_hold_for_every_matrix_in_reach(seed: int, n: int, siz
         assert other[-1] <= top + 1e-9
 
 
-@relaxed
 @given(SEEDS, st.integers(1, 9), st.integers(1, 4), st.floats(0, 2))
 def test_norm_bounds_hold_for_every_matrix_in_reach(seed: int, rows: int, columns: int, size: float) -> None:
     rng = np.random.default_rng(seed)

@@ -212,15 +212,14 @@ def survivors(made, changes, places, others):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("changes", [1, 5])
-def test_with_a_new_digest_it_is_refused_or_still_true(made, changes):
+def test_with_a_new_digest_it_is_refused_or_still_true(made):
     """The verdicts that survive are judged again by mpmath; most changes to a proof are refused."""
-    refused, survived = survivors(made, changes, numbers, other_numbers)
+    refused, survived = survivors(made, 5, numbers, other_numbers)
     for name, path, new, forged in survived:
         result = contradicts(forged.statement, forged.verdict, forged.proof)
         assert not result, (name, path, new)
-    assert refused > 200 * changes
-    assert len(survived) > 50 * changes, "changes that keep a statement true must be among them"
+    assert refused > 1000
+    assert len(survived) > 250, "changes that keep a statement true must be among them"
 
 
 @pytest.mark.slow

@@ -24,6 +24,7 @@ from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.control.threshold import norms, root
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import places_of, written
+from tests.helpers.costly import costly
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))
 
@@ -165,6 +166,7 @@ def with_value(gains: GainSet, check: Check, value: Fraction) -> GainSet | None:
     return GainSet("set", gains.m, (*gains.kp[:i], value - kv, *gains.kp[i + 1 :]), gains.kv, gains.family)
 
 
+@costly
 @given(cases(), st.sampled_from(["hyperbolic", "arctan", "tanh", "algebraic"]))
 def test_the_largest_admissible_is_admitted_and_the_next_decimal_is_not(
     case: tuple[GainSet, Limits], family: str

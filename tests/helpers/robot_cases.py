@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 from flint import fmpq
-from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
@@ -13,9 +12,6 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.number import Number
-
-relaxed = settings(suppress_health_check=[HealthCheck.too_slow])
-"""Arms that take long to draw are no reason to fail."""
 
 BUILT_IN = robots.names()
 

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots import armfile
-from tests.helpers.robot_cases import relaxed
 
 CHAIN = """\
 title = "two joints"
@@ -328,7 +327,6 @@ pieces = st.sampled_from(
 )
 
 
-@relaxed
 @given(st.sampled_from([CHAIN, PRINTED]), st.data())
 def test_a_garbled_file_never_ends_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, text: str, data: st.DataObject

@@ -14,7 +14,8 @@ from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
 from lyapcheck.robots.model import RobotModel
-from tests.helpers.robot_cases import BUILT_IN, angles, circle, exact, model_of, plain_links, rates, relaxed
+from tests.helpers.costly import costly
+from tests.helpers.robot_cases import BUILT_IN, angles, circle, exact, model_of, plain_links, rates
 
 Circle = list[tuple[Fraction, Fraction]]
 models = st.one_of(st.sampled_from(BUILT_IN).map(robots.load), plain_links().map(model_of))
@@ -49,7 +50,7 @@ def test_identities_of_built_in_arms(arm: RobotModel, check: object) -> None:
 
 
 @pytest.mark.slow
-@relaxed
+@costly
 @given(plain_links().map(model_of))
 def test_identities_of_random_chains(model: RobotModel) -> None:
     check_symmetric(model)
@@ -63,7 +64,7 @@ def test_everything_is_in_normal_form(arm: RobotModel) -> None:
     assert all(entry == trig.normal_form(entry) for entry in entries)
 
 
-@relaxed
+@costly
 @given(st.data())
 def test_mass_is_positive_definite(data: st.DataObject) -> None:
     model = data.draw(models)
@@ -73,7 +74,7 @@ def test_mass_is_positive_definite(data: st.DataObject) -> None:
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
 
 
-@relaxed
+@costly
 @given(st.data())
 def test_coriolis_torque_does_no_work_beyond_the_mass_rate(data: st.DataObject) -> None:
     """wᵀ(½Ṁ − C)w = 0 at any state, with Ṁ from the derivative of M along w."""
@@ -100,7 +101,7 @@ def slope_of(model: RobotModel, values: list[Fraction], w: list[Fraction], i: in
     return sum((s * x for s, x in zip(slopes, w, strict=True)), Fraction(0))
 
 
-@relaxed
+@costly
 @given(plain_links(), st.data())
 def test_chain_agrees_with_jacobians(links: list[dict], data: st.DataObject) -> None:
     """M = Σ m JvᵀJv + Jωᵀ R I Rᵀ Jω and U = −Σ m gᵀp in the base frame, in exact arithmetic at a state."""

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.robots import trig
-from tests.helpers.robot_cases import angles, relaxed
+from tests.helpers.costly import costly
+from tests.helpers.robot_cases import angles
 
 RING = trig.trig_ring(2, ("p",))
 S1, S2, C1, C2, P = RING.gens()
@@ -26,20 +27,20 @@ def at(poly: object, points: list[tuple[Fraction, Fraction]], p: Fraction = Frac
     return trig.evaluate(poly, [s1, s2, c1, c2, p], Fraction)
 
 
-@relaxed
+@costly
 @given(polys, angles(2))
 def test_normal_form_keeps_the_function(poly: object, points: list[tuple[Fraction, Fraction]]) -> None:
     assert at(trig.normal_form(poly), points) == at(poly, points)
 
 
-@relaxed
+@costly
 @given(polys, polys)
 def test_normal_form_is_unique(f: object, g: object) -> None:
     same = f + g * (S1**2 + C1**2 - 1) + f * (S2**2 + C2**2 - 1) * S1
     assert trig.normal_form(same) == trig.normal_form(f)
 
 
-@relaxed
+@costly
 @given(polys)
 def test_normal_form_has_no_squared_sine(poly: object) -> None:
     assert all(degree <= 1 for degree in trig.normal_form(poly).degrees()[:2])
@@ -50,7 +51,7 @@ def test_different_functions_have_different_normal_forms() -> None:
     assert trig.normal_form(S1 * C2 + C1 * S2) != trig.normal_form(S1 * C2 - C1 * S2)
 
 
-@relaxed
+@costly
 @given(polys, polys)
 def test_derivative_obeys_leibniz(f: object, g: object) -> None:
     product = trig.derivative(f * g, 0)
@@ -65,7 +66,7 @@ def test_derivative_of_generators() -> None:
 
 
 @pytest.mark.slow
-@relaxed
+@costly
 @given(polys, st.floats(-3, 3), st.floats(-3, 3))
 def test_derivative_is_the_slope(poly: object, q1: float, q2: float) -> None:
     def value(f: object, x: float) -> float:
@@ -77,7 +78,7 @@ def test_derivative_is_the_slope(poly: object, q1: float, q2: float) -> None:
     assert value(trig.derivative(poly, 0), q1) == pytest.approx(slope, abs=1e-6 * scale)
 
 
-@relaxed
+@costly
 @given(polys, angles(2))
 def test_balls_contain_the_exact_value(poly: object, points: list[tuple[Fraction, Fraction]]) -> None:
     def ball(x: Fraction) -> arb:
@@ -89,7 +90,7 @@ def test_balls_contain_the_exact_value(poly: object, points: list[tuple[Fraction
     assert (value - ball(at(poly, points))).contains(0)
 
 
-@relaxed
+@costly
 @given(polys)
 def test_terms_bring_the_polynomial_back(poly: object) -> None:
     assert trig.from_terms(RING, trig.to_terms(poly)) == poly

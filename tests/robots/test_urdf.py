@@ -16,7 +16,6 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.urdf.assemble import OF
 from lyapcheck.robots.urdf.rotations import Roundings, from_rpy, tidy, unit
 from tests.helpers.newton_euler import Arm, rpy
-from tests.helpers.robot_cases import relaxed
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import ARMS, TWO, generic
 
@@ -214,7 +213,6 @@ def test_a_tip_is_for_urdf_files_only() -> None:
 # Rotations -------------------------------------------------------------------------------------------------
 
 
-@relaxed
 @given(st.tuples(decimals, decimals, decimals))
 def test_rotations_are_exactly_orthogonal_and_close(angles: tuple[Fraction, Fraction, Fraction]) -> None:
     turn = from_rpy(angles, "here", Roundings())
@@ -227,7 +225,6 @@ def check_rotation(turn: object) -> None:
     assert all(sum(rows[i][k] * rows[j][k] for k in range(3)) == (i == j) for i in range(3) for j in range(3))
 
 
-@relaxed
 @given(st.lists(st.tuples(decimals, decimals, decimals), min_size=2, max_size=4))
 def test_shortened_rotations_stay_orthogonal_and_close(
     angles: list[tuple[Fraction, Fraction, Fraction]],
@@ -242,7 +239,6 @@ def test_shortened_rotations_stay_orthogonal_and_close(
     ) < Fraction(1, 10**15)
 
 
-@relaxed
 @given(directions)
 def test_axes_have_length_exactly_one(direction: tuple[Fraction, Fraction, Fraction]) -> None:
     x = unit(direction, "here", Roundings())

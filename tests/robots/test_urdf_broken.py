@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
-from tests.helpers.robot_cases import relaxed
 from tests.helpers.urdf_texts import ARMS, TWO
 from tests.robots.test_arm_files import CHAIN, PRINTED
 
@@ -219,7 +218,6 @@ def survives(file: Path, text: str) -> None:
         assert isinstance(robots.load(file), robots.RobotModel)
 
 
-@relaxed
 @given(st.sampled_from(sorted(SEEDS)), st.data())
 def test_garbled_files_never_end_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, name: str, data: st.DataObject
@@ -232,7 +230,6 @@ def test_garbled_files_never_end_in_another_error(
     survives(tmp_path_factory.getbasetemp() / name, text.encode("utf-8", "ignore").decode())
 
 
-@relaxed
 @given(st.sampled_from(sorted(SEEDS)), st.binary(max_size=200))
 def test_bytes_never_end_in_another_error(
     tmp_path_factory: pytest.TempPathFactory, name: str, content: bytes

@@ -25,7 +25,7 @@ from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.committed import ROOT
-from tests.helpers.robot_cases import BUILT_IN, relaxed
+from tests.helpers.robot_cases import BUILT_IN
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import ARMS
 
@@ -216,7 +216,6 @@ def test_relations_vanish_on_every_vector(n: int) -> None:
     assert len(forms.relations) == comb(count + 1, 2) - comb(n + 3, 4)
 
 
-@relaxed
 @given(st.integers(0, 10**6), st.integers(1, 5))
 def test_any_relation_bounds_the_quartic_form(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
