@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from flint import arb
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
 from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
@@ -77,22 +76,6 @@ class Hyperbolic(Family):
         from lyapcheck.family.smooth import smooth_forms
 
         return smooth_forms(self._member, x)
-
-    def ball_h(self, x: arb) -> arb:
-        """h_m over a ball."""
-        return balls.h(self._member, x)
-
-    def ball_dh(self, x: arb) -> arb:
-        """h_m' over a ball."""
-        return balls.dh(self._member, x)
-
-    def ball_potential(self, x: arb) -> arb:
-        """U_m over a ball."""
-        return balls.potential(self._member, x)
-
-    def ball_secant(self, x: arb) -> arb:
-        """h_m(x)/x over a ball."""
-        return balls.secant(self._member, x)
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The peak of h and those of h'; tanh has none."""
