@@ -10,6 +10,7 @@ import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
@@ -34,6 +35,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
 from lyapcheck.kernel.judge import HEAD, judged, theorem_file
+from tests.helpers.once import once
 from tests.kernel.test_statements import GOOD, OWN
 
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
@@ -91,8 +93,31 @@ def test_axioms_are_read_line_by_line() -> None:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("kernel")
+def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, CompletedProcess[str]]:
+    """What the command says, and its files, where compiled files of something else had been before."""
+
+    def made() -> tuple[Path, CompletedProcess[str]]:
+        place = tmp_path_factory.mktemp("shown")
+        library = place / "library"
+        library.mkdir()
+        for name in sources():
+            shutil.copy(formal() / name, library)
+            (library / name).with_suffix(".vo").write_bytes(b"compiled from something else")
+        command = ["lyapcheck", "recheck", "--kernel", "--kernel-files", str(place), "--format", "json"]
+        file = str(GOOD / "ext.V-is-positive-definite.json")
+        return place, subprocess.run(
+            [sys.executable, "-m", *command, file], capture_output=True, text=True, check=False
+        )
+
+    return once(tmp_path_factory, "kernel", made)
+
+
+@pytest.fixture(scope="module")
+def folder(shown: tuple[Path, CompletedProcess[str]], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One for Coq, with the library that the command has compiled."""
+    place = tmp_path_factory.mktemp("kernel")
+    shutil.copytree(shown[0] / "library", place / "library")
+    return place
 
 
 def asked(folder: Path, *places: str) -> dict[str, Kernel]:
@@ -331,22 +356,13 @@ def test_an_axiom_of_its_own_is_no_proof(folder: Path) -> None:
 
 @needs_coq
 @pytest.mark.slow
-def test_the_command_shows_it_and_believes_no_file_that_is_there(tmp_path: Path) -> None:
-    library = tmp_path / "library"
-    library.mkdir()
-    for name in sources():
-        shutil.copy(formal() / name, library)
-        (library / name).with_suffix(".vo").write_bytes(b"compiled from something else")
-    command = ["lyapcheck", "recheck", "--kernel", "--kernel-files", str(tmp_path), "--format", "json"]
-    done = subprocess.run(
-        [sys.executable, "-m", *command, str(GOOD / "ext.V-is-positive-definite.json")],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def test_the_command_shows_it_and_believes_no_file_that_is_there(
+    shown: tuple[Path, CompletedProcess[str]],
+) -> None:
+    place, done = shown
     assert done.returncode == 0, done.stderr
     (row,) = json.loads(done.stdout)["certificates"]
     assert row["grade"] == "kernel"
     assert row["kernel"]["theorem"] == "V_positive_definite 1"
-    assert list((tmp_path / "printed").glob("c_*.v"))
-    assert (library / "Definitions.vo").stat().st_size > 1000
+    assert list((place / "printed").glob("c_*.v"))
+    assert (place / "library" / "Definitions.vo").stat().st_size > 1000
