@@ -12,8 +12,8 @@ TYPE_CHECKING = False  # so that nothing is imported that is not used
 if TYPE_CHECKING:
     from typing import Any, Self
 
-LARGEST_EXPONENT = 30
-"""Decimals beyond 10^±30 are outside every physical range; a search in doubles could not square some."""
+LARGEST_EXPONENT = 15
+"""Decimals beyond 10^±15 are outside every physical range; doubles could not tell some apart."""
 RANGE = f"must be between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT} in size"
 LONGEST = 1000
 """Characters of a decimal; what is longer was not written by anyone who meant it."""
@@ -74,9 +74,9 @@ def exact_decimal(text: str) -> Written:
 
 
 def of_physical_size(value: Fraction | int) -> bool:
-    """Whether a value is 0 or between 10^-30 and 10^30 in size."""
+    """Whether a value is 0 or between 10^-15 and 10^15 in size."""
     bits = value.numerator.bit_length() - value.denominator.bit_length()
-    if abs(bits) < LARGEST_EXPONENT:  # 2^30 is far within; the exact comparison takes longer
+    if abs(bits) < LARGEST_EXPONENT:  # 2^15 is far within; the exact comparison takes longer
         return True
     size, largest = abs(Fraction(value)), 10**LARGEST_EXPONENT
     return size == 0 or Fraction(1, largest) <= size <= largest

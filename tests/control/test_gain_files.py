@@ -76,8 +76,8 @@ def test_a_file_is_read_whole(file: Path) -> None:
         ("28", Fraction(28), 0),
         ("1_000.000_1", Fraction(10000001, 10000), 4),
         ("0.1000000000000000055511151231257827", Fraction("0.1000000000000000055511151231257827"), 34),
-        ("1e-30", Fraction(1, 10**30), 30),
-        ("1e30", Fraction(10**30), 0),
+        ("1e-15", Fraction(1, 10**15), 15),
+        ("1e15", Fraction(10**15), 0),
         ("0x1F", Fraction(31), 0),
     ],
 )
@@ -90,7 +90,7 @@ def test_decimals_are_exact_and_keep_their_digits(
     assert places_of(result) == places
 
 
-@given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-30, 30))
+@given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-15, 15))
 def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent: int) -> None:
     text = f"{str(digits).rjust(places + 1, '0')}"
     text = f"{text[:-places]}.{text[-places:]}e{exponent}" if places else f"{text}e{exponent}"
@@ -262,19 +262,19 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "gain a text": (changed("1.5", '"1.5"'), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
     "gain a date": (changed("1.5", "2024-01-01 10:00:00"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
     "gain a list": (changed("1.5", "[1.5]"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
-    "gain of 10^999999": (changed("1.5", "1e999999"), 6, "gains[1].kp[1]", "1e30 in size", "0.223"),
-    "gain of 10^-999999": (changed("1.5", "1e-999999"), 6, "gains[1].kp[1]", "1e30 in size", "0.223"),
+    "gain of 10^999999": (changed("1.5", "1e999999"), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
+    "gain of 10^-999999": (changed("1.5", "1e-999999"), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
     "exponent of many digits": (
         changed("1.5", "1e" + "9" * 300),
         6,
         "gains[1].kp[1]",
-        "1e30 in size",
+        "1e15 in size",
         "0.223",
     ),
     "decimal of many digits": (changed("1.5", "1." + HUGE), 6, "gains[1].kp[1]", "1000 characters", "0.223"),
     "integer of many digits": (changed("1.5", HUGE), 6, "number", "absurd length", "physical size"),
-    "integer of 500 digits": (changed("1.5", "9" * 500), 6, "gains[1].kp[1]", "1e30 in size", "0.223"),
-    "hexadecimal of many digits": (changed("1.5", "0x" + HUGE), 6, "gains[1].kp[1]", "1e30", "0.223"),
+    "integer of 500 digits": (changed("1.5", "9" * 500), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
+    "hexadecimal of many digits": (changed("1.5", "0x" + HUGE), 6, "gains[1].kp[1]", "1e15", "0.223"),
     "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.5, 1.5]"),
     "kp empty": (changed("[1.5, 2, 3e-1]", "[]"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
     "kp a table": (changed("[1.5, 2, 3e-1]", "{base = 1.5}"), 6, "gains[1].kp", "list of numbers", "[1.0"),

@@ -200,6 +200,14 @@ def test_other_arms_have_bounds(robot: str) -> None:
     assert float(result.time) >= late[-1]
 
 
+def test_gains_that_are_too_small_have_no_bound_and_a_reason() -> None:
+    tiny = (F(1, 10**9),)
+    arm = ControlledArm(GainSet("tiny", 1, tiny, tiny), load("pendulum1"))
+    result = settling_bound(arm, [0.5], delta=0.01, max_boxes=20)
+    assert result.time is None
+    assert result.reason
+
+
 @pytest.mark.slow
 def test_an_arm_of_one_joint_is_bounded_sharply_enough_to_be_of_use() -> None:
     at = single("pendulum1")

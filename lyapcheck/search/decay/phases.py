@@ -9,6 +9,7 @@ References: ``reyes2019family`` (11), (13).
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
@@ -93,7 +94,10 @@ class Phases:
         heavy = heaviest(self.controlled)
         if heavy is None:
             return None
-        return self._estimate(margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), heavy.diagonal))
+        margin = margin_at(self.controlled, SMALL, Fraction(1, 2), Fraction(0), heavy.diagonal)
+        with suppress(ValueError):  # gains so small that this ε₀ is too large for them
+            return self._estimate(margin)
+        return None
 
     def _another(self, last: Fraction) -> bool:
         """One more phase; ``False`` where none is found."""
