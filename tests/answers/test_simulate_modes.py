@@ -194,7 +194,7 @@ def test_random_starts_in_words_and_rows(lyapcheck):
 
 
 def test_states_at_which_v_rises_have_certificates(lyapcheck, tmp_path):
-    lyapcheck(TABLE2, "--time", 0.1, "--eps0", 50, "--certificates", tmp_path)
+    lyapcheck(TABLE2, "--time", 0.5, "--eps0", 50, "--certificates", tmp_path)
     certificates = sorted(tmp_path.iterdir())
     assert [path.name for path in certificates] == [f"tau_m{m}.breach.json" for m in (1, 2, 3)]
     for path in certificates:
