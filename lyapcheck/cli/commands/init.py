@@ -68,7 +68,7 @@ def run(folder: Path) -> Exit:
 
     Examples:
       lyapcheck init bench && lyapcheck gate bench/gains.toml
-      lyapcheck tune arm.urdf --out gains.toml      instead, for an arm in a URDF file
+      lyapcheck tune arm.urdf --out gains.toml    instead, for a URDF file
     """
     from lyapcheck.cli.output import open_folder, write_whole
 
