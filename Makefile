@@ -2,6 +2,8 @@
 # locked versions in requirements.lock.
 PYTHON ?= python3
 BIN := .venv/bin
+# As commands do: the matrices are small, and threads of BLAS only wait for each other.
+export OPENBLAS_NUM_THREADS ?= 1
 
 .PHONY: report screenshots site study test test-slow test-robots test-sweep kernel kernel-slow fuzz lint types bench lock clean help
 
@@ -11,7 +13,7 @@ help:
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
-	@echo "make test-slow  the rest: whole grids, planted faults, 10,000 statements, many examples, built wheel"
+	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
