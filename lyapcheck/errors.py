@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from lyapcheck.output.escapes import printable
@@ -56,3 +57,17 @@ def argument_problem(name: str, value: object, rule: str, repair: str) -> Proble
 def file_error(name: str, rule: str, repair: str) -> InputError:
     """The error for a file that cannot be used as a whole."""
     return InputError(Problem(name, None, "file", "", rule, repair))
+
+
+def near(word: str, names: Iterable[str]) -> str:
+    """The name that a word is a slip of the pen for, in letters of any case; empty where there is none."""
+    from difflib import get_close_matches
+
+    folded = {name.casefold(): name for name in names}
+    return next((folded[one] for one in get_close_matches(word.casefold(), folded, 1, 0.7)), "")
+
+
+def nearest(word: str, names: Iterable[str], otherwise: str = "") -> str:
+    """The repair of a slip of the pen: a question for the name that is meant."""
+    meant = near(word, names)
+    return f"did you mean {meant}?" if meant else otherwise

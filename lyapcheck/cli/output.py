@@ -15,9 +15,11 @@ def require_writable(option: str, path: Path) -> None:
     Raises:
         InputError: the directory does not exist, cannot be written or is full, or the path is a directory.
     """
-    parent = path.parent
     if path.is_dir():
         raise argument_error(option, path, "is a directory", "name a file")
+    if _is_device(path):
+        return
+    parent = path.resolve().parent
     if not parent.is_dir():
         raise argument_error(
             option, path, f"there is no directory {parent}", "create it or name another file"
@@ -52,25 +54,37 @@ def _require_room(option: str, path: Path, folder: Path) -> None:
 def write_whole(path: Path, content: str | bytes) -> None:
     """Write a file in one move: readers see the old file or the new one, never half of it.
 
+    A link stays a link, to a new file; a device or a pipe is written to as it is.
+
     Raises:
         InputError: the file system refuses.
     """
     import tempfile
 
     temporary = None
+    data = content.encode("utf-8") if isinstance(content, str) else content
     try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        if _is_device(path):
+            path.write_bytes(data)
+            return
+        target = path.resolve()
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
         with pending(temporary):
             with os.fdopen(handle, "wb") as stream:
-                stream.write(content.encode("utf-8") if isinstance(content, str) else content)
+                stream.write(data)
             os.chmod(temporary, 0o666 & ~_umask())
-            os.replace(temporary, path)
+            os.replace(temporary, target)
     except OSError as error:
         if temporary is not None and os.path.exists(temporary):
             os.unlink(temporary)
         raise argument_error(
             "file", path, f"cannot be written ({error.strerror})", "name another file"
         ) from error
+
+
+def _is_device(path: Path) -> bool:
+    """Whether a file in its place would take something else away: a device, a pipe, a socket."""
+    return path.exists() and not path.is_file()
 
 
 def _umask() -> int:

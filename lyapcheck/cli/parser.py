@@ -6,7 +6,7 @@ import argparse
 import re
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -168,14 +168,6 @@ class Parser(argparse.ArgumentParser):
 
 def _is_option(word: str) -> bool:
     return word.startswith("-") and word != "-" and not _NEGATIVE.match(word)
-
-
-def nearest(word: str, names: Iterable[str]) -> str:
-    """A question for the name that a word is a slip of the pen for; empty where there is none."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(word, list(names), n=1)
-    return f"did you mean {near[0]}?" if near else ""
 
 
 def _formatter(prog: str) -> argparse.HelpFormatter:

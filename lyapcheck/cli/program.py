@@ -6,8 +6,8 @@ import sys
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.commands import NAMES, load
-from lyapcheck.cli.parser import Parser, nearest
-from lyapcheck.errors import argument_error
+from lyapcheck.cli.parser import Parser
+from lyapcheck.errors import argument_error, nearest
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, Self
 
-from lyapcheck.errors import Problem
+from lyapcheck.errors import Problem, near, nearest
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
 from lyapcheck.files.place import KeyPath
 from lyapcheck.files.rules import RETYPE, UNPRINTABLE
@@ -65,7 +65,8 @@ class Fields:
         """One of a few texts, ``default`` when absent."""
         value = self.text(key)
         if value and value not in options:
-            self.fail(key, f"must be one of {', '.join(options)}", f'write {key} = "{default}"')
+            meant = near(value, options) or default
+            self.fail(key, f"must be one of {', '.join(options)}", f'write {key} = "{meant}"')
             return default
         return value or default
 
@@ -111,8 +112,10 @@ class Fields:
 
     def tables(self, key: str, required: bool = False) -> list[Self]:
         """An array of tables, empty when absent or bad."""
-        value = self.raw(key, required)
+        value = self.raw(key)
         if value is None:
+            if required:
+                self.fail(key, "is missing", f"write each entry as [[{key}]]")
             return []
         if not isinstance(value, list) or not value or not all(isinstance(item, dict) for item in value):
             self.fail(key, "must be an array of tables", f"write each entry as [[{key}]]")
@@ -124,12 +127,7 @@ class Fields:
         known = sorted(set(self._asked))
         for key in self.data:
             if key not in known:
-                from difflib import get_close_matches
-
-                near = get_close_matches(key, known, 1)
-                repair = (
-                    f"did you mean {near[0]}?" if near else f"remove it, or use one of: {', '.join(known)}"
-                )
+                repair = nearest(key, known, f"remove it, or use one of: {', '.join(known)}")
                 self.fail(key, "is not a known key here", repair)
 
     def _number(self, path: KeyPath, value: object, positive: bool) -> Fraction | None:

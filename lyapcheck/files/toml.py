@@ -103,6 +103,10 @@ def _too_long(name: str, text: str) -> InputError:
 def _syntax(name: str, message: str, text: str) -> InputError:
     result = re.search(r"\(at line (\d+), column (\d+)\)", message)
     what = re.sub(r" \(at .*\)$", "", message)
+    if text.lstrip().startswith("<"):
+        return file_error(
+            name, "is XML, not TOML", 'give a TOML file, which may name a URDF file: robot = "arm.urdf"'
+        )
     line = int(result[1]) if result else _last_assignment(text)
     if what == "Unclosed array" and result is not None:
         before = text.splitlines()[: int(result[1])]

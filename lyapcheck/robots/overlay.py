@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.errors import InputError
+from lyapcheck.errors import InputError, nearest
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import ArmFields
 from lyapcheck.robots.joints import JointEntry, read_motor
@@ -37,8 +36,7 @@ def read_overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmField
     model = read_urdf(path.parent / file, file, tip, gravity)
     for i, motor in enumerate(motors):
         if motor.name not in model.joints:
-            near = get_close_matches(motor.name, model.joints, 1)
-            repair = f"did you mean {near[0]}?" if near else f"use one of: {', '.join(model.joints)}"
+            repair = nearest(motor.name, model.joints, f"use one of: {', '.join(model.joints)}")
             top.notes.fail(("joints", i, "name"), motor.name, "is no joint of this chain", repair)
     if top.notes.problems:
         raise InputError(top.notes.problems)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import argument_error, nearest
 from lyapcheck.extensions import folders
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.model import RobotModel
@@ -75,12 +75,9 @@ def _loaded(
 
 
 def _advice(name: str) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(name, [*names(), *_examples()], n=1)
-    guess = f"did you mean {near[0]}? " if near else ""
     known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
-    return f"{guess}{known}; or give the path of an arm file (.toml, .urdf)"
+    guess = nearest(name, [*names(), *_examples()])
+    return f"{guess} {known}; or give the path of an arm file (.toml, .urdf)".lstrip()
 
 
 @lru_cache(maxsize=64)

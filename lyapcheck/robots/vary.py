@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import product
 from typing import TYPE_CHECKING, Any, cast
 
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.number import Number
@@ -83,9 +83,9 @@ class Vary:
 
 
 def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dict[str, Number]:
-    """The numbers, those that are meant with their ranges."""
+    """The numbers, those that are meant with their ranges; that of one number by its name outdoes that of all."""
     result = dict(numbers)
-    for vary in varies:
+    for vary in sorted(varies, key=lambda one: one.name in numbers):
         result |= {key: vary.of(number) for key, number in result.items() if vary.matches(key)}
     return result
 
@@ -168,11 +168,15 @@ def _require_physical(numbers: Mapping[str, Number]) -> None:
 
 
 def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
-    """Refuse names that the arm has no number for.
+    """Refuse names that the arm has no number for, and names given twice.
 
     Raises:
         InputError: every such name.
     """
+    again = sorted({one.name for one in varies if sum(other.name == one.name for other in varies) > 1})
+    if again:
+        rule, repair = "has more than one range", "keep one of them"
+        raise InputError([Problem("argument", None, OPTION, name, rule, repair) for name in again])
     names = {PAYLOAD} if isinstance(model.dynamics, Chain) else set()
     keys = [*model.numbers, *(f"{joint}_mass" for joint in model.joints if names)]
     wrong = [one for one in varies if one.name not in names and not any(map(one.matches, keys))]
@@ -180,7 +184,7 @@ def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
         known = sorted({key.rpartition("_")[2] for key in keys if not key[-1].isdigit()} | names)
         repair = f"use one of {', '.join(known)}, or the name of a number that lyapcheck robot shows"
         rule = f"{model.name} has no number of that name"
-        raise InputError([Problem("argument", None, OPTION, one.name, rule, repair) for one in wrong])
+        raise InputError(_unknown(wrong, [*known, *keys], rule, repair))
 
 
 def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:
@@ -193,8 +197,15 @@ def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:
     wrong = [one for one in varies if one.name != PAYLOAD and not any(map(one.matches, keys))]
     if wrong:
         rule = f"cannot vary on {model.name}, an arm of a URDF file; its friction, limits and masses can"
-        repair = f"use {', '.join((*MOTOR, 'mass', PAYLOAD))}, or one joint's, such as {keys[-1]}"
-        raise InputError([Problem("argument", None, OPTION, one.name, rule, repair) for one in wrong])
+        known = (*MOTOR, "mass", PAYLOAD)
+        repair = f"use {', '.join(known)}, or one joint's, such as {keys[-1]}"
+        raise InputError(_unknown(wrong, [*known, *keys], rule, repair))
+
+
+def _unknown(wrong: Sequence[Vary], known: Sequence[str], rule: str, repair: str) -> list[Problem]:
+    return [
+        Problem("argument", None, OPTION, one.name, rule, nearest(one.name, known, repair)) for one in wrong
+    ]
 
 
 def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, RobotModel]]:

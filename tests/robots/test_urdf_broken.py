@@ -107,7 +107,12 @@ BROKEN = [
     ),
     (ELBOW, '<joint name="elbow" type="planar">', "joint elbow: is planar, and the paper assumes revolute"),
     (ELBOW, '<joint name="shoulder" type="continuous">', "joint name = shoulder: is used by another joint"),
-    (ELBOW, f'{ELBOW}<mimic joint="shoulder"/>', "joint elbow: mimics another joint"),
+    (
+        ELBOW,
+        f'{ELBOW}<mimic joint="shoulder"/>',
+        "joint elbow: mimics another joint, and the paper assumes one motor",
+    ),
+    (ELBOW, f'{ELBOW}<mimic joint="shoulder"/>', "end the chain before it: --tip upper"),
     ('<child link="lower"/>', "", "joint elbow: child: is missing"),
     ('<child link="lower"/>', "<child/>", "joint elbow: child: link: is missing"),
     (
@@ -132,6 +137,13 @@ BROKEN = [
     (LIMIT, LIMIT.replace('"-1"', '"2"'), "limit = 2 > 1: lower is above upper"),
     (DYNAMICS, DYNAMICS.replace('"0.5"', '"-0.5"'), "joint shoulder: damping = -0.5: must not be negative"),
     (DYNAMICS, DYNAMICS.replace('"0.1"', '"a"'), "dynamics: friction = a: must be a finite decimal number"),
+    (
+        DYNAMICS,
+        DYNAMICS.replace("damping", "dampng"),
+        "joint shoulder: dampng: means nothing in URDF; did you",
+    ),
+    (AXIS, AXIS.replace("axis", "axes"), "joint shoulder: axes: means nothing in URDF; did you mean axis?"),
+    (MASS, MASS.replace("mass", "Mass"), "link lower: Mass: means nothing in URDF; did you mean mass?"),
     (DYNAMICS, DYNAMICS * 2, "dynamics: is given more than once"),
 ]
 

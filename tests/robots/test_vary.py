@@ -98,11 +98,24 @@ def test_the_corners_are_the_ends_of_all_that_varies() -> None:
         (UR5, "gravity_z=-9.9..-9.7", "cannot vary on ur5"),
         (UR5, "upper_arm_link_mass=1..2", "such as wrist_3_joint_mass"),
         (UR5, "foo=1..2", "cannot vary on ur5"),
+        (UR5, "elbow_joint_viscos=1..2", "did you mean elbow_joint_viscous?"),
+        ("buap3", "Viscos=1..2", "did you mean viscous?"),
     ],
 )
 def test_ranges_that_no_arm_has_are_refused(name: str, text: str, said: str) -> None:
     with pytest.raises(InputError, match=said):
         varied(name, text)
+
+
+def test_a_name_has_one_range() -> None:
+    with pytest.raises(InputError, match=r"payload: has more than one range; keep one of them"):
+        varied(UR5, "payload=0..1", "mass=-5%..5%", "payload=0..2")
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_the_range_of_one_number_goes_before_that_of_all_in_any_order(order: int) -> None:
+    model = varied("buap3", *("viscous=-30%..+0%", "base_viscous=0.4..0.5")[::order])
+    assert [number.bounds[0] for number in model.viscous] == [F("0.4"), F("1.6016"), F("0.2842")]
 
 
 def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:

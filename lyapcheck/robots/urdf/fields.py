@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from lyapcheck.errors import Problem
+from lyapcheck.errors import Problem, nearest
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import LARGEST
 from lyapcheck.robots.urdf.xml import Element
@@ -27,6 +28,20 @@ class UrdfNotes:
         """Note one problem at the line of an element."""
         shown = value if len(value) <= _LONGEST else value[: _LONGEST - 3] + "…"
         self.problems.append(Problem(self.file, element.line, key, printable(shown), rule, repair))
+
+    def slips(self, element: Element, place: str, known: Mapping[str, Sequence[str]]) -> None:
+        """Note children, and attributes of children, that are spelt nearly like those that URDF knows.
+
+        What is spelt otherwise may stand there: many programs add their own.
+        """
+        for child in element.children:
+            words = [(child.tag, tuple(known))] + [
+                (word, known.get(child.tag, ())) for word in child.attributes
+            ]
+            for word, meant in words:
+                repair = "" if word in meant else nearest(word, meant)
+                if repair:
+                    self.fail(child, f"{place}: {word}", "", "means nothing in URDF", repair)
 
     def only(self, parent: Element, tag: str, place: str, required: bool = False) -> Element | None:
         """The one child of that tag; more than one is a problem, none only where one is required."""

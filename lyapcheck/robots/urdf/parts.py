@@ -14,6 +14,16 @@ MOVING = ("revolute", "continuous")
 KINDS = (*MOVING, "fixed", "prismatic", "floating", "planar")
 INERTIA = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _LONGEST_NAME = 64
+_POSE = ("xyz", "rpy")
+_OF_LINK = dict.fromkeys(("inertial", "visual", "collision"), ())
+_OF_INERTIAL = {"origin": _POSE, "mass": ("value",), "inertia": INERTIA}
+_OF_JOINT = {
+    "origin": _POSE,
+    "axis": ("xyz",),
+    "dynamics": ("damping", "friction"),
+    "limit": ("effort", "velocity", "lower", "upper"),
+    **dict.fromkeys(("parent", "child", "mimic", "calibration", "safety_controller"), ()),
+}
 _AXIS: Triple = (Fraction(1), Fraction(0), Fraction(0))
 P = TypeVar("P")
 
@@ -84,9 +94,11 @@ def _named(
 
 def _read_link(name: str, element: Element, notes: UrdfNotes) -> UrdfLink:
     place = f"link {name}"
+    notes.slips(element, place, _OF_LINK)
     inertial = notes.only(element, "inertial", place)
     if inertial is None:
         return UrdfLink(name, element)
+    notes.slips(inertial, place, _OF_INERTIAL)
     origin = notes.only(inertial, "origin", place)
     mass = notes.only(inertial, "mass", place, required=True)
     tensor = notes.only(inertial, "inertia", place, required=True)
@@ -109,6 +121,7 @@ def _read_joint(name: str, element: Element, notes: UrdfNotes) -> UrdfJoint:
         notes.fail(
             element, f"{place}: type", kind, "is no joint type of URDF", f"use one of {', '.join(KINDS)}"
         )
+    notes.slips(element, place, _OF_JOINT)
     origin = notes.only(element, "origin", place)
     parent, child = (notes.only(element, tag, place, required=True) for tag in ("parent", "child"))
     axis = notes.only(element, "axis", place)

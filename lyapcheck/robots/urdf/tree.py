@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 
+from lyapcheck.errors import nearest
 from lyapcheck.robots.urdf.fields import UrdfNotes
 from lyapcheck.robots.urdf.parts import MOVING, UrdfJoint, UrdfLink
 from lyapcheck.robots.urdf.xml import Element
@@ -62,8 +63,7 @@ def build_tree(
     for joint in joints.values():
         for key, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                near = get_close_matches(link, links, 1)
-                repair = f"did you mean {near[0]}?" if near else "name a link of this file"
+                repair = nearest(link, links, "name a link of this file")
                 notes.fail(
                     joint.element, f"joint {joint.name}: {key}", link, "is no link of this file", repair
                 )
@@ -103,7 +103,7 @@ def choose_chain(tree: Tree, tip: str | None, robot: Element, notes: UrdfNotes) 
     searched = tuple(tree.joints.values()) if tip is None else tree.moving(tip)
     strange = [joint for joint in searched if joint.moves and joint.kind not in MOVING]
     for joint in strange:
-        _refuse(joint, tip is None, notes)
+        _refuse_kind(joint, notes)
     if strange:
         return ()
     chain = _longest(tree, robot, notes) if tip is None else searched
@@ -121,18 +121,21 @@ def _check_chain(chain: tuple[UrdfJoint, ...], robot: Element, notes: UrdfNotes)
     for joint in chain:
         if joint.element.all("mimic"):
             rule = "mimics another joint, and the paper assumes one motor for each joint"
-            notes.fail(
-                joint.element, f"joint {joint.name}", "", rule, "choose a tip before it, or make it fixed"
-            )
+            _refuse(joint, rule, notes)
 
 
-def _refuse(joint: UrdfJoint, everywhere: bool, notes: UrdfNotes) -> None:
+def _refuse_kind(joint: UrdfJoint, notes: UrdfNotes) -> None:
     rule = f"is {joint.kind}, and the paper assumes revolute joints: its bounds on M, C and g do not hold"
     if joint.kind == "prismatic":
         rule = "is prismatic, and the paper assumes revolute joints: its bounds on M, C and g fail along it"
-    repair = "make it fixed, or choose a tip before it"
-    if everywhere:
-        repair += f" (--tip {joint.parent}): what lies behind a tip is held at its zero position"
+    _refuse(joint, rule, notes)
+
+
+def _refuse(joint: UrdfJoint, rule: str, notes: UrdfNotes) -> None:
+    repair = (
+        f"make it fixed, or end the chain before it: --tip {joint.parent}, or tip in an arm file that names "
+        "this URDF; what lies behind a tip is held at its zero position"
+    )
     notes.fail(joint.element, f"joint {joint.name}", "", rule, repair)
 
 

@@ -23,7 +23,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import cast
 
-from lyapcheck.errors import InputError
+from lyapcheck.errors import InputError, near
 from lyapcheck.files.decimals import NotFinite
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.toml import open_document
@@ -62,7 +62,8 @@ def read_reference(path: str | Path, joints: int | None = None) -> Reference:
     maker = _KINDS.get(kind)
     if maker is None:
         if kind:
-            fields.fail("kind", f"must be one of {', '.join(_KINDS)}", 'write kind = "sine"')
+            meant = near(kind, _KINDS) or "sine"
+            fields.fail("kind", f"must be one of {', '.join(_KINDS)}", f'write kind = "{meant}"')
         raise InputError(notes.problems)
     result = maker(fields, Path(path).parent)
     fields.close()
