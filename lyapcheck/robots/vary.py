@@ -83,7 +83,7 @@ class Vary:
 
 
 def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dict[str, Number]:
-    """The numbers, those that are meant with their ranges; that of one number by its name outdoes that of all."""
+    """The numbers, with ranges where meant; that of one number by its name outdoes that of all."""
     result = dict(numbers)
     for vary in sorted(varies, key=lambda one: one.name in numbers):
         result |= {key: vary.of(number) for key, number in result.items() if vary.matches(key)}
