@@ -12,11 +12,13 @@ from typing import Any
 from lyapcheck._types import Progress
 from lyapcheck.answers.check.claim import one_line
 from lyapcheck.answers.check.run import paper_case_data
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
 from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
-from lyapcheck.claims.statements import AllOf, Missing, Statement
+from lyapcheck.claims.statements import Missing
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 

@@ -11,9 +11,9 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.order import needed
-from lyapcheck.claims.statements import Statement
 
 StatementOf = Callable[[Case], Statement]
 ARGUMENTS = ("m", "n", "robot", "gains")

@@ -18,8 +18,9 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.expressions.grammar import MAX_DEPTH
 from lyapcheck.check.limits import MAX_BYTES
 from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.case import Lacking
-from lyapcheck.claims.statements import Missing, Statement
+from lyapcheck.claims.statements import Missing
 
 CaseData = tuple[int, int, Any, Any]
 """m, n, a robot or none, and a gain set or none."""

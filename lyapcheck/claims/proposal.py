@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.handover import ClaimData, Key
 from lyapcheck.claims.search_result import SearchResult, still_open
-from lyapcheck.claims.statements import Missing, Statement
+from lyapcheck.claims.statements import Missing
 
 
 @dataclass(frozen=True)

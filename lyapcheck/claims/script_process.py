@@ -17,6 +17,7 @@ from pathlib import Path
 from threading import Thread
 from typing import BinaryIO
 
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.case import Case, Lacking
 from lyapcheck.claims.claim import Claim
 from lyapcheck.claims.handover import (
@@ -31,7 +32,6 @@ from lyapcheck.claims.handover import (
 )
 from lyapcheck.claims.order import in_order, needed
 from lyapcheck.claims.script import check_ids, line_of, load_proof
-from lyapcheck.claims.statements import Statement
 from lyapcheck.errors import InputError, Problem
 
 Lines = dict[Statement, tuple[int, str]]

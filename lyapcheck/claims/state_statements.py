@@ -10,8 +10,6 @@ from lyapcheck.claims.case import lacking
 from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import expr
 
-__all__ = ["DampingBelow", "Decreasing", "damping_below", "decreasing"]
-
 
 def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> Decreasing:
     """dV/dt < 0 along (11) at every state but the origin, with (13) for V and this ε₀.

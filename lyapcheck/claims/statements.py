@@ -10,7 +10,6 @@ from typing import TypeVar
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.agrees import Agrees
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
@@ -22,35 +21,6 @@ from lyapcheck.claims.exact import exact_value
 from lyapcheck.claims.expressions import Expr, expr, var
 
 T = TypeVar("T")
-
-__all__ = [
-    "Agrees",
-    "AllOf",
-    "Constant",
-    "ForAll",
-    "ForSmall",
-    "Identity",
-    "Implies",
-    "Missing",
-    "NormBound",
-    "Reals",
-    "Relation",
-    "Statement",
-    "TrigonometricBound",
-    "TrigonometricPositive",
-    "Variable",
-    "agrees",
-    "all_of",
-    "always_positive",
-    "bounded",
-    "for_all",
-    "identity",
-    "implies",
-    "nonnegative",
-    "norm_bound",
-    "positive",
-    "reals",
-]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import Any
 
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
-from lyapcheck.claims.statements import (
+from lyapcheck.claims import (
     Agrees,
     Constant,
     ForAll,

@@ -17,7 +17,7 @@ from mpmath import mp, mpf
 
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
-from lyapcheck.claims.statements import (
+from lyapcheck.claims import (
     Agrees,
     Constant,
     ForAll,

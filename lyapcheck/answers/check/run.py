@@ -14,8 +14,9 @@ from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import from_json
+from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
@@ -29,7 +30,7 @@ from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.search_result import SearchResult
-from lyapcheck.claims.statements import Implies, Missing, Statement
+from lyapcheck.claims.statements import Missing
 from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
 

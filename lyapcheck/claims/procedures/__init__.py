@@ -10,24 +10,25 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from lyapcheck.check.expressions.defined import Undefined
+from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import statements as kinds
 from lyapcheck.claims.registry import find
 from lyapcheck.claims.search_result import SearchResult, still_open
+from lyapcheck.claims.statements import Missing
 from lyapcheck.extensions import folders
 from lyapcheck.verdicts import Grade
 
 __path__ += folders(__name__)
 
 
-def propose(statement: kinds.Statement | kinds.Missing) -> SearchResult:
+def propose(statement: Statement | Missing) -> SearchResult:
     """What the search for the kind of a statement finds, if it stands up to the rules that will judge it.
 
     Not a verdict: that is for a fresh process of the checker to give, see ``fresh_check``.
     """
-    if isinstance(statement, kinds.Missing):
+    if isinstance(statement, Missing):
         return still_open(statement.reason, "not applicable")
     try:
         statement.require_well_formed()
@@ -41,7 +42,7 @@ def propose(statement: kinds.Statement | kinds.Missing) -> SearchResult:
     return finding if finding.proof is None else _verified(statement, finding, finding.proof)
 
 
-def _verified(statement: kinds.Statement, finding: SearchResult, proof: Proof) -> SearchResult:
+def _verified(statement: Statement, finding: SearchResult, proof: Proof) -> SearchResult:
     """The finding with the grade that the rules give it, or why they refuse it."""
     try:
         accepted = verify(statement, proof)
@@ -55,9 +56,9 @@ def _verified(statement: kinds.Statement, finding: SearchResult, proof: Proof) -
     return replace(finding, grade=Grade[accepted.grade.upper()])
 
 
-def _without_value(statement: kinds.Statement) -> str:
+def _without_value(statement: Statement) -> str:
     """Which term is not shown to have a value, and what to do; empty if all are."""
-    if isinstance(statement, kinds.AllOf):
+    if isinstance(statement, AllOf):
         return next(filter(None, (_without_value(part) for _, part in statement.parts)), "")
     try:
         statement.require_defined()
