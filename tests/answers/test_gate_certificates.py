@@ -277,6 +277,21 @@ def test_the_sharper_rule_is_told_where_10p_fails_by_its_root_of_n(tmp_path: Pat
     assert sharper.verdict == "accepted"
 
 
+def test_options_are_named_only_where_they_accept(tmp_path: Path) -> None:
+    """Two conditions fail, each for its own gain: what replaces one of them alone accepts nothing."""
+    path = gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'", "[0.5, 0.5]")
+    path.write_text(path.read_text().replace("kp = [1, 1]", "kp = [80, 1]"))
+    (both,) = judged(path).values()
+    first, second = remarks(both)[:2]
+    assert "proved stable without it" in first
+    assert "by its √n only" in second
+    assert all(said.endswith("; --condition 10i --condition scalar accepts it") for said in (first, second))
+    path.write_text(path.read_text().replace("kp = [80, 1]", "kp = [1, 20]"))
+    (neither,) = judged(path).values()
+    assert "proved stable without it" in remarks(neither)[0]
+    assert not any("accepts it" in said for said in remarks(neither))
+
+
 def test_with_a_certificate_both_facts_are_told(everywhere: dict[str, GateResult]) -> None:
     for result in everywhere.values():
         assert result.verdict_of(("19",)) == "rejected" == result.verdict

@@ -15,10 +15,7 @@ from lyapcheck.files.decimals import decimal_text
 _NO_ARM = (
     "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
 )
-_SINGLE = (
-    "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps every joint within its limit; "
-    "{} accepts it"
-)
+_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps every joint within its limit"
 _NO_FRICTION = (
     "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
     "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
@@ -34,7 +31,7 @@ def remarks(result: GateResult) -> list[str]:
     if missing and result.verdict_of(("10p", "19")) == ACCEPTED:
         outcome += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
     if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
-        outcome.append(_SINGLE.format(_flags(result, {"10p": "10i"})))
+        outcome.append(_SINGLE + _accepting(result))
     elif joints == REJECTED and result.stable is not None:
         outcome.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
     model, gains = result.limits.model, result.gains
@@ -46,9 +43,9 @@ def remarks(result: GateResult) -> list[str]:
 def _without_19(result: GateResult) -> list[str]:
     known, frictionless = result.stable, result.limits.viscous_min == 0
     if known is not None:
-        accepts = f"; {_flags(result, {'19': known.id})} accepts it" if "19" in result.deciding else ""
         where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
-        outcome = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}{accepts}"
+        outcome = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}"
+        outcome += _accepting(result) if "19" in result.deciding else ""
         return [outcome, _NO_FRICTION] if frictionless else [outcome]
     if not result.limits.robot:
         return [_NO_ARM]
@@ -66,7 +63,14 @@ def _proof(known: Check, where: str) -> str:
     return f"dV/dt < 0 with ε₀ = {decimal_text(known.value)} ({known.id} certificate, for the arm {where})"
 
 
-def _flags(result: GateResult, instead: dict[str, str]) -> str:
-    """The options with which other conditions decide in place of some."""
+def _accepting(result: GateResult) -> str:
+    """The options with which the gate would accept, by what this run has shown; empty where it has not."""
+    known = result.stable
+    instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
+    if known is not None and result.verdict_of(("19",)) == REJECTED:
+        instead["19"] = known.id
     wanted = dict.fromkeys(instead.get(name, name) for name in result.deciding)
-    return " ".join(f"--condition {name}" for name in wanted)
+    others = tuple(name for name in wanted if known is None or name != known.id)
+    if others and result.verdict_of(others) != ACCEPTED:
+        return ""
+    return f"; {' '.join(f'--condition {name}' for name in wanted)} accepts it"
