@@ -1,7 +1,11 @@
 """Add what the library of published proofs writes: python -m tests.arena.library FOLDER, after ``plant``.
 
-The folder has the certificates of ``lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib``. Its
-theorems stand in the arena with their premises, and with statements that are false while the premises are
+The folder has the certificates of one script:
+
+    lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib     (LaSalle's theorem)
+    lyapcheck check proofs/slotine_li.py --certificates OUT/slo           (exponential, ISS, a cascade)
+
+Its theorems stand in the arena with their premises, and with statements that are false while the premises are
 still those of the true one.
 """
 
@@ -73,6 +77,20 @@ def kinetic_alone(argument: dict[str, Any]) -> None:
     argument["energy"] = argument["energy"][1]
 
 
+def put(*place: Any) -> Change:
+    """A change by which the last of these stands at the place that the others name."""
+    *path, last, value = place
+
+    def change(argument: dict[str, Any]) -> None:
+        for step in path:
+            argument = argument[step]
+        argument[last] = value
+
+    return change
+
+
+ONE, ZERO = ["num", "1"], ["num", "0"]
+CHANGES, CONTRACTION = ("changes", 0, "equals"), ("cascade", "contraction")
 FALSE: dict[str, tuple[Change, str]] = {
     "damping-turned": (damping_turned, "K_v adds energy"),
     "stiffness-turned": (stiffness_turned, "K_p repels"),
@@ -82,6 +100,62 @@ FALSE: dict[str, tuple[Change, str]] = {
     "rate-too-large": (rate_too_large, "dV/dt is not below the form"),
     "kinetic-alone": (kinetic_alone, "V does not grow with the error"),
 }
+FALSE_OF: dict[str, dict[str, tuple[Change, str]]] = {
+    "lib.P": FALSE,
+    "slo.P": {
+        "exponential-rate": (put("rate", "entries", 2, ["var", "K_max"]), "dV/dt is not below the form"),
+        "exponential-above": (put("lower", "entries", 2, ["var", "beta"]), "V is not above the form"),
+        "exponential-below": (put("upper", "entries", 2, ["var", "mu"]), "V is above Φ"),
+        "exponential-no-upper": (put("upper", None), "V ≤ Φ is not shown"),
+        "exponential-share": (put("rate", "entries", 0, ["var", "s"]), "a rate that goes to 0 far away"),
+        "exponential-linear": (put("lower", "linear", [["norm_w", ONE]]), "no quadratic form"),
+        "exponential-unseen": (
+            lambda it: it.update(rate={"sizes": ["norm_w"], "entries": [ONE], "linear": []}),
+            "ψ does not see the errors",
+        ),
+        "exponential-other": (put(*CHANGES, 1, 1, ["diag", "K"]), "V is written with another letter"),
+        "exponential-letter": (
+            put(*CHANGES, 1, ["scale", ["var", "K_min"], ["vec", "e"]]),
+            "a change of letters that is not linear with numbers",
+        ),
+    },
+    "slo.P.disturbed": {
+        "ISS-no-gain": (put("gain", None), "a torque that dV/dt does not see"),
+        "ISS-gain": (put("gain", "linear", 0, 1, ZERO), "the torque acts on the errors too"),
+        "ISS-gain-less": (put("gain", "linear", 1, 1, ["num", "1/2"]), "half of the torque"),
+        "ISS-gain-square": (
+            put("gain", {"sizes": ["norm_w"], "entries": [ONE], "linear": []}),
+            "a gain that is not linear in the norms",
+        ),
+        "ISS-theorem": (put("theorem", "exponential"), "exponentially stable under an unknown torque"),
+        "ISS-undisturbed": (put("system", "disturbed", False), "of a loop without a disturbance"),
+        "ISS-local": (put("local", True), "ISS within a region"),
+    },
+    "slo.convergence": {
+        "cascade-contraction": (
+            put(*CONTRACTION, "entries", 0, ["var", "Lambda_max"]),
+            "e does not contract as fast",
+        ),
+        "cascade-motion": (put("cascade", "motion", ["var", "norm_y_w"]), "‖M ẏ‖ is larger"),
+        "cascade-rate": (put("rate", "entries", 0, ["var", "K_max"]), "dV/dt is not below the form"),
+        "cascade-none": (put("cascade", None), "nothing is said of how e follows"),
+        "cascade-strict": (put("theorem", "uniform"), "stability, which Barbalat's lemma does not give"),
+        "cascade-share": (put("lower", "entries", 0, ["var", "s"]), "φ that goes to 0 far away"),
+        "cascade-error": (put("changes", 0, "state", "e"), "the error itself is changed"),
+        "cascade-rest": (
+            put(
+                "rest",
+                {"against": ["vec", "e"], "form": {"sizes": ["norm_e"], "entries": [ONE], "linear": []}},
+            ),
+            "with what LaSalle's theorem asks for",
+        ),
+        "cascade-unseen": (
+            put(*CONTRACTION, "sizes", ["norm_e", "norm_w"]),
+            "in a size that does not vanish",
+        ),
+    },
+}
+"""For each theorem, what makes its statement false, or one that its proof is not about."""
 
 
 def altered(document: Document, change: Change, by_digest: dict[str, Document]) -> list[tuple[str, bytes]]:
@@ -149,11 +223,12 @@ def main(folder: str) -> None:
     documents.sort(key=lambda item: item[1]["statement"]["kind"] not in THEOREMS)
     arena, by_digest = Added(Path(folder).name), {one["digest"]: one for _, one in documents}
     collections(arena, documents)
-    name, theorem = next(item for item in documents if item[1]["statement"]["kind"] == "Stable")
-    for attack, (change, why) in FALSE.items():
-        files = altered(theorem, change, by_digest)
-        arena.add(f"bad/{attack}.{name}", files, NOT_ACCEPTED, f"Stable: {why}")
-    unmet(arena, Path(folder).name)
+    for name, theorem in documents:
+        for attack, (change, why) in FALSE_OF.get(name, {}).items():
+            files = altered(theorem, change, by_digest)
+            arena.add(f"bad/{attack}.{name}", files, NOT_ACCEPTED, f"Stable: {why}")
+    if Path(folder).name == "lib":
+        unmet(arena, "lib")
     arena.entries.sort(key=lambda entry: entry["path"])
     (ARENA / "expected.json").write_text(json.dumps(arena.entries, indent=1, ensure_ascii=False) + "\n")
 

@@ -19,6 +19,8 @@ the names begin the names of the files:
     python -m tests.arena.plant OUT/arc OUT/asy OUT/eve OUT/pub OUT/rob OUT/sca OUT/tra OUT/ext
     lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib
     python -m tests.arena.library OUT/lib
+    lyapcheck check proofs/slotine_li.py --certificates OUT/slo
+    python -m tests.arena.library OUT/slo
 """
 
 from __future__ import annotations

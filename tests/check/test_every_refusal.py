@@ -1,0 +1,110 @@
+"""Each refusal of the checker, and a certificate that comes to it.
+
+``refusals.json`` names for each place a file of the arena that is refused there; what none is refused at has
+a case here. After a change of the checker: python -m tests.check.test_every_refusal
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck.check.certificate import MAX_BYTES, parse
+from lyapcheck.check.judging import judged
+from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.identity import Identity, NormalForm
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
+from tests.arena.attacks import Edits, edited, encoded
+from tests.arena.run import ARENA
+from tests.arena.test_arena import TAKES_SECONDS
+from tests.check.refusal_cases import CASES, ONE, Changed, base, nested
+from tests.helpers.refusals import places, recorded
+
+SEEN_AT = Path(__file__).with_name("refusals.json")
+SECOND_LINE = {
+    "kinds/at_corners.py RateAtCorners.require_shown: 'must be positive at each corner, M = Mᵀ'",
+    "kinds/link_bounds.py LinkBounds.require_shown: 'must be positive, M = Mᵀ'",
+    "kinds/decreasing.py by_posture: 'must be refuted'",
+    "kinds/nearby.py by_posture: 'must be refuted'",
+    "kinds/stopping.py by_rest: 'must be refuted'",
+    "kinds/stability.py by_argument: 'must be a point at which all conditions hold'",
+    "kinds/for_all.py _shown: 'is not known'",
+    "kinds/for_small.py sign_for_small: 'must be one'",
+}
+"""Where nothing comes today, since something before it refuses: rules that may be used by others one day."""
+
+
+def reason(name: str, change: Edits | Changed) -> str:
+    """Why a good certificate is refused once it is changed; empty if it is accepted."""
+    document = base(name)
+    return judged(encoded(edited(document, change(document) if callable(change) else change))).reason
+
+
+def refused_as_objects() -> list[str]:
+    """What no file can bring about, since reading it refuses first; a script could."""
+    deep, vector = nested("neg", ONE), nested("scale", ["vec", "z"], ONE)
+    statements = (
+        Identity(_tuples(deep), _tuples(ONE)),
+        EveryN(("dot", ("vec", "z"), _tuples(vector)), ("num", "0"), (), (), ()),
+    )
+    said = []
+    for statement in statements:
+        with pytest.raises(Refused) as refused:
+            verify(statement, NormalForm())
+        said.append(str(refused.value))
+    with pytest.raises(Refused) as refused:
+        parse(" " * (MAX_BYTES + 1))
+    return [*said, str(refused.value)]
+
+
+def _tuples(tree: Any) -> Any:
+    return tuple(map(_tuples, tree)) if isinstance(tree, list) else tree
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"), CASES, ids=[f"{k}-{words}" for k, (_, _, words) in enumerate(CASES)]
+)
+def test_what_is_changed_is_refused_for_what_was_changed(name, change, words):
+    assert words in reason(name, change)
+
+
+def test_what_no_file_brings_about_is_refused_too():
+    said = refused_as_objects()
+    assert [words in text for words, text in zip(("deeper", "deeper", "is above"), said, strict=True)]
+
+
+@pytest.mark.slow
+def test_each_place_at_which_the_checker_refuses_has_been_come_to():
+    with recorded() as seen:
+        for path in set(json.loads(SEEN_AT.read_text(encoding="utf-8")).values()):
+            judged((ARENA / path).read_bytes())
+        for name, change, _ in CASES:
+            reason(name, change)
+        refused_as_objects()
+    assert set(places().values()) - seen == SECOND_LINE
+
+
+def main() -> int:
+    """Name for each place the smallest file of the arena that is refused there."""
+    quick = (
+        path
+        for path in (ARENA / "bad").rglob("*.json")
+        if path.relative_to(ARENA).as_posix() not in TAKES_SECONDS
+    )
+    result: dict[str, str] = {}
+    for path in sorted(quick, key=lambda path: (path.stat().st_size, path.as_posix())):
+        with recorded() as seen:
+            judged(path.read_bytes())
+        result = dict.fromkeys(seen, path.relative_to(ARENA).as_posix()) | result
+    text = json.dumps(result, indent=1, sort_keys=True, ensure_ascii=False)
+    SEEN_AT.write_text(f"{text}\n", encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
