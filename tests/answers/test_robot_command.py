@@ -254,8 +254,16 @@ def test_an_arm_without_friction_lacks_a_property() -> None:
     rows = {row["id"]: row for row in json.loads(out)["properties"]}
     assert code == 1
     assert rows["2.7"]["verdict"] == "refuted"
-    assert rows["2.7"]["reason"].startswith("positive")
+    assert "is 0 in the file" in rows["2.7"]["reason"]
     assert all(rows[name]["verdict"] == "proved" for name in rows if name != "2.7")
+
+
+def test_friction_that_a_file_gives_as_0_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "two.urdf"
+    file.write_text(TWO.replace('damping="0.25"', 'damping="0"'))
+    code, out = run(str(file), "--max-boxes", "300")
+    assert code == 1
+    assert "the viscous friction of elbow is 0 in the file; where that means unknown" in " ".join(out.split())
 
 
 def test_friction_that_a_file_does_not_tell_is_not_refuted(tmp_path: Path) -> None:

@@ -48,7 +48,8 @@ def ratio_text(result: BoundsComparison) -> str:
     """How many times the certified time is that of the run."""
     if result.settling.time is None or not result.simulated_time:
         return "—"
-    return f"{float(result.settling.time) / result.simulated_time:.3g} ×"
+    ratio = float(result.settling.time) / result.simulated_time
+    return f"{float(f'{ratio:.3g}'):g} ×"
 
 
 def after_text(result: BoundsComparison) -> str:

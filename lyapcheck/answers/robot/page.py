@@ -129,7 +129,7 @@ def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]
 def _state_rows(report: ArmFacts, constant: ConstantResult) -> list[tuple[str, str]]:
     """The angles; of k_c also the direction x."""
     n, name = report.model.n, _symbol(constant)
-    angles, x = (", ".join(f"{x:.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
+    angles, x = (", ".join(f"{x:z.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
     return [(name, angles), *([(f"{name}: x", x)] if x else [])]
 
 

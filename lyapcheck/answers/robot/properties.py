@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lyapcheck._types import Progress
 from lyapcheck.answers.check.run import run_proof
@@ -13,6 +13,7 @@ from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
+_STATE_IT = "state it in an arm file that names this URDF"
 
 
 @dataclass(frozen=True)
@@ -39,14 +40,18 @@ def properties(
     result = run_proof("published.py", [1], model, None, None, IDS, on_progress)
     rows = {row.id: PropertyResult(row.id, row.statement, row.decision) for row in result.claims}
     made = dict(result.certificates)
-    if any(number.assumed and number.value == 0 for number in model.viscous):
-        rows["2.7"] = PropertyResult("2.7", rows["2.7"].statement, _unknown_friction(model))
+    missing = _without_friction(model, assumed=True)
+    if missing:
+        finding = undecided(f"no viscous friction is known of {missing}; {_STATE_IT}", "reading of the file")
+        rows["2.7"] = PropertyResult("2.7", rows["2.7"].statement, finding)
         made.pop("2.7.json", None)
+    elif none := _without_friction(model, assumed=False):
+        reason = f"the viscous friction of {none} is 0 in the file; where that means unknown, {_STATE_IT}"
+        rows["2.7"] = replace(rows["2.7"], finding=replace(rows["2.7"].finding, reason=reason))
     return tuple(rows[name] for name in IDS), made
 
 
-def _unknown_friction(model: RobotModel) -> Decision:
-    names = zip(model.joints, model.viscous, strict=True)
-    missing = ", ".join(joint for joint, number in names if number.assumed and number.value == 0)
-    reason = f"no viscous friction is known of {missing}; state it in an arm file that names this URDF"
-    return undecided(reason, "reading of the file")
+def _without_friction(model: RobotModel, assumed: bool) -> str:
+    """The joints whose viscous friction is 0 because nobody stated it, or because the file says so."""
+    rows = zip(model.joints, model.viscous, strict=True)
+    return ", ".join(joint for joint, number in rows if number.value == 0 and number.assumed is assumed)
