@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.kinds.all_of import EveryPart, OnePart
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Proof
+from lyapcheck.output.digits import decimals
 from lyapcheck.verdicts import Grade, Verdict
+
+Number = Enclosure | Fraction | int
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,29 @@ def shown(proof: Proof, method: str, **evidence: Any) -> SearchResult:
 def broken(proof: Proof, method: str, witness: dict[str, Any], **evidence: Any) -> SearchResult:
     """A counterexample was found."""
     return SearchResult(Verdict.REFUTED, method, proof, witness=witness, evidence=evidence)
+
+
+def failing(
+    point: Mapping[str, object], left: Number | list[str], operator: str, right: Number | list[str]
+) -> dict[str, Any]:
+    """Where a relation fails: the point, and both sides there to twelve digits unless written already."""
+    below, above = (side if isinstance(side, list) else between(side) for side in (left, right))
+    shown = {name: str(value) for name, value in point.items()}
+    return {"point": shown, "left": below, "operator": operator, "right": above}
+
+
+def between(number: Number, digits: int = 12) -> list[str]:
+    """The two decimals between which a number lies; twice the same where it is short."""
+    return list(decimals(number if isinstance(number, Enclosure) else Enclosure.exact(number), digits))
+
+
+def entries(**vectors: Iterable[object]) -> dict[str, str]:
+    """The entries of vectors by their letters: ``q1``, ``q2``, …"""
+    return {
+        f"{letter}{i}": str(entry)
+        for letter, vector in vectors.items()
+        for i, entry in enumerate(vector, start=1)
+    }
 
 
 def still_open(reason: str, method: str, **evidence: Any) -> SearchResult:

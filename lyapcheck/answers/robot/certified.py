@@ -29,7 +29,7 @@ from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.bounds import ArmBounds
-from lyapcheck.claims.search_result import SearchResult, broken, shown
+from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
 from lyapcheck.constants import SEED, ConstantResult
 from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.storage.bounds import BoundWithProof
@@ -130,11 +130,8 @@ def _inner(seen: Fraction, sign: int) -> Fraction:
 
 
 def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> SearchResult:
-    point = {f"q{i + 1}": str(angle) for i, angle in enumerate(witness.q)}
-    point |= {f"x{i + 1}": str(x) for i, x in enumerate(witness.x)}
-    ends = [list(decimals(Enclosure.exact(value), 12)) for value in (seen, inner)]
-    values = {"point": point, "left": ends[0], "operator": "≤" if sign > 0 else ">", "right": ends[1]}
-    return broken(witness, "a posture", values)
+    operator = "≤" if sign > 0 else ">"
+    return broken(witness, "a posture", failing(entries(q=witness.q, x=witness.x), seen, operator, inner))
 
 
 def certified(answers: Sequence[DecidedProperty], positive: bool) -> dict[str, CertifiedBounds]:

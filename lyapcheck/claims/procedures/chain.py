@@ -7,12 +7,10 @@ from fractions import Fraction
 from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.inertia import PostureWitness
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage import storage_proof
-from lyapcheck.output.digits import decimals
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.number import Number
 from lyapcheck.robots.plant import Plant
@@ -37,10 +35,7 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
         Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n), name
     )
     if reached.value > statement.high:
-        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(reached.q)}
-        point |= {f"x{i + 1}": str(x) for i, x in enumerate(reached.x)}
-        left, right = (list(decimals(Enclosure.exact(x), 12)) for x in (reached.value, statement.high))
-        witness = {"point": point, "left": left, "operator": "<=", "right": right}
+        witness = failing(entries(q=reached.q, x=reached.x), reached.value, "<=", statement.high)
         return broken(PostureWitness(reached.q, (), reached.x), f"{METHOD}: a posture", witness)
     result = storage_proof(chain, name, high=statement.high)
     if result is None or result.bound > statement.high:

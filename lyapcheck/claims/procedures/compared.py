@@ -11,8 +11,7 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.procedures.search import BITS
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
-from lyapcheck.output.digits import decimals
+from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
 
 METHOD = "comparison of polynomials in normal form"
 TRIES = 40
@@ -29,12 +28,9 @@ def find_compared(statement: Compared) -> SearchResult:
             value = next(value for place, value in differences(statement, posture) if place == gap[0])
             if value.contains(0):
                 continue
-            left = list(decimals(Enclosure.from_arb(value), 12))
-        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(posture.q)}
-        point |= {f"p{i + 1}": str(end) for i, end in enumerate(posture.parameters)}
-        if any(rates for _, rates, _ in statement.gaps()):
-            point |= {f"w{i + 1}": str(rate) for i, rate in enumerate(posture.x)}
-        witness = {"point": point, "left": left, "operator": "=", "right": ["0", "0"]}
+            left = Enclosure.from_arb(value)
+        rates = posture.x if any(rates for _, rates, _ in statement.gaps()) else ()
+        witness = failing(entries(q=posture.q, p=posture.parameters, w=rates), left, "=", 0)
         return replace(broken(posture, METHOD, witness), reason=f"they differ in {_words(gap)}")
     return still_open(f"they differ in {_words(gap)}, and no posture shows it; compare by hand", METHOD)
 

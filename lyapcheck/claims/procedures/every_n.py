@@ -23,7 +23,7 @@ from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.procedures.search import Point, point_of
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
 from lyapcheck.rechecking.drawn_entries import doubt_identity, drawn, solved_at
 
 METHOD = "identity for every n"
@@ -85,11 +85,5 @@ def _difference(statement: EveryN, n: int, point: Point) -> SearchResult | None:
     left, right = (exact(side, point) for side in sides)
     if left == right:
         return None
-    shown_at = {"n": str(n), **{name: str(value) for name, value in sorted(point.items())}}
-    data = {
-        "point": shown_at,
-        "left": [str(left)] * 2,
-        "operator": "=",
-        "right": [str(right)] * 2,
-    }
+    data = failing({"n": n, **dict(sorted(point.items()))}, [str(left)] * 2, "=", [str(right)] * 2)
     return broken(EntriesWitness(n, point_of(point)), f"{METHOD}: entries at which the sides differ", data)

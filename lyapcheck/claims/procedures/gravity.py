@@ -9,11 +9,9 @@ import numpy as np
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, between, broken, entries, failing, shown, still_open
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.output.digits import decimals
 
 METHOD = "gravity"
 SAMPLES = 400
@@ -26,11 +24,8 @@ def find_gravity_below(statement: GravityBelow) -> SearchResult:
         return shown(HarmonicSizes(), f"{METHOD}: {HarmonicSizes.rule}")
     worst = max((_sampled(statement, k) for k in range(SAMPLES)), key=lambda row: row[0])
     if refutes(statement, worst[1]):
-        point = {f"q{i + 1}": str(angle) for i, angle in enumerate(worst[1].q)}
-        point |= {f"p{i + 1}": str(end) for i, end in enumerate(worst[1].parameters)}
-        left = list(decimals(Enclosure.exact(Fraction(worst[0])), 6))
-        right = list(decimals(Enclosure.exact(statement.high), 12))
-        witness = {"point": point, "left": left, "operator": "<=", "right": right}
+        point = entries(q=worst[1].q, p=worst[1].parameters)
+        witness = failing(point, between(Fraction(worst[0]), 6), "<=", statement.high)
         return broken(worst[1], f"{METHOD}: a posture", witness)
     if proves(statement, Bisection()):
         return shown(Bisection(), f"{METHOD}: {Bisection.rule}")

@@ -23,12 +23,10 @@ from lyapcheck.check.kinds.inertia import (
     PostureWitness,
 )
 from lyapcheck.check.loop.inertia import Inertia
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.statement import Proof
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, between, broken, entries, failing, shown, still_open
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "inertia"
@@ -121,13 +119,8 @@ def _norm(x: tuple[Fraction, ...]) -> float:
 
 
 def _witness(statement: OfArm, proof: PostureWitness) -> dict[str, object]:
-    point = {f"{name}{i + 1}": str(v) for name in "qxy" for i, v in enumerate(getattr(proof, name))}
-    point |= {f"p{i + 1}": str(v) for i, v in enumerate(proof.parameters)}
-    bound = statement.low if isinstance(statement, MassAbove) else statement.high
-    shown = list(decimals(Enclosure.exact(bound), 12))
+    point = entries(q=proof.q, x=proof.x, y=proof.y, p=proof.parameters)
     value, _ = _at(statement, statement.inertia, proof.q, proof.parameters, np.random.default_rng(SEED))
-    reached = list(decimals(Enclosure.exact(Fraction(value) + bound), 6))
     if isinstance(statement, MassAbove):
-        reached = list(decimals(Enclosure.exact(bound - Fraction(value)), 6))
-        return {"point": point, "left": shown, "operator": "<", "right": reached}
-    return {"point": point, "left": reached, "operator": "<=", "right": shown}
+        return failing(point, statement.low, "<", between(statement.low - Fraction(value), 6))
+    return failing(point, between(Fraction(value) + statement.high, 6), "<=", statement.high)

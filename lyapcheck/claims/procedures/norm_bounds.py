@@ -30,8 +30,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
-from lyapcheck.output.digits import decimals
+from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
 from lyapcheck.rechecking.drawn_entries import doubt_bound, drawn_entries
 
 METHOD = "norms for every n"
@@ -108,11 +107,10 @@ def _against(statement: BoundEveryN) -> SearchResult | None:
             left, right = at_size(statement, n)[0]
             balls = {name: ball_of(x) for name, x in point.items()}
             with ctx.workprec(BITS):
-                sides = (decimals(Enclosure.from_arb(ball(side, balls)), 12) for side in (left, right))
-            data = dict(zip(("left", "right"), map(list, sides), strict=True)) | {"operator": "<="}
-            shown_at = {"n": str(n), **{name: str(x) for name, x in sorted(point.items())}}
+                below, above = (Enclosure.from_arb(ball(side, balls)) for side in (left, right))
+            witness = failing({"n": n, **dict(sorted(point.items()))}, below, "<=", above)
             proof = EntriesWitness(n, point_of(point))
-            return broken(proof, f"{METHOD}: entries that break the bound", {"point": shown_at, **data})
+            return broken(proof, f"{METHOD}: entries that break the bound", witness)
     return None
 
 

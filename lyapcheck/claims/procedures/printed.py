@@ -26,8 +26,7 @@ from lyapcheck.check.kinds.agrees import (
 )
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
-from lyapcheck.output.digits import decimals
+from lyapcheck.claims.search_result import SearchResult, between, broken, failing, shown, still_open
 
 METHOD = "arithmetic on printed numbers"
 BITS = 128
@@ -37,7 +36,7 @@ BITS = 128
 def find_agrees(statement: Agrees) -> SearchResult:
     """Compare the formula at the printed inputs, over all their roundings and at the corners of these."""
     target, exact = printed_range(statement.printed), at_printed(statement, BITS)
-    computed = {"computed": list(decimals(exact, 8)), "printed": statement.printed}
+    computed = {"computed": between(exact, 8), "printed": statement.printed}
     if target.lower <= exact.lower and exact.upper <= target.upper:
         return shown(PrintedInputs(BITS), f"{METHOD}: the printed inputs give it", **computed)
     whole = over_all(statement, BITS)
@@ -62,14 +61,8 @@ def _corners(statement: Agrees, target: Enclosure) -> Corners | None:
 
 
 def _witness(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str, object]:
-    return {
-        "point": dict(statement.inputs),
-        "left": list(decimals(exact, 12)),
-        "operator": "=",
-        "right": list(decimals(target, 12)),
-        "printed": statement.printed,
-        **_needed(statement, target),
-    }
+    sides = failing(dict(statement.inputs), exact, "=", target)
+    return sides | {"printed": statement.printed} | _needed(statement, target)
 
 
 def _needed(statement: Agrees, target: Enclosure) -> dict[str, object]:
@@ -85,4 +78,4 @@ def _needed(statement: Agrees, target: Enclosure) -> dict[str, object]:
     others = {key: ball_of(Fraction(text)) for key, text in statement.inputs if key != name}
     with ctx.workprec(BITS):
         value = Enclosure.from_arb(target.to_arb() / ball(at_one, others))
-    return {f"{name} that gives it": list(decimals(value, 6))}
+    return {f"{name} that gives it": between(value, 6)}

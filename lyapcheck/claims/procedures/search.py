@@ -15,6 +15,7 @@ from lyapcheck.check.expressions.witness import Comparison, holds
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.statement import Point as Coordinates
 from lyapcheck.check.statement import Variable, Witness
+from lyapcheck.claims.search_result import failing
 from lyapcheck.output.digits import decimals
 
 BITS = 192
@@ -114,12 +115,11 @@ def point_of(point: Point) -> Coordinates:
     return tuple(sorted(point.items()))
 
 
-def witness_data(failure: Failure, **more: Any) -> dict[str, Any]:
+def witness_data(failure: Failure) -> dict[str, Any]:
     """A witness as plain data: the exact point, and both sides between decimals."""
     claim, point, sides = failure
     left, right = told_apart(sides.left, sides.right)
-    shown = {name: str(value) for name, value in sorted(point.items())}
-    return {"point": shown, "left": left, "operator": claim[1], "right": right, **more}
+    return failing(dict(sorted(point.items())), left, claim[1], right)
 
 
 def told_apart(left: Enclosure, right: Enclosure) -> tuple[list[str], list[str]]:

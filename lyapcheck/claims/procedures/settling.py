@@ -9,11 +9,9 @@ from lyapcheck.check.kinds.phases import StaysWithin
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.output.digits import decimals
 from lyapcheck.search.inertia import mass_proof
 
 METHOD = "states of rest"
@@ -44,8 +42,6 @@ def find_resting(statement: Resting | ComesToRest) -> SearchResult:
     for joint, bound in enumerate(statement.errors):
         against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
         if bound is not None and refutes(statement, against):
-            left, right = (list(decimals(Enclosure.exact(x), 12)) for x in (against.error, bound))
-            point = {f"e{joint + 1}": str(against.error)}
-            witness = {"point": point, "left": left, "operator": "<=", "right": right}
+            witness = failing({f"e{joint + 1}": against.error}, against.error, "<=", bound)
             return broken(against, f"{METHOD}: one beyond a bound", witness)
     return still_open("h at the bounds does not decide it; take larger bounds", METHOD)

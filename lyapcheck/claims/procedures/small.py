@@ -27,9 +27,8 @@ from lyapcheck.claims.procedures.cancellation import Cancellation
 from lyapcheck.claims.procedures.implication import EFFORT
 from lyapcheck.claims.procedures.search import BITS, Point, point_of, round_points
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
 from lyapcheck.control.judgement import refutes
-from lyapcheck.output.digits import decimals
 
 METHOD = "small parameter"
 BELOW = (Fraction(1), Fraction(1, 2**10))
@@ -107,9 +106,4 @@ def _data(statement: ForSmall, point: Point, below: Fraction) -> dict[str, objec
     claim = statement.conclusion
     with ctx.workprec(BITS):
         left, right = (Enclosure.from_arb(ball(side, balls)) for side in (claim.left, claim.right))
-    return {
-        "point": {name: str(value) for name, value in sorted(whole.items())},
-        "left": list(decimals(left, 12)),
-        "operator": claim.operator,
-        "right": list(decimals(right, 12)),
-    }
+    return failing(dict(sorted(whole.items())), left, claim.operator, right)

@@ -26,8 +26,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
-from lyapcheck.output.digits import decimals
+from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
 from lyapcheck.robots.plant import Plant
@@ -131,14 +130,8 @@ def _against(statement: Decreasing) -> SearchResult | None:
 def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[str, Any]:
     from lyapcheck.check.loop.states import rate
 
-    names = {f"{name}{i + 1}": x for name in "qew" for i, x in enumerate(getattr(state, name))}
     result = Enclosure.from_arb(rate(controlled.arm, controlled.controller, eps0, state, 256))
-    return {
-        "point": {name: str(value) for name, value in names.items()},
-        "left": list(decimals(result, 12)),
-        "operator": "<",
-        "right": ["0", "0"],
-    }
+    return failing(entries(q=state.q, e=state.e, w=state.w), result, "<", 0)
 
 
 def _by_boxes(statement: Decreasing) -> SearchResult:
