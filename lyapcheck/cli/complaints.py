@@ -24,6 +24,17 @@ class Complaints:
             self.problems += error.problems
             return None
 
+    def result(self, read: Callable[..., Value], *arguments: Any) -> Value:
+        """What ``read`` returns, if nothing was wrong.
+
+        Raises:
+            InputError: this, or something before, could not be used.
+        """
+        value = self.reading(read, *arguments)
+        self.raise_all()
+        assert value is not None
+        return value
+
     def raise_all(self) -> None:
         """Raise what was gathered.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import SUPPRESS, Action
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,7 +66,16 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
 def add_no_store(parser: Parser) -> None:
     """``--no-store``."""
     about = "Take nothing from the store and keep nothing there; see store."
-    parser.add_argument("--no-store", action="store_true", help=about)
+    parser.add_argument("--no-store", action=_SwitchOff, nargs=0, dest=SUPPRESS, help=about)
+
+
+class _SwitchOff(Action):
+    """Keeps this process, and those that it starts, from the store."""
+
+    def __call__(self, *_: object) -> None:
+        from lyapcheck import store
+
+        store.switch_off()
 
 
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lyapcheck.errors import argument_error
 from lyapcheck.temporary import pending, try_writing
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from lyapcheck.certificate import Certificate
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -41,6 +47,17 @@ def open_folder(option: str, path: Path) -> Path:
         ) from error
     _require_room(option, path, path)
     return path
+
+
+def write_certificates(folder: Path, *groups: Mapping[str, Certificate]) -> None:
+    """Write certificates into a folder, each under its name.
+
+    Raises:
+        InputError: one cannot be written.
+    """
+    for group in groups:
+        for name, certificate in group.items():
+            write_whole(folder / name, certificate.text())
 
 
 def _require_room(option: str, path: Path, folder: Path) -> None:

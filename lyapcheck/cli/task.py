@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from lyapcheck.cli.angles import parse_angles
+from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.eps0 import CERTIFIED, Eps0
 from lyapcheck.cli.output import open_folder, require_writable
-from lyapcheck.errors import InputError, Problem, argument_error, argument_problem
+from lyapcheck.errors import InputError, argument_error, argument_problem
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
     from lyapcheck.tracking.reference import Reference
     from lyapcheck.tracking.request import TrackingRequest
+
+Made = TypeVar("Made")
 
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
@@ -58,7 +62,7 @@ def task_of(
     model: RobotModel,
     target: str | None,
     start: str | None,
-    time: float,
+    time: float | None,
     eps0: float | None = None,
     velocity: str | None = None,
 ) -> Task:
@@ -69,58 +73,38 @@ def task_of(
     """
     from lyapcheck.simulate.task import task_for
 
-    problems: list[Problem] = []
-    q_d = _angles("--target", _goal(target, model, problems), model, problems)
-    q0 = _angles("--start", _home(model) if start is None else start, model, problems)
-    w0 = _angles("--velocity", _home(model) if velocity is None else velocity, model, problems)
-    try:
-        task = task_for(model.n, q_d, q0, w0, time, eps0=eps0)
-    except InputError as error:
-        problems += [_renamed(problem) for problem in error.problems]
-    if problems:
-        raise InputError(problems)
-    return task
+    wrong = Complaints()
+    q_d = wrong.reading(_goal, target, model) or (0.0,) * model.n
+    q0, w0 = _begin(wrong, model, start, velocity)
+    seconds = SECONDS if time is None else time
+    return wrong.result(_by_options(partial(task_for, model.n, q_d, q0, w0, seconds, eps0=eps0)))
 
 
-@dataclass(frozen=True)
-class TypedTask:
-    """What ``lyapcheck simulate`` was asked for, as it was typed."""
+def request_of(
+    model: RobotModel,
+    reference: Reference | None,
+    start: str | None,
+    velocity: str | None,
+    time: float | None,
+    eps0: Eps0,
+    band: float | None,
+) -> TrackingRequest:
+    """The tracking request that the options ask for; without a reference only its problems are of interest.
 
-    target: str | None
-    start: str | None
-    velocity: str | None
-    time: float | None
-    eps0: Eps0
+    Raises:
+        InputError: every problem with it at once.
+    """
+    from lyapcheck.tracking.request import request_for
 
-    def task(self, model: RobotModel) -> Task:
-        """The set-point task; see `task_of`."""
-        time = SECONDS if self.time is None else self.time
-        return task_of(model, self.target, self.start, time, self.eps0.number, self.velocity)
-
-    def request(self, model: RobotModel, reference: Reference | None, band: float | None) -> TrackingRequest:
-        """The tracking request; without a reference only its problems are of interest.
-
-        Raises:
-            InputError: every problem with it at once.
-        """
-        from lyapcheck.tracking.request import request_for
-
-        problems: list[Problem] = []
-        if self.eps0.certified:
-            repair = "leave --eps0 out: one that is proved for (21) is taken"
-            problems.append(argument_problem("--eps0", CERTIFIED, "is for tasks without --reference", repair))
-        number = self.eps0.number
-        home = _home(model)
-        q0 = _angles("--start", home if self.start is None else self.start, model, problems)
-        rates = _angles("--velocity", home if self.velocity is None else self.velocity, model, problems)
-        size = math.radians(BAND if band is None else band)
-        try:
-            request = request_for(model.n, reference, q0, rates, self.time, eps0=number, band=size)
-        except InputError as error:
-            problems += [_renamed(problem) for problem in error.problems]
-        if problems:
-            raise InputError(problems)
-        return request
+    wrong = Complaints()
+    if eps0.certified:
+        repair = "leave --eps0 out: one that is proved for (21) is taken"
+        rule = "is for tasks without --reference"
+        wrong.problems.append(argument_problem("--eps0", CERTIFIED, rule, repair))
+    q0, rates = _begin(wrong, model, start, velocity)
+    size = math.radians(BAND if band is None else band)
+    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0.number, band=size)
+    return wrong.result(_by_options(made))
 
 
 def starts_of(runs: int, spread: float | None, seed: int | None) -> Starts:
@@ -182,27 +166,33 @@ def check_places(csv: str | None, plot: Path | None) -> None:
         open_folder("--plot", plot)
 
 
-def _renamed(problem: Problem) -> Problem:
-    return replace(problem, key=_OPTIONS[problem.key])
+def _begin(
+    wrong: Complaints, model: RobotModel, start: str | None, velocity: str | None
+) -> list[tuple[float, ...]]:
+    """Angles and rates at the beginning; 0 where nothing is said, or nothing that can be read."""
+    rest = (0.0,) * model.n
+    given = (("--start", start), ("--velocity", velocity))
+    return [
+        rest if text is None else wrong.reading(parse_angles, option, text, model.joints) or rest
+        for option, text in given
+    ]
 
 
-def _angles(option: str, text: str, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:
-    try:
-        return parse_angles(option, text, model.joints)
-    except InputError as error:
-        problems += error.problems
-        return (0.0,) * model.n
+def _by_options(make: Callable[[], Made]) -> Callable[[], Made]:
+    """The same, with its problems under the names of options."""
+
+    def made() -> Made:
+        try:
+            return make()
+        except InputError as error:
+            raise InputError([replace(one, key=_OPTIONS[one.key]) for one in error.problems]) from None
+
+    return made
 
 
-def _goal(target: str | None, model: RobotModel, problems: list[Problem]) -> str:
+def _goal(target: str | None, model: RobotModel) -> tuple[float, ...]:
     """What was asked for, or the published goal, which only an arm of three joints has."""
     if target is None and model.n != 3:
         rule = f"is missing, and the paper's goal is for 3 joints where {model.name} has {model.n}"
-        repair = f"write --target {','.join(['45'] * model.n)}"
-        problems.append(Problem("argument", None, "--target", "", rule, repair))
-        return _home(model)
-    return "45,45,90" if target is None else target
-
-
-def _home(model: RobotModel) -> str:
-    return ",".join(["0"] * model.n)
+        raise argument_error("--target", "", rule, f"write --target {','.join(['45'] * model.n)}")
+    return parse_angles("--target", "45,45,90" if target is None else target, model.joints)

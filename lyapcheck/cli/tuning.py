@@ -52,13 +52,13 @@ def tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Ta
     Raises:
         InputError: angles that cannot be used.
     """
-    from lyapcheck.cli.task import SECONDS, task_of
+    from lyapcheck.cli.task import task_of
     from lyapcheck.robots import load
 
     model = load(robot)
     default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
     try:
-        return tuple(task_of(model, goal, start, SECONDS) for goal in goals or [default])
+        return tuple(task_of(model, goal, start, None) for goal in goals or [default])
     except InputError as error:
         problems = [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
         raise InputError(problems) from None

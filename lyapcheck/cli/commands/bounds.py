@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress
 from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot, add_vary, varies
-from lyapcheck.cli.output import open_folder, write_whole
+from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -62,7 +63,6 @@ def run(
     max_boxes: int,
     jobs: int,
     certificates: Path | None,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
@@ -79,31 +79,29 @@ def run(
       lyapcheck bounds gains.toml --disturbance 0.1,0.1,0.05 --friction 0,0,0
       lyapcheck bounds gains.toml --vary viscous=-30%..+0%
     """
-    from lyapcheck import store
+    from lyapcheck.cli.task import task_of
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
-    if no_store:
-        store.switch_off()
     gain_file = read_gain_file(file)
     name, ranges = robot_name(robot, [gain_file]), varies(vary)
     model = load(name)
     varied = (load(name, vary=ranges), ranges) if ranges else None
     require_joints([gain_file], model)
-    problems: list[Problem] = []
-    task = _task(model, target, start, time, problems)
-    angle = _angle(delta, problems)
-    torque = _torques("--disturbance", disturbance, model, problems)
-    dry = None if friction is None else _torques("--friction", friction, model, problems)
-    if task is None or problems:
-        raise InputError(problems)
+    wrong = Complaints()
+    angle = wrong.reading(_angle, delta) or 0.0
+    torque = wrong.reading(_torques, "--disturbance", disturbance, model) or ()
+    dry = None if friction is None else wrong.reading(_torques, "--friction", friction, model)
+    task = wrong.result(task_of, model, target, start, time)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
         result = _compare(
             gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, varied, advance
         )
     if folder is not None:
-        _write_certificates(folder, result)
+        from lyapcheck.answers.bounds.certificates import certificates as certificates_of
+
+        write_certificates(folder, *map(certificates_of, result))
     from lyapcheck.answers.bounds.answer import Comparisons
 
     show(Comparisons(tuple(result), gain_file), format)
@@ -111,35 +109,15 @@ def run(
     return Exit.PROVED if whole else Exit.UNDECIDED
 
 
-def _write_certificates(folder: Path, result: list[BoundsComparison]) -> None:
-    from lyapcheck.answers.bounds.certificates import certificates
-
-    for one in result:
-        for name, certificate in certificates(one).items():
-            write_whole(folder / name, certificate.text())
-
-
-def _task(
-    model: RobotModel, target: str | None, start: str | None, time: float, problems: list[Problem]
-) -> Task | None:
-    from lyapcheck.cli.task import task_of
-
-    try:
-        return task_of(model, target, start, time)
-    except InputError as error:
-        problems += error.problems
-        return None
-
-
-def _angle(delta: float, problems: list[Problem]) -> float:
+def _angle(delta: float) -> float:
     """The error to come below, in rad."""
     if not 0.0 < delta <= 180.0:
         rule = "must be more than 0 and at most 180 degrees"
-        problems.append(Problem("argument", None, "--delta", f"{delta:g}", rule, "write --delta 1"))
+        raise argument_error("--delta", f"{delta:g}", rule, "write --delta 1")
     return math.nextafter(math.radians(delta), 0.0)
 
 
-def _torques(option: str, text: str | None, model: RobotModel, problems: list[Problem]) -> tuple[float, ...]:
+def _torques(option: str, text: str | None, model: RobotModel) -> tuple[float, ...]:
     """Torques in N·m, one a joint and none below 0; none at all if there is no text."""
     if text is None:
         return ()
@@ -149,8 +127,7 @@ def _torques(option: str, text: str | None, model: RobotModel, problems: list[Pr
         values = ()
     if len(values) != model.n or not all(0.0 <= value <= MOST_TORQUE for value in values):
         rule = f"must be {model.n} torques from 0 to {MOST_TORQUE:g} N·m"
-        repair = f"write {option} {','.join(['0.1'] * model.n)}"
-        problems.append(Problem("argument", None, option, text, rule, repair))
+        raise argument_error(option, text, rule, f"write {option} {','.join(['0.1'] * model.n)}")
     return values
 
 

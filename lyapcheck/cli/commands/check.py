@@ -38,7 +38,6 @@ def run(
     only: list[str] | None,
     certificates: Path | None,
     timings: bool,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
@@ -55,11 +54,10 @@ def run(
     """
     from dataclasses import replace
 
-    from lyapcheck import store
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.fresh_check import ContradictionError
     from lyapcheck.cli.m_range import parse_m
-    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.cli.output import open_folder, write_certificates
     from lyapcheck.cli.progress import progress
     from lyapcheck.cli.show import show
     from lyapcheck.errors import argument_error
@@ -70,8 +68,6 @@ def run(
         )
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
-    if no_store:
-        store.switch_off()
     folder = None if certificates is None else open_folder("--certificates", certificates)
     try:
         with progress("check") as advance:
@@ -80,7 +76,6 @@ def run(
         sys.stderr.write(f"ALARM: {alarm}\n")
         return Exit.INTERNAL
     if folder is not None:
-        for name, certificate in result.certificates.items():
-            write_whole(folder / name, certificate.text())
+        write_certificates(folder, result.certificates)
     show(replace(result, timings=timings), format)
     return result.exit_code

@@ -18,7 +18,7 @@ from lyapcheck.cli.options import (
     add_vary,
     varies,
 )
-from lyapcheck.cli.output import open_folder, write_whole
+from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
@@ -90,7 +90,6 @@ def run(
     seed: int,
     certificates: Path | None,
     timings: bool,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
@@ -105,12 +104,9 @@ def run(
       lyapcheck epsilon gains.toml --robot pelican2 --spread 5
       lyapcheck epsilon gains.toml --max-speed 180 --max-error 60
     """
-    from lyapcheck import store
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
-    if no_store:
-        store.switch_off()
     gain_file = read_gain_file(file)
     ranged = varies(vary)
     model = load(robot_name(robot, [gain_file]), spread=_share(spread), vary=ranged)
@@ -126,7 +122,9 @@ def run(
     with progress("epsilon") as advance:
         results, times = _each(chosen, model, options, advance)
     if folder is not None:
-        _write_certificates(folder, results)
+        from lyapcheck.answers.epsilon.certificates import certificates as certificates_of
+
+        write_certificates(folder, *map(certificates_of, results))
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
     missing = any(
         result.certified is None or (result.nearby is not None and result.nearby.certified is None)
@@ -172,14 +170,6 @@ def _radians(option: str, text: str | None, joints: tuple[str, ...]) -> tuple[Fr
         raise argument_error(option, text, rule, f"write {option} 90")
     above = [Fraction(math.ceil(x * Fraction(PI_ABOVE) / 180 * TICKS), TICKS) for x in degrees]
     return tuple(above * (len(joints) if len(above) == 1 else 1))
-
-
-def _write_certificates(folder: Path, results: list[EpsilonResult]) -> None:
-    from lyapcheck.answers.epsilon.certificates import certificates
-
-    for result in results:
-        for name, certificate in certificates(result).items():
-            write_whole(folder / name, certificate.text())
 
 
 def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:

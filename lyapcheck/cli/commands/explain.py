@@ -27,7 +27,6 @@ def arguments(parser: Parser) -> None:
 def run(
     id: str | None,  # noqa: A002
     proof: str | None,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Say what a claim states, what came of it, where the paper makes it, what it uses and how it is decided.
@@ -39,11 +38,8 @@ def run(
       lyapcheck explain 16.6
       lyapcheck explain mine --proof my_proof.py
     """
-    from lyapcheck import store
     from lyapcheck.answers.explain import explain, list_claims
 
-    if no_store:
-        store.switch_off()
     if id is None:
         show(list_claims(proof), format)
         return Exit.PROVED

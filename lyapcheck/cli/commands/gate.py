@@ -100,10 +100,9 @@ def run(
 def _write_certificates(folder: Path, answer: GateAnswer) -> None:
     """One file for each check that was decided."""
     from lyapcheck.answers.gate.certificates import certificates
-    from lyapcheck.cli.output import write_whole
+    from lyapcheck.cli.output import write_certificates
 
     made = certificates(answer)
-    for name, certificate in made.certificates.items():
-        write_whole(folder / name, certificate.text())
+    write_certificates(folder, made.certificates)
     for sentence in made.granted:
         print(f"note: {sentence}", file=sys.stderr)

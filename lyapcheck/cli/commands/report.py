@@ -58,7 +58,6 @@ def run(
     format: str,  # noqa: A002
     appendix: bool,
     compare: Path | None,
-    no_store: bool,
 ) -> Exit:
     """Check proof, gains and closed loop for each m and write it all up in a folder.
 
@@ -84,11 +83,8 @@ def run(
     old = None if compare is None else read_report(compare)
     require_folder("--out", out)
     subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
-    from lyapcheck import store
     from lyapcheck.report.build import build
 
-    if no_store:
-        store.switch_off()
     with progress("report") as advance:
         report = build(subject, advance)
     files = render(report, formats, appendix)

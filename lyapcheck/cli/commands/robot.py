@@ -39,7 +39,6 @@ def run(
     max_boxes: int | None,
     export: Path | None,
     certificates: Path | None,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
@@ -56,8 +55,7 @@ def run(
       lyapcheck robot arm.urdf --tip hand --certificates proof/
       lyapcheck robot buap3 --export arm.toml
     """
-    from lyapcheck import store
-    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.cli.output import open_folder, write_certificates, write_whole
     from lyapcheck.robots import load, names
 
     if export is not None:
@@ -72,8 +70,6 @@ def run(
             raise argument_error("--export", export, "is there already", "name another file")
         write_whole(export, arm_text(robot, export.parent))
         return Exit.PROVED
-    if no_store:
-        store.switch_off()
     model = load(robot, tip)
     from lyapcheck.answers.robot import build
 
@@ -81,7 +77,6 @@ def run(
     with progress("robot") as advance:
         report = build(model, max_boxes, advance)
     if folder is not None:
-        for name, certificate in report.certificates.items():
-            write_whole(folder / name, certificate.text())
+        write_certificates(folder, report.certificates)
     show(replace(report, path="" if robot in names() else printable(robot)), format)
     return report.exit_code

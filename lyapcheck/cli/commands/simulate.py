@@ -12,7 +12,7 @@ from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
 from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.task import TypedTask, check_options, check_places, starts_of
+from lyapcheck.cli.task import check_options, check_places, request_of, starts_of, task_of
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
@@ -102,7 +102,6 @@ def run(
     model = load(robot_name(robot, [gain_file]))
     wrong = Complaints()
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
-    asked = TypedTask(target, start, velocity, time, watched)
     given = {
         "--experiment": experiment or None,
         "--reference": reference,
@@ -123,10 +122,10 @@ def run(
     if runs is not None:
         starts = wrong.reading(starts_of, runs, spread, seed)
     if reference is None:
-        task = wrong.reading(asked.task, model)
+        task = wrong.reading(task_of, model, target, start, time, watched.number, velocity)
     else:
         path = wrong.reading(read_reference, reference, model.n)
-        request = wrong.reading(asked.request, model, path, band)
+        request = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
     wrong.raise_all()
     name = robot_name(robot, [gain_file])
     arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()

@@ -43,7 +43,6 @@ def run(
     jobs: int | None,
     scheduler: str | None,
     resume: bool,
-    no_store: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Ask many questions: every arm, variation and gain set of a plan × gate, epsilon, bounds, simulate, …
@@ -59,7 +58,6 @@ def run(
       lyapcheck sweep plan.toml --out sweep/ --resume
       lyapcheck sweep plan.toml --out sweep/ --scheduler tcp://head:8786
     """
-    from lyapcheck import store
     from lyapcheck.answers.sweep import asked, read_plan
     from lyapcheck.answers.sweep.folder import Folder
     from lyapcheck.answers.sweep.page import files
@@ -67,8 +65,6 @@ def run(
     from lyapcheck.answers.sweep.tally import Tally
     from lyapcheck.compiled.threads import processors
 
-    if no_store:
-        store.switch_off()
     if resume and out is None:
         raise argument_error("--resume", "", "has a meaning with --out only", "add --out DIR")
     read = read_plan(plan)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_certificates, add_format, add_members
-from lyapcheck.cli.output import open_folder, write_whole
+from lyapcheck.cli.output import open_folder, write_certificates, write_whole
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
 from lyapcheck.errors import argument_error
@@ -74,8 +74,7 @@ def run(
     if proofs is not None:
         from lyapcheck.answers.table_certificates import certificates as certificates_of
 
-        for name, certificate in certificates_of(table).items():
-            write_whole(proofs / name, certificate.text())
+        write_certificates(proofs, certificates_of(table))
     show(table, format)
     return Exit.PROVED
 
