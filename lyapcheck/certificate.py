@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields, is_dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 from importlib.metadata import version
@@ -15,19 +16,21 @@ from lyapcheck.check.codec import TAGS, name_of
 
 
 @cache
-def versions() -> dict[str, str]:
+def made_with() -> dict[str, str]:
     """What the certificates of this process are made with."""
     return {name: version(name) for name in ("lyapcheck", "python-flint")}
 
 
 @dataclass(frozen=True)
 class Certificate(read.Certificate):
-    """A certificate that can be written, with its digest."""
+    """A certificate that can be written, with its digest; of the versions in use, unless others are given."""
+
+    versions: Mapping[str, str] = field(default_factory=made_with)
 
     @classmethod
     def of(cls, one: read.Certificate) -> Certificate:
         """The same as one that was read."""
-        return cls(**{field.name: getattr(one, field.name) for field in fields(one)})
+        return cls(**{each.name: getattr(one, each.name) for each in fields(one)})
 
     def content(self) -> dict[str, Any]:
         """The document without its digest."""
@@ -62,7 +65,7 @@ class Certificate(read.Certificate):
 def to_json(value: Any) -> Any:
     """Data as JSON values."""
     if is_dataclass(value) and not isinstance(value, type):
-        own = {field.name: to_json(getattr(value, field.name)) for field in fields(value)}
+        own = {each.name: to_json(getattr(value, each.name)) for each in fields(value)}
         return {**_tag(type(value)), **own}
     if isinstance(value, tuple):
         return [to_json(part) for part in value]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from lyapcheck.certificate import Certificate
@@ -34,8 +33,6 @@ def certificates(table: Table) -> dict[str, Certificate]:
                 continue
             accepted = verify(statement, proof)
             about = About(f"m{row.m}.{name}", f"{name} of m = {row.m} is at most {upper}", row.m, 1, PROOF)
-            used = {package: version(package) for package in ("lyapcheck", "python-flint")}
-            made[f"m{row.m}.{name}.json"] = Certificate(
-                about, statement, accepted.verdict, accepted.grade, proof, {}, used
-            )
+            certificate = Certificate(about, statement, accepted.verdict, accepted.grade, proof)
+            made[f"m{row.m}.{name}.json"] = certificate
     return made

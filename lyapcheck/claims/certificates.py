@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.proposal import Proposal
@@ -18,7 +18,6 @@ def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Cer
     A certificate of a claim that uses others names the digests of theirs.
     """
     result: dict[Key, Certificate] = {}
-    made_with = versions()
     for key, row in proposals.items():
         if row.finding.proof is not None and not isinstance(row.stated, Missing):
             result[key] = Certificate(
@@ -28,7 +27,6 @@ def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Cer
                 row.finding.grade.label,
                 row.finding.proof,
                 {used: result[used, m].digest for used, m in row.used} if row.finding.is_proof else {},
-                made_with,
             )
     return result
 

@@ -14,7 +14,7 @@ from itertools import product
 from math import sqrt
 from typing import Any
 
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.witness import Comparison
@@ -163,7 +163,7 @@ def _smallest(statement: Statement, hand: Hand, about: About) -> RefutedBelow | 
                 proof: Proof = witness_of(failure)
                 for part in reversed(wrap):
                     proof = OnePart(part, proof)
-                certificate = Certificate(about, statement, "refuted", "enclosure", proof, {}, versions())
+                certificate = Certificate(about, statement, "refuted", "enclosure", proof)
                 return RefutedBelow(
                     id=about.id,
                     m=about.m,

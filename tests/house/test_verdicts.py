@@ -30,7 +30,7 @@ SAID = {
     "answers.bounds.certificates": (1, CERTIFICATE),
     "answers.check.proof": (3, SORTING),
     "answers.epsilon.annotations": (4, "the name of a rule"),
-    "answers.epsilon.certificates": (6, CERTIFICATE),
+    "answers.epsilon.certificates": (5, CERTIFICATE),
     "answers.epsilon.words": (1, HEADING),
     "answers.gate.answer": (5, GATHERED),
     "answers.gate.judge": (2, GATHERED),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from lyapcheck.certificate import Certificate
@@ -44,5 +43,4 @@ def _certificate(
 ) -> Certificate:
     bound, n = result.settling, len(result.task.q_d)
     about = About(f"{bound.name}.{kind}", f"{says}: {bound.name} on {bound.robot}", bound.m, n, PROOF)
-    used = {name: version(name) for name in ("lyapcheck", "python-flint")}
-    return Certificate(about, statement, "proved", "enclosure", proof, {}, used)
+    return Certificate(about, statement, "proved", "enclosure", proof)

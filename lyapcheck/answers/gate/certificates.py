@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.words import RULES, joint_name
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
@@ -99,9 +99,7 @@ def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) 
     says = f"{result.name}, {joint_name(result, check)}: {RULES[check.id]}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
     uses = {one.claim.id: one.digest for one in used} if outcome.shown == "proved" else {}
-    return Certificate(
-        about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses, versions()
-    )
+    return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses)
 
 
 def _of_friction(result: GateResult) -> Iterator[Certificate]:
@@ -114,7 +112,7 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
     for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest)])]:
         if one.proof is not None:
             about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
-            yield Certificate(about, one.statement, one.shown, one.grade, one.proof, {}, versions())
+            yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
 
 
 @lru_cache(maxsize=16)
@@ -132,7 +130,7 @@ def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | No
             continue
         says = f"{model.name}: |g_{i + 1}(q)| ≤ k_g{i + 1} = {decimal_text(bound)} N·m"
         about = About(f"{model.name}.k_g{i + 1}", says, None, model.n, PROOF)
-        result.append(Certificate(about, statement, its.shown, its.grade, its.proof, {}, versions()))
+        result.append(Certificate(about, statement, its.shown, its.grade, its.proof))
     return tuple(result)
 
 

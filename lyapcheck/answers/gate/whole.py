@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.certificates import PROOF, gravity_bounds_of
 from lyapcheck.answers.gate.words import joint_name
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.statement import Proof
@@ -36,12 +36,12 @@ def whole(result: GateResult) -> tuple[Certificate, ...]:
         first = next(k for k, (check, _) in enumerate(known) if check.verdict == REJECTED)
         outcome = known[first][1]
         proof = OnePart(first, _proof(outcome))
-        return (Certificate(about, parts, "refuted", outcome.grade, proof, {}, versions()),)
+        return (Certificate(about, parts, "refuted", outcome.grade, proof),)
     used = gravity_bounds_of(result) if {"10", "10p", "10i"} & set(result.deciding) else ()
     every = EveryPart(tuple(_proof(outcome) for _, outcome in known))
     grade = weakest(outcome.grade for _, outcome in known)
     uses = {one.claim.id: one.digest for one in used}
-    return (Certificate(about, parts, "proved", grade, every, uses, versions()), *used)
+    return (Certificate(about, parts, "proved", grade, every, uses), *used)
 
 
 def _proof(result: JudgedStatement) -> Proof:

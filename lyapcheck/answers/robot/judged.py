@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import Decision, decided
@@ -44,8 +44,6 @@ def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[Dec
             row.finding.verdict.value,
             row.finding.grade.label,
             row.finding.proof,
-            {},
-            versions(),
         )
         for row in rows
         if row.finding.proof is not None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.certificate import Certificate, versions
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.refusal import Refused
@@ -44,4 +44,4 @@ def breach_certificate(run: Run, gains: GainSet, model: RobotModel) -> Certifica
         return None
     says = f"not dV/dt < 0 at every state: {gains.name} on {model.name}, at a state of a run"
     about = About(f"{gains.name}.breach", says, gains.m, controlled.n, "simulate")
-    return Certificate(about, statement, accepted.verdict, accepted.grade, against, {}, versions())
+    return Certificate(about, statement, accepted.verdict, accepted.grade, against)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from itertools import groupby
 
+from lyapcheck.answers.sweep.arms import arm
 from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.errors import InputError
 from lyapcheck.extensions import modules
@@ -49,24 +50,31 @@ def ask(batch: Sequence[Question], jobs: int = 1) -> list[Answered]:
         batch, key=lambda one: (one.ask, one.robot, one.variation, one.options)
     ):
         asked = list(group)
-        module = import_module(f"{PACKAGE}.{name}")
         try:
-            result += module.ask(asked, jobs)
+            result += _asked(name, asked, jobs)
         except Exception:
-            result += [_alone(module, one, jobs) for one in asked]
+            result += [_alone(name, one, jobs) for one in asked]
     return result
 
 
-def _alone(module: object, question: Question, jobs: int) -> Answered:
+def _asked(name: str, questions: Sequence[Question], jobs: int) -> list[Answered]:
+    """Questions that differ in their gains alone."""
+    module, first = import_module(f"{PACKAGE}.{name}"), questions[0]
+    known = arm(first.robot, first.variation)
+    options = {**module.OPTIONS, **dict(first.options), "jobs": jobs}
+    if name == LIGHT:
+        return list(module.ask(questions, known, options))
+    return [module.ask(one, known, options) for one in questions]
+
+
+def _alone(name: str, question: Question, jobs: int) -> Answered:
     """One question for itself, whatever it raises: the others must not be lost with it."""
     try:
-        (one,) = module.ask([question], jobs)  # type: ignore[attr-defined]
+        return _asked(name, [question], jobs)[0]
     except InputError as error:
         return failed(question, "; ".join(map(str, error.problems)))
     except Exception as error:
         return failed(question, f"{type(error).__name__}: {error}")
-    result: Answered = one
-    return result
 
 
 def failed(question: Question, reason: str) -> Answered:

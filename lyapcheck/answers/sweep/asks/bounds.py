@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any
 
 from lyapcheck.answers.bounds.certificates import certificates
 from lyapcheck.answers.bounds.compare import compare
 from lyapcheck.answers.bounds.data import above, comparison_data
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.arms import UncertainArm, arm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.answers.sweep.tasks import task_of
 from lyapcheck.verdicts import Exit
@@ -16,19 +17,14 @@ from lyapcheck.verdicts import Exit
 OPTIONS = {"delta": 1.0, "time": 5.0, "max_boxes": 20_000, "target": (), "start": ()}
 
 
-def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """The certified settling time of each gain set, and what its arm's dry friction leaves."""
-    return [_asked(one, jobs) for one in questions]
-
-
-def _asked(question: Question, jobs: int) -> Answered:
-    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
     varied = (known.model, known.ranges) if known.ranges else None
     model = arm(question.robot).model
     assert question.gains is not None
     task = task_of(model, options)
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
-    budget = {"max_boxes": options["max_boxes"], "jobs": jobs}
+    budget = {"max_boxes": options["max_boxes"], "jobs": options["jobs"]}
     result = compare(question.gains, model, task, delta, varied=varied, **budget)
     return answered(
         question,

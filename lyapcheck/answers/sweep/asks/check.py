@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any
 
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.control.gains import GainFile
 from lyapcheck.verdicts import Exit
@@ -14,18 +15,9 @@ OPTIONS = {"proof": "published.py", "only": ()}
 MEMBER = "a proof script is about members of the hyperbolic family; give m"
 
 
-def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """Every claim of a script for each gain set, or those named: the worst verdict counts."""
-    del jobs
-    return [_asked(one) for one in questions]
-
-
-def _asked(question: Question) -> Answered:
-    known, options, gains = (
-        arm(question.robot, question.variation),
-        {**OPTIONS, **dict(question.options)},
-        question.gains,
-    )
+    gains = question.gains
     assert gains is not None
     if gains.m is None:
         return answered(question, "undecided", None, reason=MEMBER)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
 from lyapcheck.answers.gate.whole import whole
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
@@ -18,16 +19,13 @@ OPTIONS = {"condition": DECIDING, "gamma": "true"}
 DIGITS = 6
 
 
-def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str, Any]) -> list[Answered]:
     """Whether each gain set is accepted, with the least margin as a share of its limit."""
-    del jobs
-    first, options = questions[0], {**OPTIONS, **dict(questions[0].options)}
-    known = arm(first.robot, first.variation)
+    robot, ranges = questions[0].robot, known.ranges
     if not known.limits:
-        ranges = known.ranges
-        known.limits[first.robot] = varied_limits(first.robot, ranges) if ranges else arm_limits(first.robot)
+        known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
-    file = GainFile("plan", first.robot, sets)
+    file = GainFile("plan", robot, sets)
     results = judged_sets(file, None, options["condition"], options["gamma"], arms=known.limits, explained=0)
     return [
         _answered(question, result, data)

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any
 
 from lyapcheck.answers.robot import build
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 
 OPTIONS = {"max_boxes": 20_000}
 
 
-def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """Properties 2.1–2.8 and the constants of each arm at its nominal numbers: the worst verdict counts."""
-    del jobs
-    return [_asked(one) for one in questions]
-
-
-def _asked(question: Question) -> Answered:
-    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
     report = build(known.model, options["max_boxes"])
     verdict = VERDICTS[report.exit_code]
     open_ones = [

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.simulation import Unfinished
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.answers.sweep.tasks import task_of
 from lyapcheck.robots.vary import corners
@@ -23,14 +24,8 @@ OBSERVED = "observed"
 """What a run that breaks no promise is called: it proves nothing."""
 
 
-def ask(questions: Sequence[Question], jobs: int) -> list[Answered]:
+def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """One run of each gain set, and one at every corner of what varies; the slowest of them counts."""
-    del jobs
-    return [_asked(one) for one in questions]
-
-
-def _asked(question: Question) -> Answered:
-    known, options = arm(question.robot, question.variation), {**OPTIONS, **dict(question.options)}
     gains, task = question.gains, task_of(known.model, options)
     assert gains is not None
     way = (task.q_d, task.q0, task.w0, task.T)
