@@ -25,7 +25,7 @@ def require_writable(option: str, path: Path) -> None:
         raise argument_error(option, path, "is a directory", "name a file")
     if _is_device(path):
         return
-    parent = path.resolve().parent
+    parent = (path.resolve() if path.is_symlink() else path).parent
     if not parent.is_dir():
         raise argument_error(
             option, path, f"there is no directory {parent}", "create it or name another file"
