@@ -60,11 +60,15 @@ def file_error(name: str, rule: str, repair: str) -> InputError:
 
 
 def near(word: str, names: Iterable[str]) -> str:
-    """The name that a word is a slip of the pen for, in letters of any case; empty where there is none."""
+    """The name that a word is a slip of the pen for, if need be in other letters; empty where none is."""
     from difflib import get_close_matches
 
-    folded = {name.casefold(): name for name in names}
-    return next((folded[one] for one in get_close_matches(word.casefold(), folded, 1, 0.7)), "")
+    known = list(names)
+    for fold in (str, str.casefold):
+        folded = {fold(name): name for name in known}
+        if close := get_close_matches(fold(word), folded, 1, 0.7):
+            return folded[close[0]]
+    return ""
 
 
 def nearest(word: str, names: Iterable[str], otherwise: str = "") -> str:

@@ -51,6 +51,8 @@ class Expr:
         return expr(other) / self
 
     def __pow__(self, exponent: int) -> Expr:
+        if not isinstance(exponent, int):
+            raise TypeError(f"the exponent {exponent!r} is no whole number; write sqrt(x), or exp(p*log(x))")
         if exponent < 0:
             return Expr(("div", ("num", "1"), ("pow", self.tree, -exponent)))
         return Expr(("pow", self.tree, exponent))
@@ -60,6 +62,14 @@ class Expr:
 
     def __abs__(self) -> Expr:
         return Expr(("abs", self.tree))
+
+    def __float__(self) -> float:
+        raise TypeError(
+            "math and numpy take numbers, not letters; write tanh(x) with tanh of lyapcheck.claims"
+        )
+
+    def __array_ufunc__(self, *_: object, **__: object) -> float:
+        return float(self)
 
     def at(self, **values: object) -> Expr:
         """The same expression with other expressions or numbers for some variables."""
@@ -82,6 +92,8 @@ def expr(value: object) -> Expr:
     """An expression from an expression or an exact number (int, Fraction, Decimal or decimal text)."""
     if isinstance(value, Expr):
         return value
+    if isinstance(value, Multiplied):
+        raise TypeError("a vector or matrix stands where a number must; write K @ x, x @ A @ y, or norm(x)")
     if isinstance(value, bool) or not isinstance(value, (int, str, Fraction, Decimal)):
         raise TypeError(f"{value!r} is not exact; write it as text ('1.05'), an int or a Fraction")
     return Expr(("num", str(Fraction(value))))

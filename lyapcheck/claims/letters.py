@@ -23,7 +23,7 @@ class AnyVector(Multiplied):
     tree: Tree
 
     def __add__(self, other: AnyVector) -> AnyVector:
-        return AnyVector(("sum", self.tree, other.tree))
+        return AnyVector(("sum", self.tree, _summand(other)))
 
     def __sub__(self, other: AnyVector) -> AnyVector:
         return self + -other
@@ -53,7 +53,7 @@ class AnyMatrix(Multiplied):
     tree: Tree
 
     def __add__(self, other: AnyMatrix) -> AnyMatrix:
-        return AnyMatrix(("sum", self.tree, other.tree))
+        return AnyMatrix(("sum", self.tree, _summand(other)))
 
     def __sub__(self, other: AnyMatrix) -> AnyMatrix:
         return self + -1 * other
@@ -83,6 +83,14 @@ class Row:
         for matrix in reversed(self.matrices):
             other = matrix @ other
         return _dot(self.left.tree, other.tree)
+
+
+def _summand(other: object) -> Tree:
+    if not isinstance(other, AnyVector | AnyMatrix):
+        raise TypeError(
+            "a number stands beside a vector or matrix in a sum; write norm(x), or x @ y, for numbers"
+        )
+    return other.tree
 
 
 def _dot(left: Tree, right: Tree) -> Expr:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import runpy
+import sys
 import traceback
 from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
@@ -13,13 +15,14 @@ from typing import Any
 
 from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import InputError, Problem, nearest
 
 SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
 """The proof scripts that come with lyapcheck."""
 
 MOST_NEAR = 8
 """How many ids are suggested for one that is only the beginning of them."""
+_IMPORTED = re.compile(r" \(/[^()]*\)$")
 
 
 def find_script(name: str) -> Path:
@@ -107,9 +110,25 @@ def _raised(name: str, path: Path, error: BaseException) -> Problem:
         line_of(error, path),
         "script",
         "",
-        f"raises {type(error).__name__}: {error}",
-        "correct the script",
+        raised(error),
+        repair_of(error, "correct the script"),
     )
+
+
+def raised(error: BaseException) -> str:
+    """What a script raises, in words; without the path of a module on this machine."""
+    return f"raises {type(error).__name__}: {_IMPORTED.sub('', str(error))}"
+
+
+def repair_of(error: BaseException, otherwise: str) -> str:
+    """What may mend a script: the nearest name that there is, where one was misspelt."""
+    if isinstance(error, AttributeError) and error.name is not None:
+        known = [name for name in dir(error.obj) if not name.startswith("_")]
+        return nearest(error.name, known, f"it has {', '.join(known)}" if known else otherwise)
+    if isinstance(error, ImportError) and error.name in sys.modules:
+        wanted = str(error).split("'")[1:2]
+        return nearest("".join(wanted), dir(sys.modules[error.name]), otherwise)
+    return otherwise
 
 
 def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:

@@ -31,7 +31,7 @@ from lyapcheck.claims.handover import (
     write,
 )
 from lyapcheck.claims.order import in_order, needed
-from lyapcheck.claims.script import check_ids, line_of, load_proof
+from lyapcheck.claims.script import check_ids, line_of, load_proof, raised, repair_of
 from lyapcheck.errors import InputError, Problem
 
 Lines = dict[Statement, tuple[int, str]]
@@ -136,8 +136,8 @@ def _statement(claim: Claim, case: Case, request: ScriptRequest) -> Statement:
         raise
     except BaseException as error:  # a script must not choose the exit code
         rule, repair = (
-            f"its statement raises {type(error).__name__}: {error}",
-            "correct the function of this claim",
+            f"its statement {raised(error)}",
+            repair_of(error, "correct the function of this claim"),
         )
         line = line_of(error, Path(request.path))
         raise InputError(Problem(request.shown, line, claim.id, "", rule, repair)) from error

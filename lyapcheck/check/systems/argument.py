@@ -203,7 +203,8 @@ class Argument:
                 system.require_letters(self.rest.against, system.known, "the vector at rest")
         else:
             require(self.rest is None, "rest", "", "is for LaSalle's theorem alone")
-            require(seen == every, "rate", ", ".join(sorted(every - seen)), "must be seen")
+            rule = "must be seen: but for LaSalle's, a theorem asks for a rate in every state"
+            require(seen == every, "rate", ", ".join(sorted(every - seen)), rule)
         if self.gain is not None:
             linear = not self.gain.sizes and all(name[5:] in every for name in self.gain.names)
             require(linear, "gain", ", ".join(self.gain.sizes), "must be linear in the norms of states")

@@ -12,6 +12,8 @@ from lyapcheck.claims.registry import find, procedure
 from lyapcheck.claims.search_result import SearchResult, shown, still_open
 
 METHOD = "obligations of a theorem"
+SHORT = 60
+"""Characters up to which an obligation that fails is written out."""
 
 
 @procedure(Stable, StableArm, Property)
@@ -26,7 +28,9 @@ def find_stable(statement: Stable | StableArm | Property) -> SearchResult:
         one = find(obligation)
         rows.append({"part": name, "verdict": one.verdict.value, "method": one.method})
         if not one.is_proof or one.proof is None:
-            why = one.reason or f"it is {one.verdict.value}, {one.method}"
+            text = obligation.text()
+            what = text if len(text) <= SHORT else "it"
+            why = one.reason or f"{what} is {one.verdict.value}, {one.method}"
             return still_open(f"{name}: {why}", METHOD, parts=rows)
         proofs.append(one.proof)
     met = None if point is None else witness_of(point)
