@@ -14,7 +14,8 @@ from lyapcheck.compiled.plain_arrays import PlainArrays
 from lyapcheck.compiled.straight_line import StraightLine
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.elementary import ElementaryFamily, NumericForms
+from lyapcheck.family.base import NumericForms
+from lyapcheck.family.elementary import ElementaryFamily
 
 LARGEST_MEMBER = 64
 """Powers up to 2m magnify a relative error 2m times; from here on the arrays' doubled precision is needed."""

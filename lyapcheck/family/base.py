@@ -30,8 +30,8 @@ class SymbolicForms:
 
 
 @dataclass(frozen=True)
-class CasadiForms:
-    """h, h', U and h(x)/x as CasADi SX expressions."""
+class NumericForms:
+    """h, h', U and h(x)/x in one arithmetic."""
 
     h: Any
     dh: Any
@@ -71,35 +71,39 @@ class Family(ABC):
     def gamma(self) -> Tree | None:
         """γ = sup h as a term that the checker knows; ``None`` where h is unbounded."""
 
-    @abstractmethod
     def h(self, x: ArrayLike) -> Doubles:
         """h(x)."""
+        return self.values(x, "h")
 
-    @abstractmethod
     def dh(self, x: ArrayLike) -> Doubles:
         """h'(x)."""
+        return self.values(x, "dh")
 
-    @abstractmethod
     def potential(self, x: ArrayLike) -> Doubles:
         """U(x), the integral of h from 0 to x."""
+        return self.values(x, "potential")
 
-    @abstractmethod
     def secant(self, x: ArrayLike) -> Doubles:
         """h(x)/x, continued by h'(0) at x = 0."""
+        return self.values(x, "secant")
+
+    @abstractmethod
+    def values(self, x: ArrayLike, form: str) -> Doubles:
+        """One of ``NumericForms`` at each element; NaN stays NaN."""
 
     @abstractmethod
     def sympy(self, x: Any) -> SymbolicForms:
         """h, h' and U at a SymPy expression."""
 
     @abstractmethod
-    def casadi(self, x: Any) -> CasadiForms:
+    def casadi(self, x: Any) -> NumericForms:
         """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms.
 
         Put the result into a ``casadi.Function`` and evaluate that on numbers. Called on symbols, such a
         function is copied and simplified by CasADi: its values stay right, but in plain double precision.
         """
 
-    def casadi_smooth(self, x: Any) -> CasadiForms:
+    def casadi_smooth(self, x: Any) -> NumericForms:
         """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""
         return self.casadi(x)
 

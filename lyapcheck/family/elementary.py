@@ -7,22 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.family.arithmetic import Arithmetic, arrays, graphs
-from lyapcheck.family.base import CasadiForms, Family
+from lyapcheck.family.base import Family, NumericForms
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lyapcheck.family.base import Doubles
-
-
-@dataclass(frozen=True)
-class NumericForms:
-    """h, h', U and h(x)/x in one arithmetic."""
-
-    h: Any
-    dh: Any
-    potential: Any
-    secant: Any
 
 
 @dataclass(frozen=True)
@@ -33,28 +23,12 @@ class ElementaryFamily(Family):
     def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
         """The forms at x, accurate to a few units in the last place."""
 
-    def h(self, x: ArrayLike) -> Doubles:
-        """h(x)."""
-        return self._array(x, "h")
-
-    def dh(self, x: ArrayLike) -> Doubles:
-        """h'(x)."""
-        return self._array(x, "dh")
-
-    def potential(self, x: ArrayLike) -> Doubles:
-        """U(x)."""
-        return self._array(x, "potential")
-
-    def secant(self, x: ArrayLike) -> Doubles:
-        """h(x)/x."""
-        return self._array(x, "secant")
-
-    def casadi(self, x: Any) -> CasadiForms:
+    def casadi(self, x: Any) -> NumericForms:
         """The same expressions as CasADi SX."""
-        forms = self.numeric(graphs(), x)
-        return CasadiForms(forms.h, forms.dh, forms.potential, forms.secant)
+        return self.numeric(graphs(), x)
 
-    def _array(self, x: ArrayLike, form: str) -> Doubles:
+    def values(self, x: ArrayLike, form: str) -> Doubles:
+        """The same expressions for an array."""
         import numpy as np
 
         x = np.asarray(x, dtype=float)

@@ -8,7 +8,7 @@ from math import copysign, isnan
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.family.arithmetic import FLOATS, arrays, graphs
-from lyapcheck.family.base import CasadiForms
+from lyapcheck.family.base import NumericForms
 from lyapcheck.family.double_double import Pair, exact_graph
 from lyapcheck.family.hyperbolic_numeric import BORDER, Far, Near
 
@@ -66,14 +66,14 @@ def _on_block(m: int, a: Doubles, form: Form) -> Doubles:
     return result
 
 
-def as_graph(m: int, x: Any) -> CasadiForms:
+def as_graph(m: int, x: Any) -> NumericForms:
     """The four forms, elementwise, at a CasADi SX expression of any shape."""
     import casadi as ca
 
     with exact_graph():
         elements = [_scalar_graph(m)(element) for element in ca.vertsplit(ca.vec(x))]
         columns = zip(*elements, strict=True)
-        return CasadiForms(*(ca.reshape(ca.vertcat(*column), *x.shape) for column in columns))
+        return NumericForms(*(ca.reshape(ca.vertcat(*column), *x.shape) for column in columns))
 
 
 @lru_cache(maxsize=64)

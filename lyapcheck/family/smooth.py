@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from lyapcheck.family.base import CasadiForms
+from lyapcheck.family.base import NumericForms
 
 _SLACK = 1 + 1e-9
 """Clamps act just beyond the border between the branches, so that none is differentiated there."""
 
 
-def smooth_forms(m: int, x: Any) -> CasadiForms:
+def smooth_forms(m: int, x: Any) -> NumericForms:
     """h_m, h_m', U_m, h_m(x)/x at a CasADi SX expression, stable for every finite double.
 
     For |x| <= 1 from s = sinh x, beyond from r = 1/sinh|x|, which e^(-|x|) gives without overflow.
@@ -25,7 +25,7 @@ def smooth_forms(m: int, x: Any) -> CasadiForms:
     near = _near(ca, m, ca.fmin(ca.fmax(x, -_SLACK), _SLACK))
     far = _far(ca, m, x, ca.fmax(ca.fabs(x), 1 / _SLACK))
     inside = ca.fabs(x) <= 1
-    return CasadiForms(*(ca.if_else(inside, a, b) for a, b in zip(near, far, strict=True)))
+    return NumericForms(*(ca.if_else(inside, a, b) for a, b in zip(near, far, strict=True)))
 
 
 def _near(ca: Any, m: int, x: Any) -> tuple[Any, Any, Any, Any]:

@@ -8,8 +8,8 @@ from typing import Any
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import FamilyConstants, SymbolicForms
-from lyapcheck.family.elementary import ElementaryFamily, NumericForms
+from lyapcheck.family.base import FamilyConstants, NumericForms, SymbolicForms
+from lyapcheck.family.elementary import ElementaryFamily
 from lyapcheck.family.registry import require_none
 
 

@@ -10,8 +10,8 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.functions.arctan import half_pi
 from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import FamilyConstants, SymbolicForms
-from lyapcheck.family.elementary import ElementaryFamily, NumericForms
+from lyapcheck.family.base import FamilyConstants, NumericForms, SymbolicForms
+from lyapcheck.family.elementary import ElementaryFamily
 from lyapcheck.family.registry import require_none
 
 _SERIES_TERMS = 13

@@ -6,6 +6,7 @@ References: ``reyes2019family`` (6), (7), (8), (12).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
@@ -13,12 +14,10 @@ from flint import arb
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
-from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
+from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_member
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import ArrayLike
 
     from lyapcheck.family.base import Doubles
@@ -38,26 +37,11 @@ class Hyperbolic(Family):
         assert self.m is not None
         return self.m
 
-    def _on_array(self, x: ArrayLike, value: Callable[[Any], Any], odd: bool) -> Doubles:
+    def values(self, x: ArrayLike, form: str) -> Doubles:
+        """One of the forms, within 4 units in the last place."""
         from lyapcheck.family.hyperbolic_drivers import on_array
 
-        return on_array(self._member, x, value, odd=odd)
-
-    def h(self, x: ArrayLike) -> Doubles:
-        """h_m(x)."""
-        return self._on_array(x, lambda of: of.h(), odd=True)
-
-    def dh(self, x: ArrayLike) -> Doubles:
-        """h_m'(x)."""
-        return self._on_array(x, lambda of: of.dh(), odd=False)
-
-    def potential(self, x: ArrayLike) -> Doubles:
-        """U_m(x)."""
-        return self._on_array(x, lambda of: of.potential(), odd=False)
-
-    def secant(self, x: ArrayLike) -> Doubles:
-        """h_m(x)/x."""
-        return self._on_array(x, lambda of: of.secant(), odd=False)
+        return on_array(self._member, x, methodcaller(form), odd=form == "h")
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
@@ -65,13 +49,13 @@ class Hyperbolic(Family):
 
         return hyperbolic_symbolic(x, self._member)
 
-    def casadi(self, x: Any) -> CasadiForms:
+    def casadi(self, x: Any) -> NumericForms:
         """The forms as CasADi SX, as accurate as the NumPy ones; large graphs, see ``casadi_smooth``."""
         from lyapcheck.family.hyperbolic_drivers import as_graph
 
         return as_graph(self._member, x)
 
-    def casadi_smooth(self, x: Any) -> CasadiForms:
+    def casadi_smooth(self, x: Any) -> NumericForms:
         """Short plain-double expressions for optimisers."""
         from lyapcheck.family.smooth import smooth_forms
 

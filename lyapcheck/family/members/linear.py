@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.family.base import CasadiForms, Family, FamilyConstants, SymbolicForms
+from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
 
 if TYPE_CHECKING:
@@ -26,25 +26,14 @@ class Linear(Family):
         """None: h is unbounded."""
         return None
 
-    def h(self, x: ArrayLike) -> Doubles:
-        """x itself."""
-        return _array(x).copy()
-
-    def dh(self, x: ArrayLike) -> Doubles:
-        """1."""
-        return _one(x)
-
-    def potential(self, x: ArrayLike) -> Doubles:
-        """x²/2, infinite where that is beyond the largest double."""
+    def values(self, x: ArrayLike, form: str) -> Doubles:
+        """x, x²/2, infinite where that is beyond the largest double, and 1."""
         import numpy as np
 
-        x = _array(x)
+        x = np.asarray(x, dtype=float)
         with np.errstate(over="ignore", under="ignore"):
-            return 0.5 * x * x
-
-    def secant(self, x: ArrayLike) -> Doubles:
-        """1."""
-        return _one(x)
+            known = {"h": x, "potential": 0.5 * x * x}
+        return np.where(np.isnan(x), x, known.get(form, 1.0))
 
     def sympy(self, x: Any) -> SymbolicForms:
         """x, 1, x²/2."""
@@ -52,12 +41,12 @@ class Linear(Family):
 
         return SymbolicForms(x, sp.Integer(1), x**2 / 2)
 
-    def casadi(self, x: Any) -> CasadiForms:
+    def casadi(self, x: Any) -> NumericForms:
         """x, 1, x²/2, 1."""
         import casadi as ca
 
         one = ca.SX.ones(*x.shape)
-        return CasadiForms(x, one, 0.5 * x * x, one)
+        return NumericForms(x, one, 0.5 * x * x, one)
 
     def ball_h(self, x: arb) -> arb:
         """x itself."""
@@ -85,16 +74,3 @@ def create(m: int | None) -> Linear:
     """The one member."""
     require_none("linear", m)
     return Linear("linear", bounded=False)
-
-
-def _array(x: ArrayLike) -> Doubles:
-    import numpy as np
-
-    return np.asarray(x, dtype=float)
-
-
-def _one(x: ArrayLike) -> Doubles:
-    import numpy as np
-
-    x = _array(x)
-    return np.where(np.isnan(x), x, 1.0)
