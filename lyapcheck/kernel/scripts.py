@@ -139,12 +139,7 @@ def _disagrees(statement: Agrees, proof: OutsideRounding) -> str:
 
 
 @proved.register
-def _(statement: EveryN, proof: Proof) -> str:
-    return every_n_script(statement, proof)
-
-
-@proved.register
-def _(statement: BoundEveryN, proof: Proof) -> str:
+def _(statement: EveryN | BoundEveryN, proof: Proof) -> str:
     return every_n_script(statement, proof)
 
 

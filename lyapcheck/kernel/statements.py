@@ -62,6 +62,16 @@ PROPERTIES = {
     (DECRESCENT, True): "V_bounded_above",
 }
 """The properties of the loop and of V that the page of definitions has, and whether the goal moves."""
+OF_ARM: dict[type, str] = {
+    MassAbove: "M_above",
+    MassBelow: "M_below",
+    CoriolisBelow: "C_below",
+    MassSymmetric: "M_symmetric",
+    CoriolisAtRest: "C_at_rest",
+    RateOfMass: "M_rate_by_C",
+    RateLessTwiceCoriolis: "M_rate_less_2C",
+}
+"""What the page of definitions calls the properties of one arm."""
 
 
 def shown(statement: Statement, proof: Proof, verdict: str) -> str:
@@ -151,13 +161,7 @@ def _(statement: Agrees) -> str:
 
 
 @proposition.register
-def _(statement: EveryN) -> str:
-    """Also for n = 0, which says more."""
-    return every_n(statement)
-
-
-@proposition.register
-def _(statement: BoundEveryN) -> str:
+def _(statement: EveryN | BoundEveryN) -> str:
     """Also for n = 0, which says more."""
     return every_n(statement)
 
@@ -209,51 +213,18 @@ def _(statement: DampingBelow) -> str:
 
 
 @proposition.register
-def _(statement: MassAbove) -> str:
-    return f"M_above {_numbers(statement)} {exact(statement.low)}"
-
-
-@proposition.register
-def _(statement: MassBelow) -> str:
-    return f"M_below {_numbers(statement)} {exact(statement.high)}"
-
-
-@proposition.register
-def _(statement: CoriolisBelow) -> str:
-    return f"C_below {_numbers(statement)} {exact(statement.high)}"
-
-
-@proposition.register
-def _(statement: MassSymmetric) -> str:
-    return f"M_symmetric {any_arm(statement.mass, statement.parameters)}"
-
-
-@proposition.register
-def _(statement: CoriolisAtRest) -> str:
-    return f"C_at_rest {_by_symbols(statement)}"
-
-
-@proposition.register
-def _(statement: RateOfMass) -> str:
-    return f"M_rate_by_C {_by_symbols(statement)}"
-
-
-@proposition.register
-def _(statement: RateLessTwiceCoriolis) -> str:
-    return f"M_rate_less_2C {_by_symbols(statement)}"
-
-
-def _numbers(statement: MassAbove | MassBelow | CoriolisBelow) -> str:
-    """The arm of a statement, whose entries have numbers alone."""
+def _(statement: MassAbove | MassBelow | CoriolisBelow) -> str:
     if statement.parameters:
         raise NotPrinted("a bound for an arm with uncertain numbers")
-    return arm(statement.mass, ())
+    end = statement.low if isinstance(statement, MassAbove) else statement.high
+    return f"{OF_ARM[type(statement)]} {arm(statement.mass, ())} {exact(end)}"
 
 
-def _by_symbols(statement: CoriolisAtRest | RateOfMass | RateLessTwiceCoriolis) -> str:
-    if statement.printed:
+@proposition.register
+def _(statement: MassSymmetric | CoriolisAtRest | RateOfMass | RateLessTwiceCoriolis) -> str:
+    if not isinstance(statement, MassSymmetric) and statement.printed:
         raise NotPrinted("a printed Coriolis matrix")
-    return any_arm(statement.mass, statement.parameters)
+    return f"{OF_ARM[type(statement)]} {any_arm(statement.mass, statement.parameters)}"
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:

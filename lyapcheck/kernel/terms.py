@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.statement import Ends, Monomials, Relation, Variable
 
 
@@ -18,23 +18,10 @@ class NotPrinted(Exception):
     """What has no form in Coq; the text says what it is."""
 
 
-FUNCTIONS = {
-    "neg": "-",
-    "abs": "Rabs",
-    "sqrt": "sqrt",
-    "exp": "exp",
-    "log": "ln",
-    "sin": "sin",
-    "cos": "cos",
-    "tan": "tan",
-    "asin": "asin",
-    "acos": "acos",
-    "atan": "atan",
-    "sinh": "sinh",
-    "cosh": "cosh",
-    "tanh": "tanh",
-}
-FAMILY = {"h": "h", "dh": "dh", "potential": "U"}
+FUNCTIONS = {"neg": "-", "abs": "Rabs", "log": "ln"}
+FUNCTIONS |= {name: name for name in ("sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "atan")}
+FUNCTIONS |= {name: name for name in ("sinh", "cosh", "tanh")}
+FAMILY = {"h": "h", "dh": "dh", "potential": "U"} | {name: name for name in CONSTANTS}
 INFIX = {"add": " + ", "mul": " * ", "div": " / "}
 SIGNS = {"<=": "<=", "<": "<"}
 
@@ -54,9 +41,6 @@ LEAVES: dict[str, Callable[[list[Any]], str]] = {
     "num": lambda parts: rational(Fraction(parts[0])),
     "var": lambda parts: identifier(parts[0]),
     "pi": lambda parts: "PI",
-    "gamma": lambda parts: f"(gamma {int(parts[0])})",
-    "rho": lambda parts: f"(rho {int(parts[0])})",
-    "L": lambda parts: f"(L {int(parts[0])})",
 }
 
 
@@ -76,7 +60,7 @@ def expression(tree: Tree) -> str:
     if kind in FUNCTIONS:
         return f"({FUNCTIONS[kind]} {expression(parts[0])})"
     if kind in FAMILY:
-        return f"({FAMILY[kind]} {int(parts[0])} {expression(parts[1])})"
+        return f"({' '.join([FAMILY[kind], str(int(parts[0])), *map(expression, parts[1:])])})"
     if kind == "dot":
         return f"(dot n {vector(parts[0])} {vector(parts[1])})"
     raise NotPrinted(f"the operation {kind}")
