@@ -65,6 +65,12 @@ class ClaimRow:
         return read(cls, claim.data() | own)
 
     @property
+    def heading(self) -> str:
+        """The part of the text, or of which other proof, it is listed under."""
+        section = self.section or "Claims"
+        return section if self.proof == "published" else f"{self.proof}.py: {section}"
+
+    @property
     def decided(self) -> bool:
         """Whether a certificate stands behind the verdict."""
         return self.verdict in (Verdict.PROVED, Verdict.REFUTED)

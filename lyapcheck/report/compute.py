@@ -73,7 +73,7 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
     mapped: MapData = jobs.map.result()
     parts = [with_the_map(job.result(), mapped.for_sets) for job in jobs.sets]
     proofs: ProofsData = jobs.proofs.result()
-    epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.run.row for part in parts)
+    epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs.proofs), *(part.certificates for part in parts)]:
         certificates |= made

@@ -8,18 +8,10 @@ from typing import Any
 
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
-from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
-from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
+from lyapcheck.report.model import WEIGHTS, Finding, Report
 from lyapcheck.report.plain import plain
-from lyapcheck.report.text import (
-    SYMBOLS,
-    and_list,
-    letter,
-    member_words,
-    short_number,
-    span_words,
-)
+from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.robots import RobotModel
 
@@ -143,39 +135,19 @@ def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
         yield Paragraph(
             f"{and_list([f'claim {name}' for name in finding.claims])}, {member_words(finding.ms)}{says}"
         )
-    about = {
-        "The paper argues": finding.argument,
-        "Why it fails": finding.fails,
-        "Consequence": finding.consequence,
-        "Repair": finding.repair,
-    }
-    items = [f"{term}: {text}" for term, text in about.items() if text]
-    items.append(f"Witness: {witness_sentence(finding.witness)}" if finding.witness else finding.text)
+    items = [f"{term}: {text}" for term, text in finding.about.items()]
+    if witness := finding.witness:
+        items.append(f"Witness: {', '.join(witness_place(witness))}: {witness_sides(witness)}")
+    else:
+        items.append(finding.text)
     yield Bullets(tuple(items))
     if finding.figure not in drawn:
         yield from figure(report, finding.figure, finding.title)
         drawn.add(finding.figure)
 
 
-def witness_sentence(witness: WitnessRow) -> str:
-    """Where it fails, and both sides there."""
-    where = [f"n = {witness.n}"] if witness.n else []
-    where += [f"m = {witness.m}"] if witness.m else []
-    where += [
-        f"{letter(name)} = {short_number(value)}" for name, value in witness.point.items() if value != "0"
-    ]
-    sides = (
-        f"{span_words(witness.left)} is not {witness.operator.replace('<=', '≤')} {span_words(witness.right)}"
-    )
-    return f"{', '.join(where)}: {sides}"
-
-
 def _claims(report: Report) -> Iterator[Section]:
-    def title(row: ClaimRow) -> str:
-        section = row.section or "Claims"
-        return section if row.proof == "published" else f"{row.proof}.py: {section}"
-
-    for name, group in groupby(report.every_claim, key=title):
+    for name, group in groupby(report.every_claim, key=lambda row: row.heading):
         lines = []
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)

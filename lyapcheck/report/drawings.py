@@ -44,8 +44,8 @@ def draw_set(data: GainData) -> Files:
     from lyapcheck.report.figures.motion import draw_errors, draw_torques
     from lyapcheck.report.figures.plot import Plot
 
-    run = data.run
-    row, name, joints = run.row, file_stem(run.row.name), run.row.joints
+    run, row = data.run, data.row
+    name, joints = file_stem(row.name), row.joints
     label = row.name if row.m is None else f"{row.name} (m = {row.m})"
     errors = draw_errors(label, run.t, run.e, joints)
     torques = draw_torques(label, run.t, run.tau, joints, row.torque_limit)

@@ -52,23 +52,12 @@ class ProofData:
 
 
 @dataclass(frozen=True)
-class RunData:
-    """One simulated run, with its signals as arrays for the figures."""
-
-    row: RunRow
-    t: Any
-    e: Any
-    tau: Any
-    V: Any
-    dV: Any
-
-
-@dataclass(frozen=True)
 class GainData:
     """What was computed for one gain set, with the certificates of its ε₀ by their paths in a report."""
 
     epsilon: EpsilonRow
-    run: RunData
+    run: Run
+    row: RunRow
     certificates: Mapping[str, str]
 
 
@@ -133,7 +122,8 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     model = load(robot)
     row, files = _epsilon(gain_set, model, seed)
     eps0 = float(row.certified or row.scalar or 0.0)
-    return GainData(row, _run_data(_simulated(gain_set, model, eps0), _rest(gain_set, model)), files)
+    run = _simulated(gain_set, model, eps0)
+    return GainData(row, run, _run_row(run, _rest(gain_set, model)), files)
 
 
 def _rest(gain_set: GainSet, model: RobotModel) -> float | None:
@@ -228,14 +218,14 @@ def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
     return replace(part, certificates={**part.certificates, path: one.text()})
 
 
-def _run_data(run: Run, rest: float | None) -> RunData:
+def _run_row(run: Run, rest: float | None) -> RunRow:
     from lyapcheck.answers.simulate.runs import SetPointRuns
 
     facts = SetPointRuns((run,)).plain_data(run)
     for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
         del facts[name]
     facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
-    return RunData(read(RunRow, shortened(facts)), run.t, run.e, run.tau, run.V, run.dV)
+    return read(RunRow, shortened(facts))
 
 
 def shortened(value: Any) -> Any:

@@ -82,6 +82,17 @@ class Finding:
     witness: WitnessRow | None = None
     figure: str = ""
 
+    @property
+    def about(self) -> dict[str, str]:
+        """What is said beside the witness, by what it is."""
+        said = {
+            "The paper argues": self.argument,
+            "Why it fails": self.fails,
+            "Consequence": self.consequence,
+            "Repair": self.repair,
+        }
+        return {term: text for term, text in said.items() if text}
+
 
 @dataclass(frozen=True)
 class Report:

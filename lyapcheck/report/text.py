@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.model import WitnessRow
 
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
@@ -114,3 +115,17 @@ def short_number(value: str) -> str:
     number = Fraction(value)
     decimal = f"{float(number):.6g}"
     return decimal if "e" not in decimal and Fraction(decimal) == number else value
+
+
+def witness_place(witness: WitnessRow) -> list[str]:
+    """For how many joints, which member and where: letters that are 0 are left out."""
+    where = [f"n = {witness.n}"] if witness.n else []
+    where += [f"m = {witness.m}"] if witness.m else []
+    known = {name: value for name, value in witness.point.items() if value != "0"}
+    return where + [f"{letter(name)} = {short_number(value)}" for name, value in known.items()]
+
+
+def witness_sides(witness: WitnessRow) -> str:
+    """Both sides of the relation that fails."""
+    left, right = span_words(witness.left), span_words(witness.right)
+    return f"{left} is not {witness.operator.replace('<=', '≤')} {right}"

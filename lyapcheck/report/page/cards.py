@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
 from lyapcheck.report.page.drawing import figure
-from lyapcheck.report.text import letter, member_words, short_number, span_words
+from lyapcheck.report.text import member_words, witness_place, witness_sides
 
 FOLDED = ("C", "D")
 NEAR = 0.05
@@ -64,15 +62,9 @@ def _card(report: Report, finding: Finding) -> Markup:
         ),
         element("h4", finding.title, id=f"finding-{finding.subject.replace(' ', '-')}"),
     ]
-    about = [
-        ("The paper argues", finding.argument),
-        ("Why it fails", finding.fails),
-        ("Consequence", finding.consequence),
-        ("Repair", finding.repair),
-    ]
-    if not any(text for _, text in about):
+    if not finding.about:
         return element("article", head, element("p", finding.text), class_=f"card {tone}")
-    parts = [[element("dt", term), element("dd", sentence(text))] for term, text in about if text]
+    parts = [[element("dt", term), element("dd", sentence(text))] for term, text in finding.about.items()]
     printed = element("div", latex(finding.printed), class_="printed") if finding.printed else None
     drawn = figure(report, finding.figure, _caption(report, finding)) if finding.figure else None
     numbers = [_witness(finding.witness) if finding.witness else element("p", finding.text), drawn]
@@ -90,16 +82,8 @@ def _caption(report: Report, finding: Finding) -> str:
 
 
 def _witness(witness: WitnessRow) -> Markup:
-    where = [f"n = {witness.n}"] if witness.n else []
-    where += [f"m = {witness.m}"] if witness.m else []
-    zero = [name for name, value in witness.point.items() if Fraction(value) == 0]
-    where += [
-        f"{letter(name)} = {short_number(value)}" for name, value in witness.point.items() if name not in zero
-    ]
-    rest = "; all else 0" if zero else ""
-    sides = (
-        f"{span_words(witness.left)} is not {witness.operator.replace('<=', '≤')} {span_words(witness.right)}"
-    )
+    where, sides = ", ".join(witness_place(witness)), witness_sides(witness)
+    rest = "; all else 0" if "0" in witness.point.values() else ""
     low, high = float(witness.left[0]), float(witness.right[0])
     if low * high > 0 and witness.operator != "=":
         ratio = low / high
@@ -107,7 +91,7 @@ def _witness(witness: WitnessRow) -> Markup:
     title = "A small witness" if witness.small else "A witness"
     return element(
         "div",
-        element("p", element("b", title), ": ", sentence(", ".join(where)), rest, "."),
+        element("p", element("b", title), ": ", sentence(where), rest, "."),
         element("p", sides, class_="sides"),
         class_="witness",
     )

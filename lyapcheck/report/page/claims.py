@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 
 from lyapcheck.output.elements import Markup, element
@@ -26,6 +26,9 @@ def claims_section(report: Report) -> Markup:
     """The claims of the paper and of the proofs that go round it, each with all its members."""
     rows = report.every_claim
     used_by: dict[str, list[str]] = {}
+    groups: dict[str, list[ClaimRow]] = {}
+    for row in rows:
+        groups.setdefault(row.heading, []).append(row)
     for row in {(r.proof, r.id): r for r in rows}.values():
         for name in row.uses:
             used_by.setdefault(anchor(row.proof, name), []).append(anchor(row.proof, row.id))
@@ -35,7 +38,7 @@ def claims_section(report: Report) -> Markup:
         _switch(report) if len(report.ms) > 1 or not report.own else None,
         _filters(rows),
         None if report.own else _graph(report),
-        [_group(report, title, group, used_by) for title, group in _sections(rows)],
+        [_group(report, title, group, used_by) for title, group in groups.items()],
         _equations(report),
         id="claims",
     )
@@ -99,24 +102,11 @@ def _graph(report: Report) -> Markup:
     )
 
 
-def _sections(rows: Sequence[ClaimRow]) -> Iterator[tuple[str, list[ClaimRow]]]:
-    def title(row: ClaimRow) -> str:
-        section = str(row.section or "Claims")
-        return section if row.proof == "published" else f"{row.proof}.py: {section}"
-
-    groups: dict[str, list[ClaimRow]] = {}
-    for row in rows:
-        groups.setdefault(title(row), []).append(row)
-    yield from groups.items()
-
-
 def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
     claims = [(key, list(group)) for key, group in groupby(rows, key=lambda row: (row.proof, row.id))]
     verdicts = [row.verdict for row in rows]
     counts = ", ".join(
-        element("span", plural_verdict(verdicts.count(word), word), class_=word)
-        for word in Verdict
-        if word in verdicts
+        element("span", f"{verdicts.count(word)} {word}", class_=word) for word in Verdict if word in verdicts
     )
     heads = [
         element("th", element("button", words, type="button", class_="sort"), scope="col")
@@ -135,11 +125,6 @@ def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[s
         element("span", plural(len(claims), "claim"), each, Markup(counts), class_="tally"),
     )
     return element("details", summary, table, class_="fold group")
-
-
-def plural_verdict(count: int, word: str) -> str:
-    """``3 proved``."""
-    return f"{count} {word}"
 
 
 def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
