@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -48,6 +49,12 @@ def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
         if row["certificate"]:
             stated = handover.stated(claim.answers[ms.index(row["m"] or ms[0])])
             assert _certificate(row["certificate"])["statement"] == to_json(stated), (row["id"], REPAIR)
+
+
+def test_every_part_that_a_drawing_names_is_on_the_page() -> None:
+    """A hatching that is not there is drawn as nothing, and so are its bars."""
+    named = set(re.findall(r'(?:url\(|href=")#([^)"]+)', PAGE))
+    assert named <= set(re.findall(r' id="([^"]*)"', PAGE)), REPAIR
 
 
 def decided(row: Mapping[str, Any]) -> list[Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
@@ -9,6 +11,8 @@ from lyapcheck.report.page.drawing import figure
 from lyapcheck.report.text import member_words, witness_place, witness_sides
 
 FOLDED = ("C", "D")
+_ARROW = re.compile(r"\s*\\;\s*(?=\\(?:Rightarrow|longrightarrow))")
+"""Where a formula may go on in the next line."""
 NEAR = 0.05
 """Sides that differ by less than this share of each other are told apart by their difference."""
 
@@ -65,7 +69,8 @@ def _card(report: Report, finding: Finding) -> Markup:
     if not finding.about:
         return element("article", head, element("p", finding.text), class_=f"card {tone}")
     parts = [[element("dt", term), element("dd", sentence(text))] for term, text in finding.about.items()]
-    printed = element("div", latex(finding.printed), class_="printed") if finding.printed else None
+    lines = [latex(line) for line in _ARROW.split(finding.printed)] if finding.printed else []
+    printed = element("div", lines, class_="printed") if lines else None
     drawn = figure(report, finding.figure, _caption(report, finding)) if finding.figure else None
     numbers = [_witness(finding.witness) if finding.witness else element("p", finding.text), drawn]
     left = element("div", printed, element("dl", parts), class_="said")

@@ -32,7 +32,7 @@ def inline(svg: str, words: str) -> Markup:
     """
     text = svg[svg.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", text, flags=re.DOTALL)
-    text = re.sub(r' id="(?!p[0-9a-f]{10}|m[0-9a-f]{10})[^"]*"', "", text)
+    text = re.sub(r' id="(?![pmh][0-9a-f]{10}")[^"]*"', "", text)
     text = re.sub(r'(<svg[^>]*?) width="[^"]*" height="[^"]*"', r"\1", text, count=1)
     text = re.sub(r"(fill|stroke): #(000000|000)\b", r"\1: currentColor", text)
     text = re.sub(r"fill: #ffffff", "fill: none", text)
