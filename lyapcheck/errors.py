@@ -66,7 +66,7 @@ def near(word: str, names: Iterable[str]) -> str:
     known = list(names)
     for fold in (str, str.casefold):
         folded = {fold(name): name for name in known}
-        if close := get_close_matches(fold(word), folded, 1, 0.7):
+        if close := get_close_matches(fold(word), folded, 1, 0.65):
             return folded[close[0]]
     return ""
 

@@ -1,4 +1,4 @@
-"""Joint angles as they are typed: degrees, separated by commas."""
+"""Joint angles, and their rates, as they are typed: degrees, separated by commas."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ def parse_angles(option: str, text: str, joints: tuple[str, ...]) -> tuple[float
     words = [word.strip() for word in text.split(",")] if text.strip() else []
     example = f"write {option} {','.join(['45'] * len(joints))}"
     if len(words) != len(joints):
-        rule = f"has {len(words)} angles, but the arm has {len(joints)} joints ({', '.join(joints)})"
+        many = "number" if len(words) == 1 else "numbers"
+        rule = f"has {len(words)} {many}, but the arm has {len(joints)} joints ({', '.join(joints)})"
         raise argument_error(option, text, rule, example)
     degrees = [_degrees(word) for word in words]
     if any(math.isnan(angle) for angle in degrees):
-        rule = f"every angle must be a number from {-MOST_DEGREES:g} to {MOST_DEGREES:g} degrees"
+        rule = f"each must be a number from {-MOST_DEGREES:g} to {MOST_DEGREES:g} degrees"
         raise argument_error(option, text, rule, example)
     return tuple(math.radians(angle) for angle in degrees)
 

@@ -60,7 +60,12 @@ def tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Ta
     try:
         return tuple(task_of(model, goal, start, None) for goal in goals or [default])
     except InputError as error:
-        problems = [replace(one, key=one.key.replace("--target", "--goal")) for one in error.problems]
+        problems = [
+            replace(
+                one, **{part: getattr(one, part).replace("--target", "--goal") for part in ("key", "repair")}
+            )
+            for one in error.problems
+        ]
         raise InputError(problems) from None
 
 

@@ -21,7 +21,7 @@ HELP = {
     "seconds": "The most that judging one certificate may take; past it, it is refused.",
     "memory": "The most memory that judging one certificate may take, in MiB.",
 }
-REPAIR = "give files written by check --certificates, or their directory"
+REPAIR = "give files written with --certificates, or their folders; those of a report: certificates/*/"
 
 
 def run(

@@ -267,6 +267,10 @@ def test_without_gains_it_says_why_and_what_to_change(arguments, code, words, tm
         (("buap3", "--m", "0"), "at least 1"),
         (("buap3", "--out", "/nowhere/at/all.toml"), "no directory"),
         (("buap3", "--compare", "/nowhere/at/all.toml"), "cannot be read"),
+        (
+            ("pelican2", "--compare", str(paper_gain_file("table2"))),
+            "tau_m1 has gains for 3 joints, but the arm",
+        ),
     ],
 )
 def test_unusable_input_is_refused(arguments, words):

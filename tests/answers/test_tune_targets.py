@@ -152,9 +152,9 @@ def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option:
     ("words", "said"),
     [
         (["--overshoot", "5", "--damping", "1"], "--damping = 1: cannot go with targets"),
-        (["--goal", "1,2,3"], "has a meaning with targets only"),
+        (["--goal", "1,2,3"], "--goal = 1,2,3: has a meaning with targets only"),
         (["--settle", "-1"], "--settle = -1: must be positive"),
-        (["--settle", "1", "--goal", "1,2"], "--goal"),
+        (["--settle", "1", "--goal", "1,2"], "write --goal 45,45,45"),
     ],
 )
 def test_options_that_do_not_fit_are_refused(

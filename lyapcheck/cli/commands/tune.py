@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lyapcheck.cli.arm import require_joints
 from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_format, add_members, add_vary, varies
@@ -105,6 +106,7 @@ def run(
     """
     from lyapcheck.answers.tune.gain_file import gain_file_text
     from lyapcheck.answers.tune.tuning import tune
+    from lyapcheck.robots import load
 
     wrong = Complaints()
     if out is not None:
@@ -123,10 +125,12 @@ def run(
         ways = WAYS if stability == "both" else (stability,)
         bench = wrong.reading(trials_of, robot, wishes, peak_share, (start, goal), ways, digits)
     else:
-        motion = {"--start": start, "--goal": goal}
+        motion = {"--start": start, "--goal": goal and goal[0]}
         repair = "add --overshoot, --settle or --rest-error"
         wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
     wrong.raise_all()
+    if compare is not None and against is not None:
+        require_joints((against,), load(robot))
     if wishes and bench is not None:
         return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
     task = tasks_of(robot, None, None)[0] if len(members or ()) in COMPARED else None
