@@ -113,7 +113,7 @@ BAD = [
     ("simulate TABLE2 --time 0", ["--time = 0.0: must be from 1e-06 to 3600 s"]),
     (
         "simulate TABLE2 --time nan --eps0 -1 --target 1,2 --start a,b,c",
-        ["--time = nan", "--eps0 = -1.0", "--target = 1,2: has 2 angles", "--start = a,b,c: every angle"],
+        ["--time = nan", "--eps0 = -1.0", "--target = 1,2: has 2 numbers", "--start = a,b,c: each must be"],
     ),
     ("simulate TABLE2 --csv none/run.csv", ["--csv = none/run.csv: there is no directory none"]),
     ("simulate TABLE2 --plot none", ["--plot = none: is not a directory"]),
