@@ -22,6 +22,7 @@ from lyapcheck.check.verify import verify
 from tests.arena.attacks import Edits, edited, encoded
 from tests.arena.run import ARENA
 from tests.arena.test_arena import TAKES_SECONDS
+from tests.check.border_cases import BORDERS
 from tests.check.refusal_cases import CASES, ONE, Changed, base, nested
 from tests.helpers.refusals import places, recorded
 
@@ -71,6 +72,15 @@ def _tuples(tree: Any) -> Any:
 )
 def test_what_is_changed_is_refused_for_what_was_changed(name, change, words):
     assert words in reason(name, change)
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"), BORDERS, ids=[f"{k}-{words}" for k, (_, _, words) in enumerate(BORDERS)]
+)
+def test_beside_a_border_what_holds_is_accepted_and_nothing_else(name, change, words):
+    said = reason(name, change)
+    assert words in said
+    assert bool(words) == bool(said)
 
 
 def test_what_no_file_brings_about_is_refused_too():

@@ -1,0 +1,271 @@
+"""Statements on both sides of a border, with proofs: what must be accepted, and why the others are refused.
+
+Each is put into a good certificate of the arena in place of its statement and proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from tests.arena.attacks import Document, Edits
+from tests.check.refusal_cases import ONE, SQUARE, TWO, ZERO, P, S, X
+
+Row = tuple[str, Edits | Callable[[Document], Edits], str]
+ACCEPTED = ""
+
+
+def claimed(statement: Document, proof: Document, verdict: str = "proved", grade: str = "exact") -> Edits:
+    return [((S,), statement), ((P,), proof), (("verdict",), verdict), (("grade",), grade)]
+
+
+def relation(left: Any, operator: str, right: Any) -> Document:
+    return {"left": left, "operator": operator, "right": right}
+
+
+def numbers(left: Any, operator: str, right: Any, verdict: str) -> Edits:
+    """A relation between numbers, by exact numbers."""
+    statement = {"kind": "Constant", "relation": relation(left, operator, right)}
+    return claimed(statement, {"rule": "exact numbers"}, verdict)
+
+
+BALLS = {"rule": "separate balls", "bits": 128}
+ROOT = ["sqrt", TWO]
+NUMBERS: list[Row] = [
+    ("pub.T2.pd.base", numbers(ONE, "<", ONE, "proved"), "the proof gives refuted"),
+    ("pub.T2.pd.base", numbers(ONE, "<", ONE, "refuted"), ACCEPTED),
+    ("pub.T2.pd.base", numbers(ONE, "<=", ONE, "proved"), ACCEPTED),
+    ("pub.T2.pd.base", numbers(TWO, "<=", ONE, "proved"), "the proof gives refuted"),
+    ("pub.T2.pd.base", numbers(ROOT, "<", ROOT, "refuted"), ACCEPTED),
+    (
+        "pub.T2.pd.base",
+        claimed({"kind": "Constant", "relation": relation(ROOT, "<=", ROOT)}, BALLS, grade="enclosure"),
+        "are too few to tell both sides apart",
+    ),
+]
+
+
+def printed(text: str, proof: Document, verdict: str = "proved") -> Edits:
+    """That x, printed as 2.0, is printed as this."""
+    statement = {"kind": "Agrees", "formula": X, "inputs": [["x", "2.0"]], "printed": text, "solve_for": None}
+    return claimed(statement, {**proof, "bits": 128}, verdict, "enclosure")
+
+
+def corners(below: list[int], above: list[int]) -> Document:
+    return {"rule": "corners of the roundings", "below": below, "above": above}
+
+
+INSIDE, OUTSIDE = {"rule": "printed inputs"}, {"rule": "outside the roundings"}
+PRINTED: list[Row] = [
+    ("ext.corners", change, words)
+    for change, words in (
+        (printed("2.0", INSIDE), ACCEPTED),
+        (printed("1.9", INSIDE), "leaves the rounding"),
+        (printed("2.1", INSIDE), "leaves the rounding"),
+        (printed("1.8", OUTSIDE, "refuted"), ACCEPTED),
+        (printed("2.2", OUTSIDE, "refuted"), ACCEPTED),
+        (printed("1.9", OUTSIDE, "refuted"), "meets the rounding"),
+        (printed("2.0", OUTSIDE, "refuted"), "meets the rounding"),
+        (printed("2.02", corners([0], [1])), ACCEPTED),
+        (printed("2.02", corners([1], [1])), "is above the printed result"),
+        (printed("2.02", corners([0], [0])), "is below the printed result"),
+        (printed("2.02", corners([0], [2])), "must say 0 or 1 for each input"),
+        (printed("2.02", corners([], [1])), "must say 0 or 1 for each input"),
+    )
+]
+
+
+def for_all(holds: Document, low: str | None, high: str | None, *pieces: Document, ends: str = "[]") -> Edits:
+    """A relation for all x in an interval; ``ends`` are its brackets."""
+    statement = {
+        "kind": "ForAll",
+        "relation": holds,
+        "low": low,
+        "high": high,
+        "open_low": ends[0] == "(",
+        "open_high": ends[1] == ")",
+        "variable": "x",
+    }
+    proof = {"rule": "pieces of the domain", "pieces": list(pieces)}
+    grade = "exact" if pieces and pieces[0]["rule"] == "Sturm" else "enclosure"
+    return claimed(statement, proof, grade=grade)
+
+
+def boxes(*cuts: str, ends: str = "") -> Document:
+    """Taylor boxes between cuts; beside 0 and up to infinity by the dominant term, if ``ends`` says so."""
+    piece = {"rule": "Taylor boxes", "bits": 64, "cuts": list(cuts)}
+    return {**piece, "from_zero": "0" in ends, "to_infinity": "∞" in ends}
+
+
+STURM = {"rule": "Sturm"}
+MINUS_X, MINUS_ONE = ["neg", X], ["num", "-1"]
+POSITIVE, NONNEGATIVE = relation(ZERO, "<", SQUARE), relation(ZERO, "<=", SQUARE)
+AT_MOST_ONE, BELOW_ONE = relation(X, "<=", ONE), relation(X, "<", ONE)
+FOR_ALL: list[Row] = [
+    ("ext.square", change, words)
+    for change, words in (
+        (for_all(NONNEGATIVE, None, None, STURM, STURM), ACCEPTED),
+        (for_all(POSITIVE, None, None, STURM, STURM), "does not show > at 0"),
+        (for_all(POSITIVE, "0", "1", STURM, ends="(]"), ACCEPTED),
+        (for_all(BELOW_ONE, "1/2", "1", STURM), "does not give the sign"),
+        (for_all(AT_MOST_ONE, "0", "1", STURM), ACCEPTED),
+        (for_all(AT_MOST_ONE, "-1", "1", STURM), "must be 2"),
+        (for_all(AT_MOST_ONE, "-1", "1", STURM, STURM), ACCEPTED),
+        (for_all(relation(MINUS_X, "<=", ONE), "-2", "1", STURM, STURM), "does not give the sign"),
+        (for_all(relation(MINUS_X, "<=", TWO), "-2", "-1", STURM), ACCEPTED),
+        (for_all(relation(MINUS_X, "<=", ONE), "-2", "-1", STURM), "does not give the sign"),
+        (for_all(relation(X, "<=", MINUS_ONE), "-2", "-1", STURM), ACCEPTED),
+        (for_all(relation(X, "<=", MINUS_ONE), "-2", "0", STURM), "does not give the sign"),
+        (for_all(POSITIVE, "1", "1", boxes("1")), ACCEPTED),
+        (for_all(relation(ONE, "<=", SQUARE), "1", "1", boxes("1")), "the sign is open"),
+        (for_all(POSITIVE, "1", "1", boxes("1"), ends="()"), "is empty"),
+        (for_all(POSITIVE, "1", "1", boxes("1"), ends="[)"), "is empty"),
+        (for_all(POSITIVE, "2", "1", boxes("1")), "is empty"),
+        (for_all(POSITIVE, "1", None, boxes("1", ends="∞")), ACCEPTED),
+        (for_all(relation(ZERO, "<", ["sin", X]), "1", None, boxes("1", ends="∞")), "no term dominates"),
+        (for_all(POSITIVE, "1", None, boxes("1", "2")), "leaves out infinity"),
+        (for_all(POSITIVE, "1", None, boxes("1", ends="∞"), ends="[)"), "is no end at infinity"),
+        (for_all(relation(TWO, "<", SQUARE), "1", "2", boxes("2")), "leaves out 1"),
+        (for_all(relation(SQUARE, "<", ["num", "4"]), "1", "3", boxes("1")), "leaves out 3"),
+        (for_all(relation(ZERO, "<=", X), "0", "1", boxes("0", "1", ends="0")), "must lie above 0"),
+        (for_all(relation(X, "<=", ZERO), "0", "1", boxes("1/2", "1", ends="0")), "is too far from 0"),
+    )
+]
+
+
+def for_small(conclusion: Document, *hypotheses: Document) -> Edits:
+    """A relation for every small enough ε > 0 and all x > 0, which fails for small ε at x = 1."""
+    statement = {
+        "kind": "ForSmall",
+        "small": "eps",
+        "bounded": [],
+        "variables": [{"low": "0", "name": "x", "strict": True}],
+        "hypotheses": list(hypotheses),
+        "conclusion": conclusion,
+    }
+    proof = {"rule": "failure for small values", "point": [["x", "1"]], "below": "1"}
+    return claimed(statement, proof, "refuted", "enclosure")
+
+
+EPS = ["var", "eps"]
+X_BELOW_EPS = relation(X, "<", EPS)
+FOR_SMALL: list[Row] = [
+    ("ext.not-small", change, words)
+    for change, words in (
+        (for_small(relation(X, "<", X)), ACCEPTED),
+        (for_small(relation(X, "<=", X)), "does not break the conclusion"),
+        (for_small(relation(["neg", EPS], "<", ZERO)), "does not break the conclusion"),
+        (for_small(X_BELOW_EPS, relation(X, "<=", X)), ACCEPTED),
+        (for_small(X_BELOW_EPS, relation(X, "<", X)), "breaks a hypothesis"),
+        (for_small(X_BELOW_EPS, relation(EPS, "<", X)), ACCEPTED),
+        (for_small(X_BELOW_EPS, relation(X, "<=", EPS)), "breaks a hypothesis"),
+    )
+]
+
+
+def constant_mass(a: str, b: str, c: str) -> list[Any]:
+    """M = (a b; b c) of two joints, the same at every q."""
+    a_, b_, c_ = ([] if x == "0" else [[[0, 0, 0, 0], x]] for x in (a, b, c))
+    return [[a_, b_], [b_, c_]]
+
+
+def above(mass: list[Any], low: str, *weights: str) -> Edits:
+    """M ≻ low·I by a dominant diagonal."""
+    statement = {"kind": "MassAbove", "mass": mass, "parameters": [], "low": low}
+    return claimed(statement, {"rule": "dominant diagonal", "weights": list(weights)})
+
+
+def at_x(kind: str, mass: list[Any], bound: dict[str, str], *x: str) -> Edits:
+    """A bound of M that fails in the direction of x."""
+    statement = {"kind": kind, "mass": mass, "parameters": [], **bound}
+    proof = {"rule": "posture", "q": ["0", "0"], "parameters": [], "x": list(x), "y": []}
+    return claimed(statement, proof, "refuted", "enclosure")
+
+
+def scaled(directions: Sequence[str], times: int) -> Callable[[Document], Edits]:
+    """With directions a hundred times as long, and so many times the bound."""
+
+    def change(document: Document) -> Edits:
+        lengthened = [[str(100 * Fraction(x)) for x in document[P][name]] for name in directions]
+        high = str(times * Fraction(document[S]["high"]))
+        places = [((P, name), x) for name, x in zip(directions, lengthened, strict=True)]
+        return [*places, ((S, "high"), high)]
+
+    return change
+
+
+COUPLED, DOUBLE = constant_mass("2", "1", "2"), constant_mass("2", "0", "2")
+FAILS_NOT, DIAGONAL = "does not show that the bound fails", "is not exceeded by the diagonal"
+WEIGHTS = "must be 2 positive numbers"
+ONE_ARM: list[Row] = [
+    *(
+        ("ext.dominant", change, words)
+        for change, words in (
+            (above(COUPLED, "1/2", "1", "1"), ACCEPTED),
+            (above(COUPLED, "1/2", "2", "2"), ACCEPTED),
+            (above(COUPLED, "1", "1", "1"), DIAGONAL),
+            (above(COUPLED, "6/5", "1", "1"), DIAGONAL),
+            (above(COUPLED, "1/2", "1", "2"), DIAGONAL),
+            (above(COUPLED, "1/2", "1/10", "1"), DIAGONAL),
+            (above(constant_mass("-2", "1", "-2"), "0", "1", "1"), DIAGONAL),
+            (above(COUPLED, "1/2", "-1", "-1"), WEIGHTS),
+            (above(COUPLED, "1/2", "0", "1"), WEIGHTS),
+            (above(COUPLED, "1/2", "1"), WEIGHTS),
+        )
+    ),
+    *(
+        ("rob.lambda_max.lower", change, words)
+        for change, words in (
+            (at_x("MassAbove", DOUBLE, {"low": "3"}, "1/2", "0"), ACCEPTED),
+            (at_x("MassAbove", DOUBLE, {"low": "2"}, "1", "0"), FAILS_NOT),
+            (at_x("MassAbove", DOUBLE, {"low": "1"}, "1/2", "0"), FAILS_NOT),
+            (at_x("MassBelow", DOUBLE, {"high": "1"}, "1/2", "0"), ACCEPTED),
+            (at_x("MassBelow", DOUBLE, {"high": "-1"}, "1/2", "0"), ACCEPTED),
+            (at_x("MassBelow", DOUBLE, {"high": "2"}, "2", "0"), FAILS_NOT),
+            (at_x("MassBelow", DOUBLE, {"high": "3"}, "2", "0"), FAILS_NOT),
+        )
+    ),
+    ("rob.k_c.lower", scaled(["x", "y"], 1), ACCEPTED),
+    *(("rob.k_c.lower", scaled(names, 2), FAILS_NOT) for names in (["x"], ["y"], ["x", "y"])),
+    ("ext.chain-coriolis", scaled(["x"], 1), ACCEPTED),
+    ("ext.chain-coriolis", scaled(["x"], 100), FAILS_NOT),
+]
+POWER = ["dot", ["vec", "w"], ["apply", ["diag", "Kv"], ["vec", "hw"]]]
+PRODUCT = ["dot", ["vec", "z"], ["vec", "y"]]
+
+
+def at_least(
+    left: list[Any], number: list[Any], least: list[Any], right: list[Any] = ZERO, norms: Sequence[int] = ()
+) -> Edits:
+    """left ≤ right for every n, where a number is at least something, by this alone."""
+    statement = {
+        "kind": "BoundEveryN",
+        "left": left,
+        "right": right,
+        "symmetric": [],
+        "rates": [],
+        "given": [],
+        "norms": [[[["vec", "z"]], ["var", "t"]]],
+        "least": [[number, least]],
+    }
+    return claimed(statement, {"rule": "covered terms", "covers": [{"least": 0, "norms": list(norms)}]})
+
+
+SIGN, WORD = "is for terms with a minus", "is not the word of its term"
+EVERY_N: list[Row] = [
+    ("ext.norms", change, words)
+    for change, words in (
+        (at_least(["neg", POWER], POWER, ZERO), ACCEPTED),
+        (at_least(["neg", POWER], POWER, ONE, MINUS_ONE), ACCEPTED),
+        (at_least(["neg", POWER], POWER, ONE, ["num", "-2"]), "is not shown to exceed the sum of the bounds"),
+        (at_least(["neg", ["mul", ["var", "t"], POWER]], POWER, ZERO), ACCEPTED),
+        (at_least(POWER, POWER, ZERO), SIGN),
+        (at_least(["neg", POWER], POWER, ZERO, norms=[0]), SIGN),
+        (at_least(["neg", ["mul", POWER, POWER]], POWER, ZERO), WORD),
+        (at_least(["neg", ["mul", POWER, PRODUCT]], POWER, ZERO), WORD),
+        (at_least(["neg", POWER], ["mul", TWO, POWER], ONE), WORD),
+    )
+]
+BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N]
+"""A good certificate of the arena, what stands in its place, and words of the reason why it is refused."""
