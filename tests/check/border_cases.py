@@ -267,5 +267,151 @@ EVERY_N: list[Row] = [
         (at_least(["neg", POWER], ["mul", TWO, POWER], ONE), WORD),
     )
 ]
-BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N]
+
+
+def implies(
+    conclusion: Document,
+    *variables: tuple[str, str | None, bool],
+    given: Document | None = None,
+    **proof: Any,
+) -> Edits:
+    """What an identity of signs shows, with one hypothesis or none."""
+    statement = {
+        "kind": "Implies",
+        "variables": [{"name": name, "low": low, "strict": strict} for name, low, strict in variables],
+        "hypotheses": [] if given is None else [given],
+        "conclusion": conclusion,
+    }
+    return claimed(statement, {"rule": "identity of signs", "lift": [], "multiples": [], **proof})
+
+
+def once(monomial: list[list[int]]) -> list[Document]:
+    """The one hypothesis times a monomial."""
+    return [{"hypothesis": 0, "monomial": monomial, "weight": "1"}]
+
+
+REAL, FROM_0, ABOVE_0, FROM_2 = (
+    ("x", None, True),
+    ("x", "0", False),
+    ("x", "0", True),
+    ("x", "2", False),
+)
+CUBE, X_Y = ["pow", X, 3], ["mul", X, ["var", "y"]]
+X_POSITIVE, X_NONNEGATIVE = relation(ZERO, "<", X), relation(ZERO, "<=", X)
+NEGATIVE = "has a term that may be negative"
+SIGNS: list[Row] = [
+    ("arc.share", change, words)
+    for change, words in (
+        (implies(NONNEGATIVE, REAL), ACCEPTED),
+        (implies(POSITIVE, REAL), NEGATIVE),
+        (implies(relation(ZERO, "<=", ["neg", SQUARE]), REAL), NEGATIVE),
+        (implies(relation(ZERO, "<=", CUBE), FROM_0), ACCEPTED),
+        (implies(relation(ZERO, "<", CUBE), ABOVE_0), ACCEPTED),
+        (implies(relation(ZERO, "<=", CUBE), REAL), NEGATIVE),
+        (implies(relation(ZERO, "<", CUBE), FROM_0), NEGATIVE),
+        (implies(relation(ZERO, "<=", X_Y), REAL, ("y", None, True)), NEGATIVE),
+        (implies(relation(ZERO, "<=", ["sqrt", X]), REAL), NEGATIVE),
+        (implies(relation(ZERO, "<=", ["div", ONE, X]), REAL), "denominator whose sign is not plain"),
+        (implies(relation(TWO, "<=", X), FROM_2), ACCEPTED),
+        (implies(relation(TWO, "<", X), FROM_2), NEGATIVE),
+        (implies(relation(["num", "3"], "<=", X), FROM_2), NEGATIVE),
+        (implies(X_POSITIVE, REAL, given=X_POSITIVE, multiples=once([])), ACCEPTED),
+        (implies(X_POSITIVE, REAL, given=X_NONNEGATIVE, multiples=once([])), NEGATIVE),
+        (implies(X_NONNEGATIVE, REAL, given=relation(X, "<=", ZERO), multiples=once([])), NEGATIVE),
+        (implies(X_NONNEGATIVE, REAL, lift=[[0, 1]]), "is not a positive monomial"),
+        (
+            implies(
+                relation(ZERO, "<", X_Y), REAL, ("y", "0", True), given=X_POSITIVE, multiples=once([[1, 1]])
+            ),
+            ACCEPTED,
+        ),
+        (
+            implies(
+                relation(ZERO, "<", X_Y), REAL, ("y", "0", False), given=X_POSITIVE, multiples=once([[1, 1]])
+            ),
+            NEGATIVE,
+        ),
+    )
+]
+
+
+def rests(family: str, m: int | None, torque: str, error: str) -> Edits:
+    """That one joint with k_p = 1 rests within an error."""
+    sizes = {"kp": ["1"], "torque": [torque], "errors": [error]}
+    statement = {"kind": "Resting", "family": family, "m": m, **sizes}
+    return claimed(statement, {"rule": "h at the bounds"}, grade="enclosure")
+
+
+def rests_beyond(error: str, bound: str | None = "1/2", joint: int = 0) -> Edits:
+    """A state of rest of tanh, held by half of k_p."""
+    sizes = {"kp": ["1"], "torque": ["1/2"], "errors": [bound]}
+    statement = {"kind": "Resting", "family": "tanh", "m": None, **sizes}
+    proof = {"rule": "state of rest", "joint": joint, "error": error}
+    return claimed(statement, proof, "refuted", "enclosure")
+
+
+ONE_LEVEL: Edits = [((S, "envelope"), [["0", "1/4"]]), ((P, "slopes"), []), ((S, "errors"), ["1"])]
+NO_SPEED: Edits = [((S, "speeds"), []), ((P, "lightest"), []), ((P, "lightness"), [])]
+NO_ENERGY: Edits = [((S, "energy"), None), ((P, "lightest"), []), ((P, "lightness"), [])]
+TOO_SHORT, SIZE = "is too short for V to fall", "have a sign or size that does not fit"
+TOO_LARGE, FLOOR = "is not shown to be as large", "is not shown to be below h(w)/w"
+FIRST_PHASE, LAST_PHASE = (P, "phases", 0), (P, "phases", 1)
+MOTIONS: list[Row] = [
+    ("ext.settling", ONE_LEVEL, ACCEPTED),
+    *(
+        ("ext.pushed", [*ONE_LEVEL, ((S, name), ["0"])], "need not be kept under a disturbance")
+        for name in ("dry", "torque")
+    ),
+    ("ext.settling", [((S, "envelope", 2, 0), "41")], TOO_SHORT),
+    ("ext.settling", [((S, "envelope", 1, 0), "1"), ((S, "envelope", 2, 0), "300")], TOO_SHORT),
+    *(("ext.settling", [((P, "slopes", 0), slope)], "must be from 0 to") for slope in ("-1/10", "100")),
+    *(
+        ("ext.settling", [((P, name), share)], SIZE)
+        for name, share in (
+            ("friction", "-1/4"),
+            ("friction", "1"),
+            ("stiffness", "-1/4"),
+            ("stiffness", "1"),
+            ("split", "-1/4"),
+            ("split", "5/4"),
+            ("slack", "-1/4"),
+            ("heaviest", ["-1"]),
+        )
+    ),
+    ("ext.settling", [((P, "heaviest"), ["9/10"])], DIAGONAL),
+    ("ext.nearby", NO_ENERGY, ACCEPTED),
+    ("ext.nearby", NO_SPEED, FLOOR),
+    *(("ext.nearby", [((P, "floors"), [floor])], FLOOR) for floor in ("4/5", "-1/5")),
+    ("ext.nearby", [((S, "speeds"), ["9/10"])], "is not shown to keep |w_i|"),
+    ("ext.nearby", [((P, "lightest"), ["11/10"])], "is not shown by boxes"),
+    ("ext.not-nearby", [((S, "speeds"), ["1/2"])], "must be within (0.5)"),
+    ("ext.not-nearby", [((P, "e"), ["2"])], "must be within (1)"),
+    *(
+        ("ext.phases", [(place, value)], words)
+        for place, value, words in (
+            ((P, "phases"), [], "must be at least one"),
+            ((*FIRST_PHASE, "within"), [], "must bound the errors"),
+            ((*FIRST_PHASE, "within"), ["1/2"], "is not shown to be kept by the energy"),
+            ((*FIRST_PHASE, "envelope", 0, 1), "1/100", "must be at least"),
+            ((*LAST_PHASE, "envelope", 0, 0), "79", "when the phase before ends"),
+            ((*LAST_PHASE, "envelope", 0, 1), "1/16", "must be at least"),
+            ((*LAST_PHASE, "envelope", 1, 0), "81", TOO_SHORT),
+            ((*LAST_PHASE, "floors"), ["1"], "must be from 0 to below L"),
+            ((P, "lightest"), ["11/10"], "is not shown by boxes"),
+            ((S, "within", 1, 1), ["1/10"], "allows at most"),
+        )
+    ),
+    ("ext.resting", rests("hyperbolic", 2, "99/100", "6/5"), ACCEPTED),
+    ("ext.resting", rests("hyperbolic", 2, "1", "6/5"), TOO_LARGE),
+    ("ext.resting", rests("hyperbolic", 2, "21/20", "6/5"), TOO_LARGE),
+    ("ext.resting", rests("tanh", None, "0", "0"), ACCEPTED),
+    ("ext.resting", rests("tanh", None, "1/2", "11/20"), ACCEPTED),
+    ("ext.resting", rests("tanh", None, "1/2", "1/2"), TOO_LARGE),
+    ("ext.not-resting", rests_beyond("21/40"), ACCEPTED),
+    ("ext.not-resting", rests_beyond("11/20"), "is not shown to be held"),
+    ("ext.not-resting", rests_beyond("1/2"), "must be beyond the bound"),
+    ("ext.not-resting", rests_beyond("21/40", bound=None), "must be beyond the bound"),
+    *(("ext.not-resting", rests_beyond("21/40", joint=joint), "must be from 0 to 0") for joint in (-1, 1)),
+]
+BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N, *SIGNS, *MOTIONS]
 """A good certificate of the arena, what stands in its place, and words of the reason why it is refused."""
