@@ -10,6 +10,7 @@ from functools import cache
 import mpmath
 
 from lyapcheck.check.expressions.expression import variables
+from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.claims import statements
 from tests.refutations.every_n_oracle import every_n_is_false
@@ -235,7 +236,7 @@ def half_unit(text):
 
 AGAINST_TRUTH = {
     statements.Identity: _identity_fails,
-    statements.Constant: lambda s: fails(s.relation, {}),
+    Constant: lambda s: fails(s.relation, {}),
     statements.ForAll: lambda s: any(fails(s.relation, {s.variable: x}) for x in _domain(s)),
     statements.Implies: _implication_fails,
     statements.NormBound: lambda s: any(_norm_fails(s, at) for at in _vectors(s)),
@@ -246,7 +247,7 @@ AGAINST_TRUTH = {
 }
 AGAINST_FALSEHOOD = {
     statements.Identity: _identity_holds,
-    statements.Constant: lambda s, at: holds(s.relation, at),
+    Constant: lambda s, at: holds(s.relation, at),
     statements.ForAll: lambda s, at: holds(s.relation, at),
     statements.Implies: _implication_holds,
     statements.NormBound: lambda s, at: not _norm_fails(s, at, strict=False),
