@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from flint import arb
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,7 +23,7 @@ from lyapcheck.check.kinds.link_bounds import BITS, EnergyBelow, LinkBounds
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.loop.error_form import BoxForm
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.loop.schur import inverse_one_plus_root
+from lyapcheck.check.loop.schur import inverse_one_plus_root, square
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.refusal import Refused
@@ -138,9 +139,12 @@ def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
 
 @pytest.mark.slow
 @settings(max_examples=40, deadline=None)
-@given(st.integers(0, 10**6), st.sampled_from([1, 2, 3]), st.integers(-4, 4))
-def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> None:
-    """By the chain rule in balls at exact states, whatever the multiplier; the form need not be positive."""
+@given(st.integers(0, 10**6), st.sampled_from([1, 2, 3]), st.integers(-4, 4), st.booleans())
+def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int, wide: bool) -> None:
+    """By the chain rule in balls at exact states in a box, whatever the multiplier and the scales.
+
+    The form need not be positive.
+    """
     random, found = np.random.default_rng(seed), proof(m)
     controlled, loop, data = example("ur5", m), found.loop, data_of(found)
     q, sign = random.uniform(-np.pi, np.pi, 6), random.choice([-1.0, 1.0], 6)
@@ -150,10 +154,11 @@ def test_dV_is_below_the_form_at_any_state(seed: int, m: int, power: int) -> Non
     dV = float(rate(controlled.arm, controlled.controller, loop.eps0, state))
     with precision(BITS):
         form = BoxForm(loop, data.inertia.prices, [bound.prices for bound in data.rising])
-        ones = [to_arb(F(1))] * 6
-        box = tuple((float(x), float(x)) for x in size)
-        r_squared = sum((to_arb(F(float(x))) ** 2 for x in size), to_arb(F(0)))
-        rows = form.rows(box, inverse_one_plus_root(r_squared), to_arb(F(2) ** power), ones, ones)
+        width = random.uniform(0, 0.1 * size) if wide else np.zeros(6)
+        box = tuple((float(x - d), float(x + d)) for x, d in zip(size, width, strict=True))
+        scales = [[to_arb(F(float(x))) for x in np.exp(random.normal(size=6))] for _ in "wp"]
+        r_squared = sum((square(side) for side in box), arb(0))
+        rows = form.rows(box, inverse_one_plus_root(r_squared), to_arb(F(2) ** power), *scales)
     if rows is None:
         return
     P = np.zeros((6, 6))
