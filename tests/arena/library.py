@@ -4,6 +4,8 @@ The folder has the certificates of one script:
 
     lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib     (LaSalle's theorem)
     lyapcheck check proofs/slotine_li.py --certificates OUT/slo           (exponential, ISS, a cascade)
+    lyapcheck check proofs/pid.py --certificates OUT/pid                  (a region, a state of the controller)
+    lyapcheck check proofs/feedforward.py --certificates OUT/fee          (a region, along a motion)
 
 Its theorems stand in the arena with their premises, and with statements that are false while the premises are
 still those of the true one.
@@ -89,7 +91,7 @@ def put(*place: Any) -> Change:
     return change
 
 
-ONE, ZERO = ["num", "1"], ["num", "0"]
+ZERO, ONE, TWO = ["num", "0"], ["num", "1"], ["num", "2"]
 CHANGES, CONTRACTION = ("changes", 0, "equals"), ("cascade", "contraction")
 FALSE: dict[str, tuple[Change, str]] = {
     "damping-turned": (damping_turned, "K_v adds energy"),
@@ -153,6 +155,33 @@ FALSE_OF: dict[str, dict[str, tuple[Change, str]]] = {
             put(*CONTRACTION, "sizes", ["norm_e", "norm_w"]),
             "in a size that does not vanish",
         ),
+    },
+    "pid.P": {
+        "region-global": (put("local", False), "dV/dt is bounded within the region alone"),
+        "region-no-condition": (put("where", []), "for all gains"),
+        "region-no-damping": (lambda it: it["where"].pop(1), "for any damping"),
+        "region-no-gravity": (put("gravity", False), "V without the energy of gravity"),
+        "region-no-integral": (
+            put("system", "states", 0, "rate", ["scale", ["num", "-1"], ["vec", "e"]]),
+            "integral action turned",
+        ),
+        "region-no-rest": (put("rest", None), "z may stay anywhere"),
+        "region-rest": (put("rest", "form", "sizes", ["norm_w"]), "what stays 0 does not see z"),
+        "region-changed": (
+            put("changes", 0, "equals", 1, ["scale", TWO, ["vec", "y_z"]]),
+            "a change of letters that stretches",
+        ),
+        "region-lower": (put("lower", "entries", 5, ["var", "Ki_min"]), "V is not above the form"),
+        "region-rate": (put("rate", "entries", 2, ["var", "Kv_min"]), "dV/dt is not below the form"),
+    },
+    "fee.P": {
+        "feedforward-global": (put("local", False), "dV/dt is bounded within the region alone"),
+        "feedforward-no-condition": (put("where", []), "for all gains"),
+        "feedforward-no-stiffness": (lambda it: it["where"].pop(1), "for any stiffness"),
+        "feedforward-goal": (put("system", "desired", False), "at a goal, under a torque for a motion"),
+        "feedforward-gravity": (put("gravity", True), "gravity has no energy along a motion"),
+        "feedforward-below": (put("upper", "entries", 2, ["var", "mu"]), "V is above Φ"),
+        "feedforward-rate": (put("rate", "entries", 2, ["var", "Kv_min"]), "dV/dt is not below the form"),
     },
 }
 """For each theorem, what makes its statement false, or one that its proof is not about."""

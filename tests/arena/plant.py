@@ -17,10 +17,7 @@ the names begin the names of the files:
     lyapcheck check proofs/tracking.py --m 1 --certificates OUT/tra
     python -m tests.arena.extra OUT/ext
     python -m tests.arena.plant OUT/arc OUT/asy OUT/eve OUT/pub OUT/rob OUT/sca OUT/tra OUT/ext
-    lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib
-    python -m tests.arena.library OUT/lib
-    lyapcheck check proofs/slotine_li.py --certificates OUT/slo
-    python -m tests.arena.library OUT/slo
+    python -m tests.arena.library OUT/lib, and so on: see there
 """
 
 from __future__ import annotations

@@ -150,6 +150,7 @@ NO_PARAMETERS: Edits = [
 ]
 WAVE = ["mul", ["sin", ["div", ONE, ["var", "eps"]]], ["var", "eps"]]
 REST = {"against": ["vec", "e"], "form": {"entries": [ONE], "linear": [], "sizes": ["norm_e"]}}
+SMALL = {"left": ["var", "eps0"], "operator": "<", "right": ONE}
 FIVE = ["norm_e", "norm_w", "norm_h", "norm_y_w", "norm_k"]
 NO_BOUND = {"forms": [], "prices": []}
 LINKED = {
@@ -231,6 +232,7 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ),
     (FREE, [((*ARGUMENT, "lower", "entries"), [])], "do not fit the sizes"),
     (FREE, [((*SYSTEM, "friction"), "plenty")], "must be one of"),
+    (FREE, [((*ARGUMENT, "where"), [SMALL])], "must be about constants of this system"),
     ("pub.F.10.base", [(("uses",), {"a": "0" * 64})], "a refutation rests on nothing"),
     ("pub.F.10.base", [((S, "printed"), "4\u202e0")], "is not plain Unicode text in NFC"),
     ("ext.corners", [((P, "below"), [1, 1]), ((S, "printed"), "2.2")], "is above the printed result"),
