@@ -4,7 +4,7 @@ The folder has the certificates of one script:
 
     lyapcheck check proofs/takegaki_arimoto.py --certificates OUT/lib     (LaSalle's theorem)
     lyapcheck check proofs/slotine_li.py --certificates OUT/slo           (exponential, ISS, a cascade)
-    lyapcheck check proofs/pid.py --certificates OUT/pid                  (a region, a state of the controller)
+    lyapcheck check proofs/pid.py --certificates OUT/pid                  (a region, integral action)
     lyapcheck check proofs/feedforward.py --certificates OUT/fee          (a region, along a motion)
 
 Its theorems stand in the arena with their premises, and with statements that are false while the premises are
