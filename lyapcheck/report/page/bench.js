@@ -82,8 +82,8 @@
     for (let k = 0; k <= 4; k++) {
       const y = y0 + ((y1 - y0) * k) / 4, x = x0 + ((x1 - x0) * k) / 4;
       svg.append(mark("line", { x1: 36, x2: 312, y1: at(x0, y)[1], y2: at(x0, y)[1], stroke: "var(--grid)" }));
-      svg.append(mark("text", { x: 33, y: at(x0, y)[1] + 3, "text-anchor": "end" }, short(+y.toPrecision(2))));
-      svg.append(mark("text", { x: at(x, y0)[0], y: 182, "text-anchor": "middle" }, short(+x.toPrecision(2))));
+      svg.append(mark("text", { x: 33, y: at(x0, y)[1] + 3, "text-anchor": "end" }, short(+y.toPrecision(3))));
+      svg.append(mark("text", { x: at(x, y0)[0], y: 182, "text-anchor": "middle" }, short(+x.toPrecision(3))));
     }
     const line = (points, colour, dashed) => svg.append(mark("polyline", {
       points: points.map(([x, y]) => at(x, Math.max(y0, Math.min(y1, y))).map((c) => c.toFixed(1)).join(",")).join(" "),
@@ -95,15 +95,16 @@
   const bars = (name, values, limits) => {
     const svg = document.getElementById(`plot-${name}`);
     svg.replaceChildren();
+    const room = Math.max(44, 170 / n), high = Math.min(26, room - 26);
+    svg.setAttribute("viewBox", `0 0 320 ${Math.max(190, 14 + room * n)}`);
     values.forEach((value, i) => {
-      const y = 14 + (170 / n) * i, high = Math.min(26, 120 / n), limit = limits[i];
-      svg.append(mark("text", { x: 4, y: y + high / 2 + 10 }, arm.joints[i].slice(0, 14)));
-      if (limit === null) { svg.append(mark("text", { x: 90, y: y + high / 2 + 10 }, "no limit known")); return; }
-      const share = limit > 0 ? value / limit : Infinity, good = share < 1;
+      const y = 14 + room * i, limit = limits[i], share = limit > 0 ? value / limit : Infinity, good = share < 1;
+      const said = limit === null ? "no limit known" : `${good ? "✓" : "✗"} ${short(value)} of ${short(limit)}`;
+      svg.append(mark("text", { x: 8, y: y + 10 }, `${arm.joints[i]}: ${said}`));
+      if (limit === null) return;
       const colour = good ? "var(--good)" : "var(--bad)";
-      svg.append(mark("rect", { x: 90, y: y + 4, width: Math.min(220, 150 * share), height: high, fill: colour, opacity: 0.75 }));
-      svg.append(mark("line", { x1: 240, x2: 240, y1: y, y2: y + high + 8, stroke: "currentColor", "stroke-width": 2 }));
-      svg.append(mark("text", { x: 94, y: y + high + 18 }, `${good ? "✓" : "✗"} ${short(value)} of ${short(limit)}`));
+      svg.append(mark("rect", { x: 8, y: y + 18, width: Math.min(300, 220 * share), height: high, fill: colour, opacity: 0.75 }));
+      svg.append(mark("line", { x1: 228, x2: 228, y1: y + 14, y2: y + high + 22, stroke: "currentColor", "stroke-width": 2 }));
     });
   };
 
@@ -139,7 +140,7 @@
     bars("damping", state.kv, state.kv.map(() => least / (root * gamma)));
     const runs = arm.joints.map((_, i) => run(i));
     const steps = frame("step", [0, 3], [-1, 1]);
-    const shares = frame("share", [0, 3], [0, 1.25]);
+    const shares = frame("share", [0, 3], [0, 1.2]);
     shares.line([[0, 1], [3, 1]], "var(--bad)", true);
     runs.forEach((points, i) => {
       const colour = COLOURS[i % COLOURS.length];
