@@ -95,6 +95,17 @@ def function_of_changed(document: Document) -> Edits:
     ]
 
 
+def function_in_change(document: Document) -> Edits:
+    """w = Λe − y_w + diag(f(e)) e, which is not linear."""
+    changes = document[S]["argument"]["changes"][0]["equals"]
+    function = {"bounded": False, "member": None, "name": "f", "of": "e"}
+    more = ["apply", ["diag", "f"], ["vec", "e"]]
+    return [
+        ((*SYSTEM, "functions"), [function]),
+        ((*ARGUMENT, "changes", 0, "equals"), [*changes, more]),
+    ]
+
+
 def diagonal_of_changed(document: Document) -> Edits:
     """wᵀ diag(w) w in V, with w changed to another letter."""
     cubic = ["dot", ["vec", "w"], ["apply", ["diag", "w"], ["vec", "w"]]]
@@ -233,6 +244,7 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     (FREE, [((*ARGUMENT, "lower", "entries"), [])], "do not fit the sizes"),
     (FREE, [((*SYSTEM, "friction"), "plenty")], "must be one of"),
     (FREE, [((*ARGUMENT, "where"), [SMALL])], "must be about constants of this system"),
+    (EXPONENTIAL, function_in_change, "must be linear, of numbers, diag(K) and states"),
     ("pub.F.10.base", [(("uses",), {"a": "0" * 64})], "a refutation rests on nothing"),
     ("pub.F.10.base", [((S, "printed"), "4\u202e0")], "is not plain Unicode text in NFC"),
     ("ext.corners", [((P, "below"), [1, 1]), ((S, "printed"), "2.2")], "is above the printed result"),
