@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 
@@ -22,8 +23,17 @@ settings.load_profile("fast")
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
+# Nothing of what collection makes is garbage before the end, and it is much to look through again and again.
+gc.disable()
+
 # What an earlier run has found is not what is tested, nor does a test leave anything to a later run.
 os.environ[store.OFF] = "1"
+
+
+def pytest_collection_finish() -> None:
+    """From here on there is garbage, in what is made from here on."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="module")

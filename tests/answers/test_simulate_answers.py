@@ -47,7 +47,7 @@ def short_run(number: int = 0) -> Run:
 
 @cache
 def broken_run() -> Run:
-    return simulate(TABLE2[0], robots.load("buap3"), TARGET, eps0=50.0, stop=False)
+    return simulate(TABLE2[0], robots.load("buap3"), TARGET, T=0.5, points=101, eps0=50.0, stop=False)
 
 
 @cache

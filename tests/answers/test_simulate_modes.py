@@ -20,8 +20,9 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.starts import Starts, sweep
 from lyapcheck.simulate.task import PAPER_TASK
+from tests.helpers.shares import one_in
 
-TABLE2 = str(paper_gain_file("table2"))
+TABLE2, SMALL = (str(paper_gain_file(name)) for name in ("table2", "table2_shoulder_elbow"))
 SINE = 'kind = "sine"\namplitude = [20, 30, 40]\nfrequency = [0.5, 0.5, 0.25]\n'
 
 
@@ -193,8 +194,11 @@ def test_random_starts_in_words_and_rows(lyapcheck):
     assert rows[1].startswith("tau_m1,1,yes,")
 
 
-def test_states_at_which_v_rises_have_certificates(lyapcheck, tmp_path):
-    lyapcheck(TABLE2, "--time", 0.5, "--eps0", 50, "--certificates", tmp_path)
+@pytest.mark.parametrize(
+    ("file", "target"), one_in(2, [(SMALL, "45,90"), (TABLE2, "45,45,90")]), ids=["two joints", "three"]
+)
+def test_states_at_which_v_rises_have_certificates(lyapcheck, tmp_path, file, target):
+    lyapcheck(file, "--target", target, "--time", 0.5, "--eps0", 50, "--certificates", tmp_path)
     certificates = sorted(tmp_path.iterdir())
     assert [path.name for path in certificates] == [f"tau_m{m}.breach.json" for m in (1, 2, 3)]
     for path in certificates:

@@ -74,7 +74,7 @@ def require_largest(tuning, members, folder):
 @pytest.mark.parametrize(
     ("robot", "digits"),
     one_in(
-        4,
+        5,
         [
             *(("buap3", digits) for digits in (1, 2, 3, 6, 12)),
             *(("buap3-small", digits) for digits in (2, 3, 9)),

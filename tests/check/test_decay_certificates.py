@@ -33,7 +33,7 @@ from lyapcheck.search.decay.bounds import settling_bound
 from lyapcheck.simulate.task import Task
 from lyapcheck.verdicts import Verdict
 from tests.helpers.command import invoke
-from tests.helpers.shares import one_in
+from tests.helpers.shares import but, one_in
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -129,10 +129,16 @@ FAULTS: list[tuple[str, Callable[[Document], None], str]] = [
     ("no level", put([], "statement", "envelope"), "must have a level"),
     ("a torque below 0", put(["-1", "0"], "statement", "torque"), "from 0 to"),
 ]
+LONG = ("another member", "a larger ε₀")
+"""Refused by some late box, as another stiffness is by an early one."""
 
 
 @pytest.mark.parametrize("kind", one_in(2, ["settling", "disturbed"]))
-@pytest.mark.parametrize(("name", "change", "says"), FAULTS, ids=[name for name, *_ in FAULTS])
+@pytest.mark.parametrize(
+    ("name", "change", "says"),
+    but([fault for fault in FAULTS if fault[0] not in LONG], FAULTS),
+    ids=[name for name, *_ in FAULTS],
+)
 def test_altered_bounds_are_refused(
     made: dict[str, Certificate], kind: str, name: str, change: Callable[[Document], None], says: str
 ) -> None:

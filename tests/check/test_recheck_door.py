@@ -373,7 +373,7 @@ def interruptible():
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts processes as Linux lists them")
-@pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
+@pytest.mark.parametrize("command", one_in(2, [MODULE, COMMAND]), ids=["module", "command"])
 @pytest.mark.parametrize(("number", "code"), one_in(2, [(signal.SIGTERM, 143), (signal.SIGINT, 130)]))
 def test_no_process_is_left_behind(folder, command, number, code):
     (folder / "slow.json").write_text(SLOW, encoding="utf-8")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,7 @@ GOLDEN = HERE / "statements.txt"
 """To be read by a person: each claim in the checker's words, and below it what Coq is asked."""
 
 
+@cache
 def certificates() -> list[tuple[str, Certificate]]:
     """The committed certificates by their places."""
     return [

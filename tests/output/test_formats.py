@@ -23,6 +23,7 @@ from lyapcheck.output.escapes import document_text, latex_text, printable
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.output.json import LONGEST, laid_out
 from lyapcheck.output.text import WIDTH, render
+from tests.helpers.letters import letters
 
 NASTY = [
     "<script>alert(1)</script>",
@@ -41,7 +42,7 @@ NASTY = [
     "=cmd|' /C calc'!A0",
     "$\\frac$ 100% {x} ^ ~ _ &",
 ]
-NAMES = st.one_of(st.sampled_from(NASTY), st.text(min_size=1, max_size=12))
+NAMES = st.one_of(st.sampled_from(NASTY), letters(1, 12))
 
 
 @dataclass(frozen=True)
@@ -302,8 +303,8 @@ def test_colour_adds_nothing_but_colour() -> None:
 # --- JSON --------------------------------------------------------------------------------------------
 
 JSON = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.text(max_size=30),
-    lambda inner: st.lists(inner, max_size=5) | st.dictionaries(st.text(max_size=9), inner, max_size=5),
+    st.none() | st.booleans() | st.integers() | letters(most=30),
+    lambda inner: st.lists(inner, max_size=5) | st.dictionaries(letters(most=9), inner, max_size=5),
     max_leaves=30,
 )
 
