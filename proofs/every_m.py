@@ -164,7 +164,7 @@ UPPER = M - Fraction(1, 2) + Fraction(9, 16) / M
 def _():
     p, q = exp(Fraction(-3, 2) / M), exp(Fraction(3, 2) / M**2)
     slope = p * (2 * M + q * (2 * M - 1 - p)) / (1 + p) ** 2
-    return for_all(UPPER - Fraction(3, 4) / M**2 < slope, 1, variable="m")
+    return for_all(UPPER - Fraction(3, 4) / M**2 < slope, 1)
 
 
 @proof.claim("E.rho.right", "|h_m'| ≤ m − 1/2 where sinh^(2m) x ≥ 1, every real m ≥ 2")
@@ -237,7 +237,7 @@ def _():
         rising=implies(free, (), slope <= 4 * m * p * q),
         falling=implies(free, (), -slope <= 4 * m * p * q),
         exponent=implies(nonnegative("k", "more"), (), -(m + more) * (m - 1) / m <= 1 - m),
-        small=for_all(4 * M * exp(1 - M) < M - Fraction(1, 2), 3, variable="m"),
+        small=for_all(4 * M * exp(1 - M) < M - Fraction(1, 2), 3),
     )
 
 

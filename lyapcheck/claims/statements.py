@@ -41,10 +41,22 @@ def for_all(
     high: object | None = None,
     open_low: bool = False,
     open_high: bool = False,
-    variable: str = "x",
+    variable: str | None = None,
 ) -> ForAll:
-    """A relation for every x from low to high, ends included unless said to be open; None is infinity."""
-    return ForAll(_one(Relation, relation, "relation"), _end(low), _end(high), open_low, open_high, variable)
+    """A relation for every x, its variable, from low to high, ends included unless open; None is infinity.
+
+    Raises:
+        ValueError: the relation has several variables.
+    """
+    one = _one(Relation, relation, "relation")
+    names = sorted(variables(one.left) | variables(one.right))
+    if variable is None and len(names) > 1:
+        quoted = ", ".join(f'"{name}"' for name in names)
+        raise ValueError(
+            f"for_all takes a relation in one variable, this has {quoted}; "
+            f"write implies(reals({quoted}), [], relation)"
+        )
+    return ForAll(one, _end(low), _end(high), open_low, open_high, variable or "".join(names) or "x")
 
 
 def norm_bound(component: Expr, n: int, bound: object, power: int = 0) -> NormBound:

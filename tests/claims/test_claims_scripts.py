@@ -97,6 +97,14 @@ def _(case):
     assert [(row.n, row.verdict.value) for row in result] == [(1, "proved"), (2, "proved"), (3, "refuted")]
 
 
+def test_a_variable_of_any_name_is_that_of_a_relation(write):
+    path = write(
+        "t = var('t')\nproof.add('a', '', for_all(tanh(t) <= t, 0))\nproof.add('b', '', for_all(-t < 1, -1))"
+    )
+    result = run_proof(path, ms=(1,), n=1)
+    assert [row.decision.verdict.value for row in result.claims] == ["proved", "refuted"]
+
+
 def test_only_some_claims_are_reported_but_what_they_use_is_decided(write):
     result = run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=1, only=("c",))
     assert [row.id for row in result.claims] == ["c"]
@@ -133,6 +141,10 @@ def test_only_some_claims_are_reported_but_what_they_use_is_decided(write):
             "a vector or matrix stands where a number must; write K @ x",
         ),
         ("constant_goal().e + 1", "a number stands beside a vector or matrix"),
+        (
+            "for_all(var('x') <= var('y'))",
+            r'one variable, this has "x", "y"; write implies\(reals\("x", "y"\)',
+        ),
         ("var('x') ** 0.5", r"0\.5 is no whole number; write sqrt\(x\)"),
         ("import math\nmath.tanh(var('x'))", "math and numpy take numbers, not letters"),
         ("import numpy\nnumpy.tanh(var('x'))", "math and numpy take numbers, not letters"),
