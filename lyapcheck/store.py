@@ -14,15 +14,17 @@ import json
 import os
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.temporary import pending
+
+T = TypeVar("T")
 
 OFF = "LYAPCHECK_NO_STORE"
 """Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
@@ -89,6 +91,28 @@ def put(question: Mapping[str, Any], answer: Any) -> None:
     if not os.environ.get(OFF):
         text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"))
         keep(ANSWERS, key_of(question), gzip.compress(text.encode(), 3, mtime=0))
+
+
+def remembered(
+    question: Mapping[str, Any],
+    read: Callable[[Any], T | None],
+    compute: Callable[[], T],
+    written: Callable[[T], Any],
+) -> T:
+    """The answer to a question: what is kept, where it is read as one, else computed now and kept.
+
+    Args:
+        question: plain data.
+        read: what is kept, judged again; ``None`` where it does not hold.
+        compute: the answer.
+        written: an answer as plain data.
+    """
+    answer = take(question)
+    result = None if answer is None else read(answer)
+    if result is None:
+        result = compute()
+        put(question, written(result))
+    return result
 
 
 def key_of(question: Mapping[str, Any]) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
 WIDTH = 80
 _NEGATIVE = re.compile(r"-\.?\d")
@@ -71,39 +71,18 @@ class Parser(argparse.ArgumentParser):
             help=f"{help} One of {', '.join(words)}.",
         )
 
-    def add_whole(
+    def add_number(
         self,
         option: str,
-        help: str,  # noqa: A002
-        *,
-        default: int | None = None,
-        least: int | None = None,
-        most: int | None = None,
-    ) -> None:
-        """Add an option that takes a whole number between two ends."""
-        self._add_number(option, int, "a whole number", (least, most), default, help)
-
-    def add_real(
-        self,
-        option: str,
+        kind: type[int] | type[float],
         help: str,  # noqa: A002
         *,
         default: float | None = None,
         least: float | None = None,
+        most: float | None = None,
     ) -> None:
-        """Add an option that takes a number."""
-        self._add_number(option, float, "a number", (least, None), default, help)
-
-    def _add_number(
-        self,
-        option: str,
-        kind: Callable[[str], Any],
-        what: str,
-        ends: tuple[float | None, float | None],
-        default: float | None,
-        help: str,  # noqa: A002
-    ) -> None:
-        least, most = ends
+        """Add an option that takes a number, or a whole number, between two ends."""
+        what = "a whole number" if kind is int else "a number"
 
         def read(word: str) -> Any:
             try:

@@ -52,12 +52,12 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         gate: the gate's results, for a figure.
         progress: receives the fraction done and a few words.
     """
-    asked = question(subject)
-    result = read(store.take(asked), subject)
-    if result is None:
-        result = _afresh(subject, notes, gate, progress)
-        store.put(asked, written(result))
-    return result
+    return store.remembered(
+        question(subject),
+        lambda kept: read(kept, subject),
+        lambda: _afresh(subject, notes, gate, progress),
+        written,
+    )
 
 
 def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:

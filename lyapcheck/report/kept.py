@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import subprocess
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from fractions import Fraction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
@@ -17,7 +15,7 @@ from lyapcheck.answers.check.claim import statement_text
 from lyapcheck.certificate import to_json
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.decreasing import statement_of
-from lyapcheck.claims.python_process import command, environment
+from lyapcheck.claims.fresh_check import answer_of
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report.bench import holds_of
@@ -28,7 +26,6 @@ from lyapcheck.report.plain import plain
 from lyapcheck.report.plain import read as read_row
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.temporary import temporary_folder
 
 if TYPE_CHECKING:
     from lyapcheck.report.subject import Subject
@@ -61,8 +58,6 @@ def read(kept: Any, subject: Subject) -> Computed | None:
 
     The certificates must also be of the statements that are shown, and of the arm and gains of the report.
     """
-    if kept is None:
-        return None
     try:
         figures = {
             name: drawing if isinstance(drawing, str) else b64decode(drawing["base64"])
@@ -72,7 +67,7 @@ def read(kept: Any, subject: Subject) -> Computed | None:
         with _judging(result.certificates) as judged:
             said = _of(subject, result) and _as_said(result)
             return result if said and _decided(result, judged()) else None
-    except (InputError, AttributeError, KeyError, TypeError, ValueError):
+    except (InputError, AttributeError, KeyError, RuntimeError, TypeError, ValueError):
         return None
 
 
@@ -142,9 +137,9 @@ def _eps0(certificate: str) -> Fraction:
 @contextmanager
 def _judging(certificates: Mapping[str, str]) -> Iterator[Callable[[], dict[str, Any]]]:
     """Two fresh processes of the checker at work; what they say, by the digest of each certificate."""
-    halves: tuple[list[str], list[str]] = ([], [])
-    for path, text in certificates.items():
-        halves[path.split("/")[1] in HALF].append(text)
+    halves: tuple[dict[str, str], dict[str, str]] = ({}, {})
+    for number, (path, text) in enumerate(certificates.items()):
+        halves[path.split("/")[1] in HALF][f"{number}.json"] = text
 
     def judged() -> dict[str, Any]:
         answers = [job.result() for job in jobs]
@@ -153,15 +148,5 @@ def _judging(certificates: Mapping[str, str]) -> Iterator[Callable[[], dict[str,
         return {row["digest"]: row for answer in answers for row in answer["certificates"] if row["accepted"]}
 
     with ThreadPoolExecutor(len(halves)) as pool:
-        jobs = [pool.submit(_answer, half) for half in halves if half]
+        jobs = [pool.submit(answer_of, half) for half in halves if half]
         yield judged
-
-
-def _answer(certificates: list[str]) -> dict[str, Any]:
-    with temporary_folder() as folder:
-        for number, text in enumerate(certificates):
-            Path(folder, f"{number}.json").write_text(text, encoding="utf-8")
-        words = command("lyapcheck.check", "--format", "json", folder)
-        run = subprocess.run(words, stdout=subprocess.PIPE, env=environment(), check=False)
-    answer: dict[str, Any] = json.loads(run.stdout)
-    return answer

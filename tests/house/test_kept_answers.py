@@ -184,7 +184,7 @@ def test_bounds_that_were_exchanged_are_asked_again(
 def test_bounds_within_more_than_is_asked_are_asked_again(computed_once: kept_motion.Bounds) -> None:
     """A true statement about wider errors, under the question of narrower ones."""
     question = kept_motion.BoundsQuestion(*_asked(delta=Fraction(1, 20))).question(300)
-    store.put(question, kept_motion.written(*computed_once))
+    store.put(question, kept_motion.written(computed_once))
     assert bounds(delta=0.05)[0] is computed_once[0]  # handed out by who computes
 
 

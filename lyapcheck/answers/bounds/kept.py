@@ -56,30 +56,25 @@ def kept_bounds(
     """``settling_bound`` and ``disturbance_bound``, from the store where they are there and hold."""
     acting = Disturbance(torques_of(controlled, "torque", torque), torques_of(controlled, "dry", dry))
     asked = BoundsQuestion(controlled, start_of(controlled, e0, w0, delta), as_written(delta), acting)
-    question = asked.question(max_boxes)
-    result = asked.read(store.take(question), jobs)
-    if result is None:
-        budget: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs}
-        result = (
-            settling_bound(
-                controlled, e0, w0, delta, on_progress=lambda f, note: on_progress(0.5 * f, note), **budget
-            ),
-            disturbance_bound(
-                controlled,
-                e0,
-                w0,
-                torque,
-                dry,
-                on_progress=lambda f, note: on_progress(0.5 + 0.5 * f, note),
-                **budget,
-            ),
-        )
-        store.put(question, written(*result))
-    return result
+    budget: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs}
+
+    def half(before: float) -> Progress:
+        return lambda fraction, note: on_progress(before + 0.5 * fraction, note)
+
+    return store.remembered(
+        asked.question(max_boxes),
+        lambda kept: asked.read(kept, jobs),
+        lambda: (
+            settling_bound(controlled, e0, w0, delta, on_progress=half(0), **budget),
+            disturbance_bound(controlled, e0, w0, torque, dry, on_progress=half(0.5), **budget),
+        ),
+        written,
+    )
 
 
-def written(settling: SettlingBound, left: DisturbanceBound) -> dict[str, Any]:
+def written(result: Bounds) -> dict[str, Any]:
     """Statements, their proofs, and why there is none, as plain data."""
+    settling, left = result
     shown = {SETTLING: settling.shown, DISTURBED: left.shown, RESTING: left.resting}
     proofs = {
         name: None if one is None else [to_json(one.statement), to_json(one.proof)]
@@ -115,7 +110,7 @@ class BoundsQuestion:
     def read(self, kept: Any, jobs: int) -> Bounds | None:
         """What was written, if the checker accepts all of it, and it is about what is asked."""
         try:
-            return None if kept is None else self._read(kept, jobs)
+            return self._read(kept, jobs)
         except BROKEN:
             return None
 

@@ -50,10 +50,12 @@ def kept_epsilon(
     if options.seconds is not None:  # another run of so many seconds may find a larger one
         return four(gain_set, model, options, on_progress)
     asked, limits = question(gain_set, model, options), options.limits
-    result = read(store.take(asked), gain_set, model, options)
-    if result is None:
-        result = four(gain_set, model, replace(options, limits=None), on_progress)
-        store.put(asked, written(result))
+    result = store.remembered(
+        asked,
+        lambda kept: read(kept, gain_set, model, options),
+        lambda: four(gain_set, model, replace(options, limits=None), on_progress),
+        written,
+    )
     if limits is None:
         return result
     near = nearby(gain_set, model, limits, result.certified, options, on_progress)
@@ -95,7 +97,7 @@ def read(kept: Any, gain_set: GainSet, model: RobotModel, options: Options) -> E
     """What was written, if the checker accepts all of it for these gains and this arm."""
     try:
         controlled = ControlledArm(gain_set, model, options.ranges)
-        return None if kept is None else _read(kept, controlled, model.assumptions, options.jobs)
+        return _read(kept, controlled, model.assumptions, options.jobs)
     except (Refused, Contradiction, KeyError, TypeError, ValueError, ZeroDivisionError, AttributeError):
         return None
 

@@ -29,11 +29,12 @@ def kept_constants(
 ) -> tuple[ConstantResult, ...]:
     """What :func:`arm_constants` finds with a budget of boxes, from the store where it is there."""
     asked = {"constants": store.exact(model), "boxes": budget}
-    result = _read(store.take(asked), model)
-    if result is None:
-        result = arm_constants(model, budget, on_progress=on_progress)
-        store.put(asked, [_written(one) for one in result])
-    return result
+    return store.remembered(
+        asked,
+        lambda kept: _read(kept, model),
+        lambda: arm_constants(model, budget, on_progress=on_progress),
+        lambda result: [_written(one) for one in result],
+    )
 
 
 def _written(one: ConstantResult) -> dict[str, Any]:
@@ -45,7 +46,7 @@ def _written(one: ConstantResult) -> dict[str, Any]:
 def _read(kept: Any, model: RobotModel) -> tuple[ConstantResult, ...] | None:
     """What was written; its bounds are made anew of the links of this arm."""
     try:
-        return None if kept is None else tuple(_constant(row, model) for row in kept)
+        return tuple(_constant(row, model) for row in kept)
     except (Refused, KeyError, TypeError, ValueError, ZeroDivisionError):
         return None
 

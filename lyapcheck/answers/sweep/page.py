@@ -5,7 +5,7 @@ from __future__ import annotations
 from lyapcheck.answers.sweep.result import SweepAnswer, stem
 from lyapcheck.output.document import Figure
 from lyapcheck.output.elements import Markup, element
-from lyapcheck.output.html import blocks
+from lyapcheck.output.html import blocks, page
 
 
 def files(answer: SweepAnswer) -> dict[str, str | bytes]:
@@ -28,14 +28,5 @@ def _page(answer: SweepAnswer, drawings: dict[str, str | bytes]) -> str:
         return drawn(name, str(drawings[figure.path]), figure.caption)
 
     document = answer.document()
-    head = element(
-        "head",
-        element("meta", charset="utf-8"),
-        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        element("title", document.title),
-        element("style", raw("style.css")),
-    )
-    main = element(
-        "main", element("section", element("h1", document.title), list(blocks(document.body, 2, shown)))
-    )
-    return f"<!DOCTYPE html>\n{element('html', head, element('body', main), lang='en')}\n"
+    section = element("section", element("h1", document.title), blocks(document.body, 2, shown))
+    return page(document.title, element("main", section), raw("style.css"))

@@ -37,14 +37,14 @@ def arguments(parser: Parser) -> None:
     parser.add_argument(
         "--start", metavar="ANGLES", help="Initial joint angles in degrees; all 0 if missing."
     )
-    parser.add_real("--delta", "The error to come below, in degrees.", default=1.0)
+    parser.add_number("--delta", float, "The error to come below, in degrees.", default=1.0)
     about = "Bounds in N·m of torques of any sign, one a joint: 0.1,0.1,0.05."
     parser.add_argument("--disturbance", metavar="TORQUES", help=about)
     about = "Bounds in N·m of dry friction, one a joint; those of the arm if missing."
     parser.add_argument("--friction", metavar="TORQUES", help=about)
-    parser.add_real("--time", "Duration of the simulated runs in s.", default=5.0)
-    parser.add_whole("--max-boxes", "Budget of boxes for each attempt.", default=60_000, least=1)
-    parser.add_whole("--jobs", "Processes for checking the boxes.", default=2, least=1, most=64)
+    parser.add_number("--time", float, "Duration of the simulated runs in s.", default=5.0)
+    parser.add_number("--max-boxes", int, "Budget of boxes for each attempt.", default=60_000, least=1)
+    parser.add_number("--jobs", int, "Processes for checking the boxes.", default=2, least=1, most=64)
     add_certificates(parser)
     add_no_store(parser)
     add_format(parser)

@@ -18,7 +18,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("proof", metavar="PROOF.py", help="A proof script; published.py is the paper's.")
     add_members(parser, "1:3")
     parser.add_argument("--robot", metavar="ROBOT", help="A robot name or file; the paper's arm if missing.")
-    parser.add_whole("--n", "Number of joints, in place of a robot.")
+    parser.add_number("--n", int, "Number of joints, in place of a robot.")
     parser.add_argument("--gains", metavar="FILE", help="A gain file; the paper's Table 2 if missing.")
     parser.add_argument(
         "--only", metavar="ID", action="append", help="Report this claim only; may be repeated."

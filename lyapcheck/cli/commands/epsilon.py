@@ -44,9 +44,10 @@ def arguments(parser: Parser) -> None:
     add_robot(parser)
     about = "Only the gain sets of these members: 3, 1,2,5 or 1:12."
     parser.add_argument("--m", metavar="M", help=about)
-    parser.add_whole("--max-boxes", "Budget of branch and bound.", default=400_000, least=1)
-    parser.add_whole(
+    parser.add_number("--max-boxes", int, "Budget of branch and bound.", default=400_000, least=1)
+    parser.add_number(
         "--jobs",
+        int,
         "Processes that share the boxes, of the search and of the checker.",
         default=2,
         least=1,
@@ -55,18 +56,18 @@ def arguments(parser: Parser) -> None:
     about = "For all values of what is uncertain about the arm."
     parser.add_argument("--ranges", action="store_true", help=about)
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
-    parser.add_real("--spread", about)
+    parser.add_number("--spread", float, about)
     add_vary(parser)
     about = "Time for branch and bound; the answer then depends on the machine."
-    parser.add_real("--seconds", about, least=0)
+    parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)
     about = "°/s: also ε₀ among states with |w_i| at most that, one for all joints or one a joint."
     parser.add_argument("--max-speed", metavar="SPEEDS", help=about)
     about = "Degrees: also ε₀ among states with |e_i| at most that, likewise."
     parser.add_argument("--max-error", metavar="ERRORS", help=about)
-    parser.add_whole("--starts", "Starts of each optimised search.", default=30, least=1)
-    parser.add_whole("--seed", "Seed of the sampled states.", default=20190301, least=0)
+    parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1)
+    parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
     add_certificates(parser)
     parser.add_argument("--timings", action="store_true", help="Add the seconds each gain set took.")
     add_no_store(parser)

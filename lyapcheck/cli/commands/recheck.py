@@ -21,8 +21,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("certificates", metavar="CERTIFICATE...", nargs="+", help=about)
     parser.add_argument("--full", action="store_true", help=HELP["full"])
     parser.add_argument("--trusted", action="store_true", help=HELP["trusted"])
-    parser.add_whole("--seconds", HELP["seconds"], default=Limits.seconds, least=1, most=MOST)
-    parser.add_whole("--memory", HELP["memory"], default=Limits.memory, least=1, most=MOST)
+    parser.add_number("--seconds", int, HELP["seconds"], default=Limits.seconds, least=1, most=MOST)
+    parser.add_number("--memory", int, HELP["memory"], default=Limits.memory, least=1, most=MOST)
     about = "Also print what each shows as a theorem of Coq's, and have Coq's kernel judge it; needs coqc."
     parser.add_argument("--kernel", action="store_true", help=about)
     about = "The same, and keep the files for Coq in this folder."

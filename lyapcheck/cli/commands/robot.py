@@ -25,7 +25,7 @@ def arguments(parser: Parser) -> None:
     about = "For a URDF: the link that ends the chain; the longest chain if missing."
     parser.add_argument("--tip", metavar="LINK", help=about)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
-    parser.add_whole("--max-boxes", about, least=1)
+    parser.add_number("--max-boxes", int, about, least=1)
     about = "Write the arm as an arm file to be edited, - for standard output, and decide nothing."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
     add_certificates(parser, "Write the certificates of what is decided there")

@@ -27,7 +27,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--experiment", action="store_true", help=about)
     about = "Follow the trajectory of this reference file under (21), instead of a target."
     parser.add_argument("--reference", metavar="FILE", type=Path, help=about)
-    parser.add_real("--time", "Duration in s; 5, or the length of the reference.")
+    parser.add_number("--time", float, "Duration in s; 5, or the length of the reference.")
     about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
     parser.add_argument("--target", metavar="ANGLES", help=about)
     parser.add_argument(
@@ -41,10 +41,10 @@ def arguments(parser: Parser) -> None:
     )
     parser.add_argument("--eps0", metavar="N", help=about)
     about = "Degrees: with --reference, the time from which on all errors stay inside; 1."
-    parser.add_real("--band", about)
-    parser.add_whole("--runs", "So many runs from random starts; shows how the indices spread.")
-    parser.add_real("--spread", "Degrees: with --runs, starts lie so far about --start; 45.")
-    parser.add_whole("--seed", "Of the random starts; 0.")
+    parser.add_number("--band", float, about)
+    parser.add_number("--runs", int, "So many runs from random starts; shows how the indices spread.")
+    parser.add_number("--spread", float, "Degrees: with --runs, starts lie so far about --start; 45.")
+    parser.add_number("--seed", int, "Of the random starts; 0.")
     add_vary(parser)
     about = "Go on after a broken promise instead of stopping there."
     parser.add_argument("--keep-going", action="store_true", help=about)

@@ -28,7 +28,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan; see examples/sweep_plan.toml.")
     about = "Write rows, certificates and a page with maps there."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
-    parser.add_whole("--jobs", "Processes; one a core if missing.", least=1, most=MOST)
+    parser.add_number("--jobs", int, "Processes; one a core if missing.", least=1, most=MOST)
     about = "Ask the workers of this Dask scheduler, tcp://host:port (extra sweep)."
     parser.add_argument("--scheduler", metavar="ADDRESS", help=about)
     about = "Go on with the sweep in --out: what is kept is judged again, the rest is asked."

@@ -25,7 +25,7 @@ _QUIET_ROWS = 500
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_members(parser, "1:12")
-    parser.add_whole("--digits", "Significant digits.", default=30)
+    parser.add_number("--digits", int, "Significant digits.", default=30)
     about = "Add what this arm's torque limits leave to k_p + k_v of each joint."
     parser.add_argument("--robot", metavar="ROBOT", help=about)
     about = "Add the leading terms for m → ∞, and what is left beside them."

@@ -38,10 +38,10 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
     add_members(parser, None, " 1:3 if missing; with targets and more than three joints 1.")
-    parser.add_whole("--digits", "Decimal places of the gains.", default=3)
-    parser.add_real("--overshoot", "Target: most overshoot, per cent of a joint's step.")
-    parser.add_real("--settle", "Target: seconds until each joint stays within 2 %% of its step.")
-    parser.add_real("--rest-error", "Target: degrees from the goal that dry friction may leave.")
+    parser.add_number("--digits", int, "Decimal places of the gains.", default=3)
+    parser.add_number("--overshoot", float, "Target: most overshoot, per cent of a joint's step.")
+    parser.add_number("--settle", float, "Target: seconds until each joint stays within 2 %% of its step.")
+    parser.add_number("--rest-error", float, "Target: degrees from the goal that dry friction may leave.")
     about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1; with targets: in any motion."
     parser.add_argument("--peak-share", metavar="SHARES", default="1", help=about)
     about = "With targets: where motions start, degrees. At home if missing."

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
@@ -37,23 +35,6 @@ class BoundWithProof:
     def at_end(self, value: Fraction) -> Bound:
         """The statement with another bound."""
         return with_end(self.statement, value)
-
-
-def storage_bounds(chain: Chain) -> dict[str, Callable[[], Fraction | None]]:
-    """For each constant how to bound it for all angles: λmin(M) from below, the others from above.
-
-    Returns:
-        By the name of the constant a function that gives the bound, or ``None`` where none was certified.
-
-    Soundness: what the solver of semidefinite programs says is not relied on; see `storage_proof`.
-    """
-    names = ["lambda_min", "lambda_max", "k_c", "k_g", *(f"k_g{i + 1}" for i in range(chain.n))]
-    return {name: partial(_bound, chain, name) for name in names}
-
-
-def _bound(chain: Chain, name: str) -> Fraction | None:
-    shown = storage_proof(chain, name)
-    return None if shown is None else shown.bound
 
 
 def storage_proof(

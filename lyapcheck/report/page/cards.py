@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.html import fold
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow
 from lyapcheck.report.page.drawing import figure
@@ -38,7 +39,7 @@ def _group(report: Report, weight: str) -> Markup:
             element("tr", element("th", f.subject, scope="row"), element("td", _short(f))) for f in result
         ]
         table = element("table", element("tbody", rows), class_="cards-on-phone")
-        return element("details", element("summary", element("h3", title)), table, class_="fold")
+        return fold(title, table)
     return element(
         "div", element("h3", title), [_card(report, one) for one in result], class_=f"weight {weight}"
     )

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 
 from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.html import fold
 from lyapcheck.output.mathml import latex, sentence
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.model import Report, anchor
@@ -92,14 +93,7 @@ def _graph(report: Report) -> Markup:
         role="region",
         aria_label="Graph",
     )
-    return element(
-        "details",
-        element("summary", element("h3", "The graph of claims")),
-        folded,
-        element("p", words),
-        class_="fold graph",
-        open=True,
-    )
+    return fold("The graph of claims", folded, element("p", words), classes="fold graph", opened=True)
 
 
 def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
@@ -119,12 +113,8 @@ def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[s
         element("tbody", [_claim(report, group, used_by) for _, group in claims]),
         class_="claims cards-on-phone",
     )
-    summary = element(
-        "summary",
-        element("h3", title),
-        element("span", plural(len(claims), "claim"), each, Markup(counts), class_="tally"),
-    )
-    return element("details", summary, table, class_="fold group")
+    tally = element("span", plural(len(claims), "claim"), each, Markup(counts), class_="tally")
+    return fold(title, table, beside=tally, classes="fold group")
 
 
 def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
@@ -217,5 +207,4 @@ def _equations(report: Report) -> Markup:
         element("li", element("b", f"({number})"), latex(text), id=f"equation-{number}")
         for number, text in report.notes.equations.items()
     ]
-    title = element("summary", element("h3", "The paper's formulas"))
-    return element("details", title, element("ul", rows, class_="equations"), class_="fold")
+    return fold("The paper's formulas", element("ul", rows, class_="equations"))

@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.elements import Markup, element
-from lyapcheck.output.html import blocks
+from lyapcheck.output.html import blocks, fold
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.drawing import figure
@@ -22,7 +22,7 @@ def evidence_section(report: Report) -> Markup:
         shown(report, four_epsilons(report)),
         _certificates(report),
         [
-            _fold(report, section.title, section.blocks)
+            fold(section.title, shown(report, section.blocks))
             for section in (*known(report), *evidence(report), *rests(report))
         ],
         id="evidence",
@@ -36,10 +36,6 @@ def _certificates(report: Report) -> Markup | None:
         for kind, path in row.certificates.items():
             parts += [", " if parts else "", element("a", f"{row.name} {kind}", href=path)]
     return element("p", "Certificates: ", parts, ".") if parts else None
-
-
-def _fold(report: Report, title: str, inner: Iterable[Block]) -> Markup:
-    return element("details", element("summary", element("h3", title)), shown(report, inner), class_="fold")
 
 
 def shown(report: Report, result: Iterable[Block]) -> Markup:

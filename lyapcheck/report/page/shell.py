@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import resources
 
 from lyapcheck.output.elements import Markup, element
+from lyapcheck.output.html import page
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.cards import findings_section
 from lyapcheck.report.page.claims import claims_section
@@ -32,21 +33,13 @@ def render(report: Report) -> str:
         gains_section(report),
         evidence_section(report),
     )
-    head = element(
-        "head",
-        element("meta", charset="utf-8"),
-        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        element("title", f"Proof check: {title}"),
-        element("style", raw("style.css"), _members(report)),
-    )
-    body = element(
-        "body",
+    body = (
         element("a", "Skip to the findings", href="#findings", class_="skip"),
         element("header", _navigation(), class_="bar"),
         element("main", sections),
         element("script", raw("page.js"), raw("bench.js")),
     )
-    return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
+    return page(f"Proof check: {title}", body, (raw("style.css"), _members(report)))
 
 
 def raw(name: str) -> Markup:
@@ -57,14 +50,8 @@ def raw(name: str) -> Markup:
 def redirect(m: int) -> str:
     """What stands where the page of one member was: a link to the claims of the whole page."""
     target = f"index.html#m{m}"
-    head = element(
-        "head",
-        element("meta", charset="utf-8"),
-        element("meta", http_equiv="refresh", content=f"0; url={target}"),
-        element("title", f"m = {m}"),
-    )
-    body = element("body", element("a", f"m = {m}", href=target))
-    return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
+    elsewhere = element("meta", http_equiv="refresh", content=f"0; url={target}")
+    return page(f"m = {m}", element("a", f"m = {m}", href=target), meta=elsewhere)
 
 
 def _navigation() -> Markup:
