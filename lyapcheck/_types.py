@@ -22,5 +22,10 @@ def silent(fraction: float, note: str) -> None:
     """Progress that nobody looks at."""
 
 
+def part(progress: Progress, low: float, high: float, about: str = "") -> Progress:
+    """Of work that is done between two fractions of the whole; what it is about stands before its notes."""
+    return lambda fraction, note: progress(low + (high - low) * fraction, about + note)
+
+
 SEED = 20190301
 """Where random choices begin, unless the user says otherwise: the month of the paper."""

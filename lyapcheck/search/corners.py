@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from lyapcheck._types import Progress, silent
+from lyapcheck._types import Progress, part, silent
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import RisingState
@@ -41,16 +41,12 @@ def falsify_corners(
     best, witness = replace(controlled, ranges=False), None
     trial = best
     for turn in range(ROUNDS):
-        result = look(trial, _part(progress, turn))
+        result = look(trial, part(progress, turn / ROUNDS, (turn + 1) / ROUNDS, f"corner {turn + 1}: "))
         if result is None or (witness is not None and result.eps0 >= witness.eps0):
             break
         best, witness = trial, result
         trial = replace(controlled, model=worst_corner(controlled.model, best, witness), ranges=False)
     return best, witness
-
-
-def _part(progress: Progress, turn: int) -> Progress:
-    return lambda fraction, note: progress((turn + fraction) / ROUNDS, f"corner {turn + 1}: {note}")
 
 
 def worst_corner(model: Plant, at: ControlledArm, witness: RisingState) -> Plant:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck._types import Array, Progress, silent
+from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
@@ -96,7 +96,7 @@ def weighted_epsilon(
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
     """
     progress = on_progress or silent
-    result, states = _proposal(controlled, float(eps0), seed, lambda f, note: progress(0.5 * f, note))
+    result, states = _proposal(controlled, float(eps0), seed, part(progress, 0, 0.5))
     looked_at = 0
     for index, share in enumerate(SHARES):
         progress(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")

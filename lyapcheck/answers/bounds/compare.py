@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck._types import Array, Progress, silent
+from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.answers.bounds.kept import kept_bounds
 from lyapcheck.robots.vary import corners, only_varied
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -112,7 +112,7 @@ def compare(
             dry,
             max_boxes=max_boxes,
             jobs=jobs,
-            on_progress=lambda f, note: progress(0.4 * f, note),
+            on_progress=part(progress, 0, 0.4),
         )
         ranged = only_varied(*varied)
         controlled = ControlledArm(gain_set, ranged, ranges=True)
@@ -128,7 +128,7 @@ def compare(
         friction,
         max_boxes=max_boxes,
         jobs=jobs,
-        on_progress=lambda f, note: progress(0.9 * f if varied is None else 0.4 + 0.4 * f, note),
+        on_progress=part(progress, 0, 0.9) if varied is None else part(progress, 0.4, 0.8),
     )
     runs = []
     for index, arm in enumerate(arms):

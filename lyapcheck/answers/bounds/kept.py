@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
+from lyapcheck._types import part
 from lyapcheck.certificate import to_json
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.decreasing import statement_of
@@ -57,16 +58,14 @@ def kept_bounds(
     acting = Disturbance(torques_of(controlled, "torque", torque), torques_of(controlled, "dry", dry))
     asked = BoundsQuestion(controlled, start_of(controlled, e0, w0, delta), as_written(delta), acting)
     budget: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs}
-
-    def half(before: float) -> Progress:
-        return lambda fraction, note: on_progress(before + 0.5 * fraction, note)
-
     return store.remembered(
         asked.question(max_boxes),
         lambda kept: asked.read(kept, jobs),
         lambda: (
-            settling_bound(controlled, e0, w0, delta, on_progress=half(0), **budget),
-            disturbance_bound(controlled, e0, w0, torque, dry, on_progress=half(0.5), **budget),
+            settling_bound(controlled, e0, w0, delta, on_progress=part(on_progress, 0, 0.5), **budget),
+            disturbance_bound(
+                controlled, e0, w0, torque, dry, on_progress=part(on_progress, 0.5, 1), **budget
+            ),
         ),
         written,
     )

@@ -15,7 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import SEED, Progress, silent
+from lyapcheck._types import SEED, Progress, part, silent
 from lyapcheck.answers.epsilon.assembled import put_together
 from lyapcheck.answers.epsilon.forms import by_forms, proof_of
 from lyapcheck.answers.epsilon.nearby import nearby
@@ -97,7 +97,7 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
         controlled,
         10 * (scalar.eps0 or Fraction(1)),
         replace(options, max_boxes=0) if reasons["certified"] else options,
-        lambda f, note: progress(main * f, note),
+        part(progress, 0, main),
     )
     at, witness, result = search.run()
     if witness is None:
@@ -109,9 +109,7 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     weighted = None
     if options.weights and certified is not None and controlled.family.bounded:
         budget = options.max_boxes, options.jobs
-        weighted = weighted_epsilon(
-            controlled, certified, *budget, on_progress=lambda f, note: progress(main + (1 - main) * f, note)
-        )
+        weighted = weighted_epsilon(controlled, certified, *budget, on_progress=part(progress, main, 1))
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
     limits = options.limits
     return put_together(
@@ -154,12 +152,12 @@ class _Search:
         """
         before, first, max_boxes = None, CertifiedEpsilon(None, 0, ""), self.options.max_boxes
         if max_boxes and not self.controlled.ranges and self.controlled.n <= FEW_JOINTS:
-            before = self._falsify(self.controlled, self._part(0.0, 0.1), quick=True)
+            before = self._falsify(self.controlled, part(self.progress, 0.0, 0.1), quick=True)
         if before is not None:
             first = self._certified(before, max_boxes, 0.1, 0.5)
             if first.eps0 is not None and first.eps0 >= NEARLY * before.eps0:
                 return self.controlled, before, first
-        at, witness = self._falsified(self._part(0.5, 0.7))
+        at, witness = self._falsified(part(self.progress, 0.5, 0.7))
         if before is not None and (witness is None or before.eps0 <= witness.eps0):
             return self.controlled, before, first
         if not max_boxes:
@@ -181,11 +179,8 @@ class _Search:
         self, witness: RisingState | None, max_boxes: int, low: float, high: float
     ) -> CertifiedEpsilon:
         ceiling = self.guess if witness is None else witness.eps0
-        jobs, seconds, progress = self.options.jobs, self.options.seconds, self._part(low, high)
+        jobs, seconds, progress = self.options.jobs, self.options.seconds, part(self.progress, low, high)
         return certified_epsilon(self.controlled, ceiling, max_boxes, jobs, seconds, progress)
-
-    def _part(self, low: float, high: float) -> Progress:
-        return lambda fraction, note: self.progress(low + (high - low) * fraction, note)
 
 
 def _best(controlled: ControlledArm, result: CertifiedEpsilon) -> tuple[DecreaseProof | None, str, str]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import Progress
+from lyapcheck._types import Progress, part
 from lyapcheck.answers.epsilon.consistency import require_consistent
 from lyapcheck.answers.epsilon.options import Options, StateLimits
 from lyapcheck.check.kinds.nearby import DecreasingNearby
@@ -104,15 +104,14 @@ def nearby(
     def look(arm: NearbyArm, progress: Progress) -> RisingState | None:
         return falsify_nearby(arm, seed=options.seed, on_progress=progress)
 
-    def part(low: float, high: float) -> Progress:
-        return lambda share, note: on_progress(low + (high - low) * share, f"within limits: {note}")
-
-    at, witness = falsify_corners(near, look, part(0, 0.4)) if ranges else (near, look(near, part(0, 0.4)))
+    first = part(on_progress, 0, 0.4, "within limits: ")
+    at, witness = falsify_corners(near, look, first) if ranges else (near, look(near, first))
     reason = unphysical(controlled)
     ceiling = Fraction(GUESS) if witness is None else witness.eps0
     shares = sorted({*SHARES, *([] if everywhere is None else [everywhere / ceiling])})
     budget, below = 0 if reason else options.max_boxes, [share for share in shares if share < 1]
-    largest = certified_epsilon(near, ceiling, budget, options.jobs, options.seconds, part(0.4, 1), below)
+    rest = part(on_progress, 0.4, 1, "within limits: ")
+    largest = certified_epsilon(near, ceiling, budget, options.jobs, options.seconds, rest, below)
     proof = largest.proof
     if isinstance(proof, NearbyProof):
         proof = with_motions(near, proof, options.jobs)
