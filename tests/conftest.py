@@ -36,6 +36,13 @@ def pytest_collection_finish() -> None:
     gc.enable()
 
 
+@pytest.fixture
+def few_tries(monkeypatch):
+    """Where it is asked whether a proof exists: the search for entries against it may be short."""
+    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES", 20)
+    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES_OF_ONE", 20)
+
+
 @pytest.fixture(scope="module")
 def in_this_process():
     """Scripts run, and certificates are judged, in the process of the test, by the same functions.

@@ -52,9 +52,9 @@ def test_bad_input_is_one_message_and_exit_code_2(arguments, tmp_path):
 
 
 def test_explain_needs_no_decision(tmp_path):
-    run = lyapcheck("explain", "7b", folder=tmp_path)
+    run = lyapcheck("explain", "7a", folder=tmp_path)
     assert run.returncode == 0
-    assert "(7), second line" in run.stdout
+    assert "(7), first line" in run.stdout
 
 
 def test_what_is_assumed_about_an_arm_is_said_where_a_claim_looks_at_it(tmp_path):

@@ -98,6 +98,7 @@ def test_a_bound_by_norms_is_proved(name):
     assert verdict(TRUE[name]) == "proved"
 
 
+@pytest.mark.usefixtures("few_tries")
 @pytest.mark.parametrize("name", one_in(3, OPEN))
 def test_what_norms_do_not_give_stays_open(name):
     assert verdict(OPEN[name]) != "proved"
@@ -180,13 +181,6 @@ def test_it_has_no_better_one(desired):
     for better in ({"corner": "1.001"}, {"side": "0.999"}, {"low": "1.001"}, {"more": 1}, {"less": 1}):
         one = {name: expr(value) for name, value in better.items()}
         assert verdict(rate_of(**one, desired=desired)) != "proved"
-
-
-@pytest.fixture
-def few_tries(monkeypatch):
-    """What is asked is whether a proof exists; the search for entries against it may be short."""
-    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES", 20)
-    monkeypatch.setattr("lyapcheck.claims.procedures.norm_bounds.TRIES_OF_ONE", 20)
 
 
 @pytest.mark.slow

@@ -190,6 +190,7 @@ def test_a_planted_fault_in_the_cascade_is_not_proved(tmp_path, right, wrong):
     assert propose(conclusion).verdict.value in ("undecided", "refuted")
 
 
+@pytest.mark.usefixtures("few_tries")
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),
     but(

@@ -45,7 +45,7 @@ NOTES = published_notes()
 def found() -> StudyRow:
     """A small study of m = 1 and PD, as it stands in a report."""
     sets = [read_gain_file(paper_gain_file(name)).gains[0] for name in ("table2", "table2_pd")]
-    small = study(sets, load("buap3"), spread=32, corners=16, seed=1)
+    small = study(sets, load("buap3"), spread=16, corners=16, seed=1)
     assert small is not None
     return read(StudyRow, json.loads(json.dumps(study_json(small), allow_nan=False)))
 

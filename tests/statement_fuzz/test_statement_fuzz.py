@@ -22,7 +22,7 @@ from tests.statement_fuzz.run import Run, Tally, run
 from tests.statement_fuzz.shrink import shrunk
 from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
-FEW = 100
+FEW = 60
 MANY = 800
 
 x = var("x")
@@ -97,8 +97,8 @@ def stubborn(statement: Any) -> Any:
 
 @pytest.mark.parametrize("wrong", [credulous, contrary, stubborn])
 def test_an_unsound_procedure_is_caught(wrong: Any) -> None:
-    result = [judge(draw(5, k), k, by=wrong) for k in range(60)]
-    assert sum(bool(one.fault) for one in result) > 10
+    result = [judge(draw(5, k), k, by=wrong) for k in range(30)]
+    assert sum(bool(one.fault) for one in result) > 5
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def blind_to_strictness(statement: Any) -> Any:
 
 
 def test_a_procedure_that_takes_strict_for_weak_is_caught() -> None:
-    result = [judge(draw(7, k, "Constant"), k, by=blind_to_strictness) for k in range(300)]
+    result = (judge(draw(7, k, "Constant"), k, by=blind_to_strictness) for k in range(300))
     assert any("equal numbers" in one.made.family and one.fault for one in result)
 
 
