@@ -79,9 +79,10 @@ class Stable(Total):
                 f", w = {expression_text(change.equals)}, ‖M d({change.letter})/dt‖ ≤ {motion}, "
                 f"eᵀw ≥ {contraction}"
             )
+        upper = f", V ≤ Φ = {expression_text(argument.upper.tree)}" if argument.upper is not None else ""
         return (
             f"{self.conclusion} {loop_text(argument)}: by {known.name} ({known.reference}) with "
-            f"{energy_text(argument)}, V ≥ φ = {lower}, dV/dt ≤ −({rate}){beside}"
+            f"{energy_text(argument)}, V ≥ φ = {lower}{upper}, dV/dt ≤ −({rate}){beside}"
         )
 
 
