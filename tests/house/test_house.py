@@ -21,9 +21,14 @@ def modules() -> dict[str, Path]:
     return result
 
 
-def imported(module: str, types: bool = False) -> Iterator[str]:
+@cache
+def imported(module: str, types: bool = False) -> tuple[str, ...]:
     """The modules of the package that one imports as it is loaded; those for types alone if asked."""
-    waiting: list[ast.AST] = [ast.parse(modules()[module].read_text(encoding="utf-8"))]
+    return tuple(_imported(ast.parse(modules()[module].read_text(encoding="utf-8")), types))
+
+
+def _imported(tree: ast.AST, types: bool) -> Iterator[str]:
+    waiting = [tree]
     while waiting:
         node = waiting.pop()
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
