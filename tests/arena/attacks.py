@@ -163,6 +163,8 @@ ON_SETTLING: list[Attack] = [
         )
         for name in ("settling", "phases")
     ),
+    ("phases-size-negative", "ext.phases", [(at(S, "after", "sizes"), ["-2/5"])], "errors of negative size"),
+    ("phases-within-negative", "ext.phases", [(at(P, "phases", 0, "within"), ["-2"])], "a box turned round"),
     ("corners-mass", "ext.mass-at-corners", [(at(S, "parameters", 0), ["1/4", "1"])], "a lighter corner"),
     ("corners-mass-square", "ext.mass-at-corners", [(at(S, "mass", 0, 0, 0, 0), [0, 0, 2])], "M that bends"),
     ("corners-mass-none", "ext.mass-at-corners", [(at(P, "each"), [])], "no corner"),

@@ -69,6 +69,7 @@ class StaysWithin(OfLoop, Total):
         if self.after is not None:
             count = len(self.after.sizes)
             require(count == n, "sizes", count, f"must be {n}, one a joint")
+            require(min(self.after.sizes) >= 0, "sizes", min(self.after.sizes), "must not be negative")
             require(self.after.scale > 0, "scale", self.after.scale, "must be positive")
             require(degree(self.family, self.m) is not None, "after", self.family, "is not of this family")
 

@@ -171,7 +171,7 @@ class ClosedLoop:
             return False
         if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
             return False
-        if min(self.nearby, default=1) <= 0 or (self.within and self.nearby):
+        if min((*self.within, *self.nearby), default=1) <= 0 or (self.within and self.nearby):
             return False
         powers = {len(p) for row in self.mass for entry in row for p in entry}
         return self.inertia.symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
