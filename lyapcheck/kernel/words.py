@@ -143,7 +143,9 @@ class _Lines:
             place: Counter[str] = Counter()
             for name, power in powers.items():
                 place[merged(name, self.words)] += power
-            cover = covers[tuple(sorted(place.items()))]
+            cover = covers.get(tuple(sorted(place.items())))
+            if cover is None:
+                raise NotPrinted("terms that cancel once diagonal matrices change places")
             value = Fraction(int(c.p), int(c.q))
             if cover.least is None:
                 line, term, size = self.by_norms(k, statement, powers, cover.norms)

@@ -240,10 +240,10 @@ KILLER = """
 import os, signal
 from lyapcheck.answers.sweep.question import answered
 OPTIONS = {}
-def ask(questions, jobs):
-    if any(one.gains.m == 2 for one in questions):
+def ask(question, known, options):
+    if question.gains.m == 2:
         os.kill(os.getpid(), signal.SIGKILL)
-    return [answered(one, "observed", None) for one in questions]
+    return answered(question, "observed", None)
 """
 
 
