@@ -98,10 +98,11 @@ def simulate(
     accuracy = math.nan if failure else _difference(rough, fine, model.n)
     with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
         every = with_extremes(fine, lambda path: _watched(loop, setup, path))
-        breach = _broken(setup, _reference(loop, setup, every, accuracy))
-        if breach is not None and stop:
-            fine, every = fine.until(breach.t), every.until(breach.t)
         seen = _reference(loop, setup, every, accuracy)
+        breach = _broken(setup, seen)
+        if breach is not None and stop:
+            fine = fine.until(breach.t)
+            seen = _reference(loop, setup, every.until(breach.t), accuracy)
         run = _reference(loop, setup, fine, accuracy)
         run = replace(run, indices=seen.indices, promises=seen.promises, breach=breach)
     if breach is not None and stop:

@@ -118,10 +118,12 @@ def track_as_asked(
     accuracy = math.nan if failure else float(np.max(np.abs(fine.y - rough.y)[:, : 2 * model.n]))
     with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
         every = with_extremes(fine, task.watched)
-        breach = task.run(every, accuracy).breach
+        seen = task.run(every, accuracy)
+        breach = seen.breach
         if breach is not None and stop:
-            fine, every = fine.until(breach.t), every.until(breach.t)
-        run = replace(task.run(fine, accuracy), indices=task.run(every, accuracy).indices, breach=breach)
+            fine = fine.until(breach.t)
+            seen = task.run(every.until(breach.t), accuracy)
+        run = replace(task.run(fine, accuracy), indices=seen.indices, breach=breach)
     title = f"{gain_set.name} on {model.name}"
     if breach is not None and stop:
         raise TrackingFailed(f"{title}: {breach.sentence}", run)

@@ -49,13 +49,25 @@ def _items(part: str) -> Iterator[File | Call]:
     yield from (item for _, item in sorted([*result, *calls], key=lambda pair: pair[0]))
 
 
+def _copied(source: Path, copy: Path) -> None:
+    """A package to which files of the checker can be added: the folders that get none are linked."""
+    copy.mkdir(parents=True)
+    for entry in source.iterdir():
+        if entry.is_dir() and entry.name != "check":
+            (copy / entry.name).symlink_to(entry)
+        elif entry.is_dir():
+            shutil.copytree(entry, copy / entry.name)
+        else:
+            shutil.copy(entry, copy)
+
+
 class Workshop:
     """A folder with a copy of lyapcheck, whose checker may get files, and a folder of the user's own."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.copy, self.mine = folder, folder / "copy", folder / "mine"
         source = Path(lyapcheck.__file__).parent
-        shutil.copytree(source, self.copy / "lyapcheck")
+        _copied(source, self.copy / "lyapcheck")
         if not (source / "proofs").is_dir():
             shutil.copytree(source.parent / "proofs", self.copy / "proofs")
         self.mine.mkdir()
