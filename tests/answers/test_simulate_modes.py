@@ -207,6 +207,7 @@ def test_states_at_which_v_rises_have_certificates(lyapcheck, tmp_path, file, ta
         assert certificate.statement.eps0 == 50
 
 
+@pytest.mark.slow
 def test_a_run_of_a_batch_is_the_run_by_itself():
     model, gain_set = robots.load("buap3"), read_gain_file(TABLE2).gains[0]
     found = sweep(gain_set, model, PAPER_TASK, Starts(3, 0.5, 1))

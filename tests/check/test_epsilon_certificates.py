@@ -129,6 +129,7 @@ def test_a_changed_refutation_is_refused(pair: tuple[Certificate, Certificate], 
         judge(reread(pair[1], AGAINST_REFUTATION[name]))
 
 
+@pytest.mark.slow
 def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certificate, Certificate]) -> None:
     certified, falsified = pair
     moved = replace(certified, statement=falsified.statement)

@@ -171,6 +171,7 @@ def test_a_file_that_vanishes_between_listing_and_judging_is_refused(folder):
     assert result["gone.json"].reason == "cannot be read (No such file or directory)"
 
 
+@pytest.mark.slow
 def test_a_name_that_is_no_unicode_is_printed_as_an_escape(folder):
     os.rename(folder / "good.json", os.fsencode(folder) + b"/b\xffd\x1b.json")
     for form in ("text", "json"):
@@ -372,9 +373,10 @@ def interruptible():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts processes as Linux lists them")
-@pytest.mark.parametrize("command", one_in(2, [MODULE, COMMAND]), ids=["module", "command"])
-@pytest.mark.parametrize(("number", "code"), one_in(2, [(signal.SIGTERM, 143), (signal.SIGINT, 130)]))
+@pytest.mark.parametrize("command", [MODULE, COMMAND], ids=["module", "command"])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
 def test_no_process_is_left_behind(folder, command, number, code):
     (folder / "slow.json").write_text(SLOW, encoding="utf-8")
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}

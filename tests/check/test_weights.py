@@ -74,8 +74,8 @@ def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
 
 
 def test_P_over_boxes_holds_P_with_weights() -> None:
-    case, loop = controlled(1), weighted(1).proof.loop
-    model, family = NumericModel(case.model), named("hyperbolic", 2)
+    case, loop = controlled(0), weighted(0).proof.loop
+    model, family = NumericModel(case.model), named("hyperbolic", 1)
     scale, eps0 = np.array([float(x) for x in loop.Lambda]), float(loop.eps0)
     random, L = np.random.default_rng(3), float(family.constants().L.upper)
     with precision(64):

@@ -179,6 +179,7 @@ def gone(pid):
     return False
 
 
+@pytest.mark.slow
 def test_what_a_script_has_started_ends_with_it(write, tmp_path):
     note = tmp_path / "pid"
     body = "import subprocess\nrun = subprocess.Popen(['sleep', '60'])\n"
@@ -284,6 +285,7 @@ def test_a_rule_that_is_wrong_in_this_process_alone_proves_nothing(write, monkey
     assert result.exit_code is Exit.UNDECIDED
 
 
+@pytest.mark.slow
 def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkeypatch):
     judge = lyapcheck.claims.fresh_check.judge_afresh
 

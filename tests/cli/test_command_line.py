@@ -16,6 +16,7 @@ from lyapcheck.cli import main as command_line
 from lyapcheck.cli.commands import NAMES
 from lyapcheck.cli.main import CLOSED_PIPE, main
 from lyapcheck.errors import argument_error
+from tests.helpers.command import lyapcheck
 from tests.helpers.shares import one_in
 
 SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
@@ -359,7 +360,7 @@ def test_where_nobody_reads_nothing_is_begun(words):
     ids=" ".join,
 )
 def test_a_place_that_takes_nothing_is_named_before_the_work(words):
-    done = subprocess.run([SCRIPT, *words], capture_output=True, text=True, check=False)
+    done = lyapcheck(*words)
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
     assert line.startswith(f"error: argument: {words[-2]} = /proc/self")

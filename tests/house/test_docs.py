@@ -70,6 +70,7 @@ def test_there_are_commands_in_the_documents() -> None:
     assert len(EVERY) > 25
 
 
+@pytest.mark.slow
 def test_the_tutorial_does_what_it_says(tmp_path: Path) -> None:
     text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
     gains = re.search(r"```toml\n(.*?)```", text, re.DOTALL)

@@ -25,6 +25,13 @@ from tests.helpers.one_process import one_process
 from tests.helpers.small_proofs import small_proof
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A whole report takes ten seconds; what is quick is about reports put together by hand."""
+    for item in items:
+        if "report" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.slow)
+
+
 class AtOnce(Executor):
     """Does what it is handed before it returns."""
 

@@ -37,6 +37,7 @@ from lyapcheck.report.write import render
 from lyapcheck.robots import load
 from studies.printed_experiment.json import study_json
 from studies.printed_experiment.study import study
+from tests.report.test_report import Balance
 
 NOTES = published_notes()
 
@@ -45,7 +46,7 @@ NOTES = published_notes()
 def found() -> StudyRow:
     """A small study of m = 1 and PD, as it stands in a report."""
     sets = [read_gain_file(paper_gain_file(name)).gains[0] for name in ("table2", "table2_pd")]
-    small = study(sets, load("buap3"), spread=16, corners=16, seed=1)
+    small = study(sets, load("buap3"), spread=8, corners=8, seed=1)
     assert small is not None
     return read(StudyRow, json.loads(json.dumps(study_json(small), allow_nan=False)))
 
@@ -69,6 +70,14 @@ def files(found: StudyRow) -> dict[str, str | bytes]:
         **empty,
     )
     return render(report)
+
+
+def test_tags_of_its_pages_are_closed_in_their_order(files: dict[str, str | bytes]) -> None:
+    for name, page in files.items():
+        if name.endswith(".html"):
+            reader = Balance()
+            reader.feed(str(page))
+            assert reader.open == []
 
 
 def number(**changed: Any) -> NumberRow:

@@ -150,7 +150,7 @@ def test_a_wrong_sign_of_coriolis_would_be_noticed() -> None:
         assert bool(entry.lo[0] - 1e-12 <= exact[1, 0] <= entry.hi[0] + 1e-12) is agrees
 
 
-@pytest.mark.parametrize("index", [0, 1, 2])
+@pytest.mark.parametrize("index", one_in(3, [1, 0, 2]))
 def test_proved_below_the_falsified_and_never_above(index: int) -> None:
     assert certify(problem("reyes-kelly2", index, FALSIFIED[index] * F(9, 10)), 20_000).proved
     above = certify(problem("reyes-kelly2", index, FALSIFIED[index] * F(101, 100)), 20_000)

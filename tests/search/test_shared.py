@@ -45,7 +45,8 @@ def early(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shared, "WORTH", 16)
 
 
-@pytest.mark.parametrize("budget", [600, pytest.param(450, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("budget", [450, 600])
 def test_subtrees_of_others_change_nothing(early: None, budget: int) -> None:
     alone = certified(budget)
     pool = Here()

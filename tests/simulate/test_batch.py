@@ -68,6 +68,7 @@ def assert_same(one: Runs, other: Runs) -> None:
             assert a == b, entry.name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
 def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
     model, task = robots.load("buap3"), PAPER_TASK
