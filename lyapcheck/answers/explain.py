@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 from lyapcheck._types import Progress
 from lyapcheck.answers.check.claim import one_line
@@ -19,10 +20,12 @@ from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
 from lyapcheck.claims.registry import procedure_of
 from lyapcheck.claims.script import SHIPPED, check_ids, find_script
 from lyapcheck.claims.statements import Missing
+from lyapcheck.control.paper import proofs_folder
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 
 FORMULA = re.compile(r"\(\w+\)")
+ACCENTS = {"'": "\N{COMBINING ACUTE ACCENT}", "~": "\N{COMBINING TILDE}"}
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
 
@@ -52,7 +55,7 @@ class Explanation(Answer):
         script: the proof script that makes it.
         title: of the proof.
         place: where the text makes it, empty where that is not said.
-        reference: the text.
+        reference: the text, or its key in the bibliography.
         uses: the claims it rests on, and what they say.
         used_by: the claims that rest on it, and what they say.
         near: the other claims about the same formulas of the text, and what they say.
@@ -109,7 +112,7 @@ class Explanation(Answer):
         return [{**about, "part": row["name"], "kind": row["kind"], "statement": row["says"]} for row in rows]
 
     def _where(self) -> str:
-        source = f" of {self.reference}" if self.reference else ""
+        source = f" of {_cited(self.reference)}" if self.reference else ""
         place = f"{self.place}{source}" if self.place else "Not in the paper's text"
         return f"{place}; claimed in {self.script}."
 
@@ -258,6 +261,19 @@ def _meant(claim_id: str, ids: Collection[str]) -> str | None:
             return wanted
     near = [known for known in ids if known.casefold() == bare.casefold()]
     return near[0] if len(near) == 1 else None
+
+
+def _cited(reference: str) -> str:
+    """Authors and year, where the bibliography has a work under that key; else the reference as it is."""
+    works = (proofs_folder() / "references.bib").read_text(encoding="utf-8")
+    entry = re.search(rf"^@\w+\{{{re.escape(reference)},(.*?)^\}}", works, re.DOTALL | re.MULTILINE)
+    fields = {} if entry is None else dict(re.findall(r"(\w+) *= \{(.*)\}", entry[1]))
+    if "author" not in fields:
+        return reference
+    text = fields["author"].replace(r"{\o}", "ø")
+    authors = re.sub(r"\{\\(['~])(\w)\}", lambda it: normalize("NFC", it[2] + ACCENTS[it[1]]), text)
+    names = [author.partition(",")[0] for author in authors.split(" and ")]
+    return f"{' and '.join(names) if len(names) < 3 else f'{names[0]} et al.'} ({fields['year']})"
 
 
 def _formulas(place: str) -> str:

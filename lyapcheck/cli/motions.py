@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress
 from lyapcheck.cli.eps0 import Eps0
-from lyapcheck.cli.output import write_whole
+from lyapcheck.cli.output import write_certificates, write_whole
 from lyapcheck.cli.plots import plot_run, plot_tracking
 from lyapcheck.cli.show import show
 from lyapcheck.output.escapes import document_text
@@ -19,6 +19,7 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
+    from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -111,7 +112,7 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
     from lyapcheck.simulate.trial import experiment
 
     runs: list[Run] = []
-    broken: dict[str, str] = {}
+    broken: dict[str, Certificate] = {}
     mover = experiment if bench else partial(simulate, stop=stop)
     for done, (gain_set, arm) in enumerate(job.cases):
         progress = _share_of(job.advance, done, len(job.cases), gain_set.name)
@@ -126,13 +127,12 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
         if job.output.certificates is not None and not bench and runs:
             certificate = breach_certificate(runs[-1], gain_set, arm)
             if certificate is not None and runs[-1].name == gain_set.name:
-                broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate.text()
+                broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
     if job.output.plot is not None:
         for number, run in enumerate(runs, start=1):
             plot_run(run, number, job.output.plot)
     if job.output.certificates is not None:
-        for name, text in broken.items():
-            write_whole(job.output.certificates / name, text)
+        write_certificates(job.output.certificates, broken)
     answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file)
     return job.output.write(answer, lambda: runs_csv(runs))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from lyapcheck.certificate import Certificate
+
+OTHERS_NAMED = 8
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -50,14 +53,22 @@ def open_folder(option: str, path: Path) -> Path:
 
 
 def write_certificates(folder: Path, *groups: Mapping[str, Certificate]) -> None:
-    """Write certificates into a folder, each under its name.
+    """Write certificates into a folder, each under its name, and note which others are there.
 
     Raises:
         InputError: one cannot be written.
     """
-    for group in groups:
-        for name, certificate in group.items():
-            write_whole(folder / name, certificate.text())
+    made = {name: certificate for group in groups for name, certificate in group.items()}
+    for name, certificate in made.items():
+        write_whole(folder / name, certificate.text())
+    others = sorted(path.name for path in folder.glob("*.json") if path.name not in made)
+    if others:
+        from lyapcheck.output.escapes import printable
+
+        names = ", ".join(others[:OTHERS_NAMED])
+        more = f" and {len(others) - OTHERS_NAMED} more" if len(others) > OTHERS_NAMED else ""
+        what = f"{folder} has files that this run did not write, and recheck {folder} judges them, too"
+        print(printable(f"note: {what}: {names}{more}"), file=sys.stderr)
 
 
 def _require_room(option: str, path: Path, folder: Path) -> None:

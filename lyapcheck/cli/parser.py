@@ -105,14 +105,17 @@ class Parser(argparse.ArgumentParser):
             InputError: options that there are not, or the first thing that is wrong with the others.
         """
         options = [name for action in self.actions for name in action.option_strings]
-        before = words[: words.index("--")] if "--" in words else words
+        end = words.index("--") if "--" in words else len(words)
+        before, after = words[:end], words[end + 1 :]
         given = [word.partition("=")[0] for word in before if _is_option(word)]
         unknown = [word for word in given if word not in options]
         if unknown:
             rule = "is not an option here"
             raise InputError([self._problem(word, rule, nearest(word, options)) for word in unknown])
         try:
-            result, surplus = self.parse_known_intermixed_args(words)
+            # argparse forgets the -- when it comes to the arguments
+            files = [f"./{word}" if _is_option(word) else word for word in after]
+            result, surplus = self.parse_known_intermixed_args([*before, *files])
         except argparse.ArgumentError as wrong:
             subject = wrong.argument_name or "arguments"
             raise InputError(self._problem(subject, wrong.message)) from None

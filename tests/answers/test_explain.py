@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import re
+from dataclasses import replace
 from fractions import Fraction
 
 import mpmath
@@ -85,7 +86,7 @@ def test_what_is_printed_answers_the_five_questions():
         out.index(text)
         for text in (
             "16.9: “½ε² hᵀ(C+Cᵀ)h ≤ ε ε₀ n γ² k_c ‖q̃‖‖q̇‖” (the author's words)\n",
-            "(16), term 9 of reyes2019family; claimed in published.py.\n",
+            "(16), term 9 of Reyes-Cortés et al. (2019); claimed in published.py.\n",
             "What is decided, for m = 2, n = 3\n",
             "How it is decided\n",
             "Upper bounds for every n by norms",
@@ -97,6 +98,17 @@ def test_what_is_printed_answers_the_five_questions():
         )
     ]
     assert places == sorted(places)
+
+
+def test_the_text_is_cited_by_authors_and_year_where_the_bibliography_knows_it():
+    of_a_script = explain("7a")
+    for reference, cited in (
+        ("tomei1991adaptive", "Tomei (1991)"),
+        ("santibanez1997strict", "Santibáñez and Kelly (1997)"),
+        ("kelly2005control", "Kelly et al. (2005)"),
+        ("my thesis, p. 3 (draft", "my thesis, p. 3 (draft"),
+    ):
+        assert f"(7) of {cited}; claimed in " in str(replace(of_a_script, reference=reference, place="(7)"))
 
 
 def test_lists_of_how_it_is_decided_stay_lists():

@@ -426,7 +426,24 @@ def test_every_shell_is_told_every_command(shell, run):
 
 @pytest.mark.parametrize("files", [["--strict", TABLE2], [TABLE2, "--strict"], ["--strict", "--", TABLE2]])
 def test_options_stand_before_arguments_or_behind_them(files, run):
-    assert run("gate", *files, "--format", "csv") == run("gate", TABLE2, "--strict", "--format=csv")
+    assert run("gate", "--format", "csv", *files) == run("gate", TABLE2, "--strict", "--format=csv")
+
+
+@pytest.mark.parametrize("name", ["-x.toml", "-h.toml", "--strict"])
+def test_behind_two_dashes_stand_files_whatever_they_begin_with(name, run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_text(Path(TABLE2).read_text(encoding="utf-8"), encoding="utf-8")
+    assert run("gate", "--format", "csv", "--", name) == run("gate", TABLE2, "--format", "csv")
+
+
+def test_files_that_an_earlier_run_left_beside_the_certificates_are_named_and_stay(run, tmp_path):
+    command = ("gate", TABLE2, "--certificates", str(tmp_path))
+    for _ in range(2):
+        assert "did not write" not in run(*command)[2]
+    (tmp_path / "former.10.json").write_text("{}", encoding="utf-8")
+    note = f"note: {tmp_path} has files that this run did not write, and recheck {tmp_path} judges them, too"
+    assert f"{note}: former.10.json\n" in run(*command)[2]
+    assert (tmp_path / "former.10.json").read_text(encoding="utf-8") == "{}"
 
 
 def test_what_begins_with_a_minus_and_a_digit_is_a_value(run):
