@@ -326,6 +326,7 @@ def test_other_functions_are_judged_like_the_hyperbolic_ones(tmp_path: Path) -> 
     assert any(said.startswith("(10p) fails: a motor may saturate") for said in remarks(proved))
 
 
+@pytest.mark.slow
 def test_without_friction_lasalle_is_what_is_known(tmp_path: Path) -> None:
     """(19) fails for every gain, and no ε₀ is proved without friction: M ≻ 0 is, and more is not promised."""
     path = gain_file(tmp_path / "g.toml", "", "[" + ", ".join(["0.1"] * 6) + "]")

@@ -53,6 +53,7 @@ def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     assert "m = 1: (19) costs a factor of" in str(tuned)
 
 
+@pytest.mark.slow
 def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
     """A joint that settles at 3.2 s, after the 3 s that are watched at least."""
     arm, gains = robots.load("pendulum1"), GainSet("slow", 1, (Fraction(3),), (Fraction(1, 10),))
@@ -117,6 +118,7 @@ def test_the_worst_of_all_arms_and_motions_counts() -> None:
     np.testing.assert_array_equal(together.share, np.max([one.share for one in alone], axis=0))
 
 
+@pytest.mark.slow
 def test_one_joint_alone_is_tuned_to_its_targets() -> None:
     """A pendulum without gravity: the program's gains keep what was asked of it."""
     joint = Joint(0.5, 0.1, 0.0, 0.0, 0.8, math.inf, 50.0, 50.0)

@@ -140,6 +140,7 @@ def test_so_does_the_command_which_judges_in_a_process_for_each():
     assert faults([sys.executable, "-m", "lyapcheck.check"], one_in=20) == []
 
 
+@pytest.mark.slow
 def test_a_checker_that_believes_everything_is_found_out():
     result = faults(["true"], one_in=5)
     assert all("accepted, expected" in line for line in result)

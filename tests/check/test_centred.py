@@ -157,6 +157,7 @@ def test_trees_of_two_joints_near_the_falsified_are_small(index: int) -> None:
     assert not proves(replace(case, eps0=case.eps0 * F(1002, 1000)), result.tree)
 
 
+@pytest.mark.slow
 def test_a_kernel_gets_boxes_that_ranges_alone_show() -> None:
     case = loop_of("reyes-kelly2", "table2_shoulder_elbow", 1, "0.9")
     tree = certify(SchurProblem(case), 10_000).tree

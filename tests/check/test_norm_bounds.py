@@ -289,6 +289,7 @@ def test_covers_that_entries_contradict_are_not_proposed(monkeypatch):
     assert "words are at fault" in str(found)
 
 
+@pytest.mark.slow
 def test_the_process_that_judges_draws_entries_too(tmp_path):
     """A bound whose suppositions nothing meets is true, and still refused."""
     proof = propose(TRUE["a diagonal"]).proof

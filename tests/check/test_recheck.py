@@ -512,6 +512,7 @@ def test_the_checker_imports_only_the_standard_library_and_flint(folder):
     assert alone.stdout == command("recheck", folder).stdout
 
 
+@pytest.mark.slow
 def test_the_module_has_the_exit_codes_of_the_command(folder):
     def code(*arguments):
         words = [sys.executable, "-m", "lyapcheck.check", *map(str, arguments)]

@@ -316,6 +316,7 @@ def test_what_takes_too_long_is_refused_and_the_rest_goes_on(folder):
     assert result["good.json"][0] == "accepted"
 
 
+@pytest.mark.slow
 def test_what_takes_too_much_memory_is_refused_and_the_rest_goes_on(folder):
     (folder / "a large one.json").write_text(LARGE, encoding="utf-8")
     result = statuses(folder, "--memory", "200")

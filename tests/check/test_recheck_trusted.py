@@ -188,6 +188,7 @@ def run_by(content):
         sys.setprofile(None)
 
 
+@pytest.mark.slow
 def test_whatever_runs_is_listed():
     """The list is read off the sources; here certificates of every kind are judged, and what runs is seen."""
     at = {(str(source(one.module)), line): one for one in definitions().values() for line in one.lines}

@@ -58,6 +58,7 @@ def test_unknown_conditions_are_refused(conditions):
         assert_accepted(paper_gain_file(), conditions=conditions)
 
 
+@pytest.mark.slow
 def test_another_projects_tests_use_the_fixture(tmp_path):
     (tmp_path / "pytest.ini").write_text("[pytest]\n", encoding="utf-8")
     (tmp_path / "good.toml").write_text(GOOD, encoding="utf-8")

@@ -181,6 +181,7 @@ def test_bounds_that_were_exchanged_are_asked_again(
     assert result[1] is computed_once[1]
 
 
+@pytest.mark.slow
 def test_bounds_within_more_than_is_asked_are_asked_again(computed_once: kept_motion.Bounds) -> None:
     """A true statement about wider errors, under the question of narrower ones."""
     question = kept_motion.BoundsQuestion(*_asked(delta=Fraction(1, 20))).question(300)

@@ -80,6 +80,7 @@ def test_a_place_that_cannot_be_written_is_no_error(monkeypatch: pytest.MonkeyPa
     assert store.take(QUESTION) is None
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch) -> None:
     first = run_proof("published.py", (1,), only=("7a",))
 

@@ -144,6 +144,7 @@ def test_nothing_is_compiled_when_that_is_off(cache, compilations, monkeypatch):
     assert compilations == []
 
 
+@pytest.mark.slow
 def test_many_processes_at_once_leave_one_whole_library(cache):
     code = f"from lyapcheck.compiled.library import library; print(library({SOURCE!r}) is not None)"
     command, environment = [sys.executable, "-c", code], dict(os.environ)

@@ -117,6 +117,7 @@ def test_the_proposition_is_broken_where_its_proof_is(result):
     assert [row.broken for row in rows] == [("16",)] * len(result.ms)
 
 
+@pytest.mark.slow
 def test_some_bounds_depend_on_the_number_of_joints():
     """|h'| ≤ ρ|x| fails for m = 2, √3 is slack enough; the √n missing in (17) is 1 for one joint."""
     options = {"ms": (2,), "only": ("8b", "17a", "17c")}

@@ -260,6 +260,7 @@ def test_shares_rise_to_just_below_the_falsified() -> None:
     assert shares[-1] < 1
 
 
+@pytest.mark.slow
 def test_where_nearly_all_is_too_much_smaller_shares_are_tried() -> None:
     """What the ceiling is too high for by a quarter, four fifths of it may be."""
     case = controlled("reyes-kelly2", 0)

@@ -200,6 +200,7 @@ def test_other_arms_have_bounds(robot: str) -> None:
     assert float(result.time) >= late[-1]
 
 
+@pytest.mark.slow
 def test_gains_that_are_too_small_have_no_bound_and_a_reason() -> None:
     tiny = (F(1, 10**9),)
     arm = ControlledArm(GainSet("tiny", 1, tiny, tiny), load("pendulum1"))

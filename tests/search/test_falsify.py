@@ -183,6 +183,7 @@ def test_significant_up(value: str, digits: int, expected: str) -> None:
     assert significant_up(F(value), digits) == F(expected)
 
 
+@pytest.mark.slow
 def test_ball_of_the_witness_is_narrow() -> None:
     witness = falsify(two_joints(2), **FEW)
     assert witness is not None

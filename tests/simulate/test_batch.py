@@ -116,6 +116,7 @@ def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
     np.testing.assert_allclose(runs.q[:, :, 0], 1.0 - (1.0 - first) * shape, rtol=0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
     """With two samples a run: peaks, overshoots and settling times of 20,001 samples, 0.1 ms apart."""
     model, gain_set, q_d = robots.load("reyes-kelly2"), gains(2, 1, kp=40, kv=4), np.array([0.5, -1.0])
@@ -171,6 +172,7 @@ def test_both_engines_find_the_same_motions(request):
     np.testing.assert_allclose(runs.steps, by_numpy.steps, atol=12)
 
 
+@pytest.mark.slow
 def test_large_members_are_left_to_numpy():
     model = robots.load("pendulum1")
     mixed = [gains(1, 200), gains(1, 2)]

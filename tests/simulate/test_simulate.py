@@ -69,7 +69,8 @@ def test_another_integrator_finds_the_same_motion(gain_set):
     np.testing.assert_allclose(states[:, 3:6], run.w, atol=1e-6)
 
 
-@pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
+@pytest.mark.slow
+@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
 def test_the_paper_task_is_accurate_and_conserves_energy(gain_set):
     run = paper_run(gain_set)
     assert run.complete

@@ -286,6 +286,7 @@ def test_a_spent_budget_keeps_what_was_reached():
     assert math.isnan(partial.accuracy)
 
 
+@pytest.mark.slow
 def test_the_same_request_gives_the_same_bytes():
     assert tracking_csv([run_of(T=0.5)]) == tracking_csv([run_of(T=0.5)])
 

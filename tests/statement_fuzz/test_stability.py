@@ -38,6 +38,7 @@ def turned(statement):
     return Stable(replace(argument, system=replace(argument.system, torque=torque)))
 
 
+@pytest.mark.slow
 def test_the_oracle_objects_to_the_opposite_torque():
     for index, statement in enumerate(theorems()):
         assert objection(turned(statement), index) is not None, statement.text()
