@@ -69,6 +69,19 @@ def test_what_the_file_does_not_say_is_told(tmp_path: Path) -> None:
     assert "rounded by less than 1e-15 rad: joint flange" in printed
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('mass value="0.25"', 'mass value="0"', "an inertia and no mass, as the file gives: tool"),
+        ('izz="0.02"', 'izz="9"', "a principal moment above the sum of the others: upper, lower"),
+    ],
+)
+def test_bodies_that_cannot_be_are_told(tmp_path: Path, old: str, new: str, told: str) -> None:
+    assert old in TWO
+    assert told not in "\n".join(load(tmp_path, TWO).assumptions)
+    assert told in "\n".join(load(tmp_path, TWO.replace(old, new)).assumptions)
+
+
 def test_a_fixed_joint_is_the_same_as_one_heavier_link(tmp_path: Path) -> None:
     """The tool merged by hand: masses, centre and inertia of two bodies about their common centre."""
     both, com = Fraction("1.75"), (Fraction("0.3") + Fraction("0.1")) / Fraction("1.75")

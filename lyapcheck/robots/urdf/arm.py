@@ -114,10 +114,14 @@ def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...]) -> tuple[str, ...]:
     unlimited = [joint.name for joint in chain if joint.effort is None]
     if unlimited:
         result.append(f"No torque limit is known where the file has none or 0: {', '.join(unlimited)}")
-    strange = impossible(moved_links(tree, chain))
+    moved = moved_links(tree, chain)
+    strange = impossible(moved)
     if strange:
         result.append(
             "No body has the inertia that the file gives, a principal moment above the sum of the others: "
             f"{', '.join(strange)}"
         )
+    massless = [link.name for link in moved if link.mass == 0 and any(link.inertia)]
+    if massless:
+        result.append(f"No body has an inertia and no mass, as the file gives: {', '.join(massless)}")
     return tuple(result)
