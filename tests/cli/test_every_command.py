@@ -23,7 +23,7 @@ CALLS = {
     "gate": ("one.toml", Exit.REFUTED),
     "init": ("mine", Exit.PROVED),
     "recheck": (str(CERTIFICATE), Exit.PROVED),
-    # a whole report takes ten seconds: tests/report/ makes one, by what the command calls
+    # a whole report takes ten seconds: slow tests (tests/report/) make one, by what the command calls
     "report": ("--m 0", Exit.USAGE),
     "robot": ("pendulum1 --max-boxes 20", Exit.PROVED),
     "simulate": ("one.toml --target 10 --time 0.1", Exit.PROVED),
