@@ -278,10 +278,14 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("viscous",), [LARGE], "a friction out of its range"),
     ],
     ("ChainCoriolisBelow", "forms of the motion"): [
-        (("first",), [], "no matrix for the first joints"),
-        (("first", 0, 0), "-1", "a matrix that is not positive definite"),
-        (("first", 0, 0), LARGE, "a form that is not that of the arm"),
+        (("relations",), [], "no relations"),
+        (("relations", 0), LARGE, "a relation that outweighs the bound"),
         (("joints",), [[[], []]], "a joint that there is not"),
+        (("start",), [], "no control points"),
+        (("start", 0), 8, "fewer control points than values that determine the form"),
+        (("start", 0), 33, "too many control points"),
+        (("halvings",), [1], "an angle that there is not"),
+        (("halvings",), [0] * 25, "too many halvings"),
     ],
     ("ChainCoriolisBelow", "posture"): [
         *NO_POSTURE,

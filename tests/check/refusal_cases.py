@@ -212,6 +212,13 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ("ext.skewed", [((P, "x"), ["1"])], "must have 2 entries"),
     ("ext.chain-small", [((P, "x"), ["1"])], "must have 2 entries"),
     ("ext.chain-k_c", one_link, "must be two or more"),
+    ("ext.chain-k_c", [((P, "joints"), [[[], []]])], "must leave 2 to 4 joints"),
+    ("ext.chain-k_c", [((P, "relations"), [])], "must be 1 numbers"),
+    ("ext.chain-k_c", [((P, "start"), [])], "must be 1 numbers"),
+    ("ext.chain-k_c", [((P, "start"), [8])], "must be numbers from 9 to 32"),
+    ("ext.chain-k_c", [((P, "halvings"), [0] * 25)], "must be 24 at most"),
+    ("ext.chain-k_c", [((P, "halvings"), [1])], "must number those angles"),
+    ("ext.chain-k_c", [((P, "halvings"), [])], "do not show the bound"),
     ("ext.links", massless, "have one without energy about its own axis"),
     *((base, one_parameter, "must be none") for base in ("ext.links", "ext.dominant", "ext.energy-below")),
     # motions

@@ -265,9 +265,9 @@ def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) ->
 def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     chain = load("pelican2").fixed().chain
     assert chain is not None
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
     first = storage_proof(chain, "k_c")
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
     with monkeypatch.context() as patch:
         patch.setattr(motion, "solve", never)
         assert first is not None
@@ -276,18 +276,18 @@ def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.Mon
     def shortened(answer: list[float]) -> None:
         answer.pop()
 
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
     rewritten(place, shortened)
     assert storage_proof(chain, "k_c") == first
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
 
 
 def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
     chain = load("pelican2").fixed().chain
     assert chain is not None
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
     first = storage_proof(chain, "k_c")
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()
 
     def halved(answer: list[float]) -> None:
         answer[0] /= 2
@@ -296,4 +296,4 @@ def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
     second = storage_proof(chain, "k_c")
     assert first is not None
     assert second is None or second.bound >= first.bound * Fraction(99, 100)
-    motion._solved.cache_clear()
+    motion.solved.cache_clear()

@@ -57,26 +57,41 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return dot(torques, torques) - to_arb(4 * self.high**2) * dot(x, x) ** 2
 
 
+MOST_FIRST, FEWEST, MOST_START, MOST_HALVINGS = 4, 9, 32, 24
+"""First joints, control points of an angle to begin with, and halvings."""
+
+
 @dataclass(frozen=True)
 class MotionForms(Proof):
     """Positive definite matrices of monomials of the motion, see :func:`motion.shows`; untrusted.
 
     Args:
-        joints: P and Q of the third and each further joint.
-        first: P of the first two joints together.
+        joints: P and Q of each joint behind the first K.
+        relations: of the products of the first K speeds.
+        start: control points of each of the angles q_2, …, q_K to begin with.
+        halvings: the angle, counted from 0, whose step is halved next.
     """
 
     rule = "forms of the motion"
     joints: tuple[tuple[motion.Gram, motion.Gram], ...]
-    first: motion.Gram
+    relations: tuple[Fraction, ...]
+    start: tuple[int, ...]
+    halvings: tuple[int, ...]
 
 
 @rule(ChainCoriolisBelow, MotionForms)
 def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
     """Soundness: 2 zᵀC(q, x)x ≤ κ(‖z‖² + ‖x‖⁴) with κ = high; for z along C(q, x)x, ‖z‖ = ‖x‖²."""
-    n = len(statement.links)
+    n, start, halvings = len(statement.links), proof.start, proof.halvings
+    first = n - len(proof.joints)
     require(n >= 2, "links", n, "must be two or more")
-    require(len(proof.joints) == n - 2, "joints", len(proof.joints), f"must be {n - 2}, from the third on")
-    shown = motion.shows(hinges(statement.links), statement.high, proof.joints, proof.first)
+    require(2 <= first <= MOST_FIRST, "joints", len(proof.joints), f"must leave 2 to {MOST_FIRST} joints")
+    require(len(start) == first - 1, "start", len(start), f"must be {first - 1} numbers")
+    enough = all(FEWEST <= count <= MOST_START for count in start)
+    require(enough, "start", start, f"must be numbers from {FEWEST} to {MOST_START}")
+    require(len(halvings) <= MOST_HALVINGS, "halvings", len(halvings), f"must be {MOST_HALVINGS} at most")
+    require(all(0 <= axis < first - 1 for axis in halvings), "halvings", halvings, "must number those angles")
+    links = hinges(statement.links)
+    shown = motion.shows(links, statement.high, proof.joints, proof.relations, start, halvings)
     require(shown, "forms", "", "do not show the bound")
     return Accepted("proved", "enclosure")

@@ -10,9 +10,14 @@ If polynomials s_k that turns about the axis leave as they are fulfil, with X_k 
 
     s_k(Z, A, V, N) + κ z_k² ≥ cost_k + s_{k+1}(X_{k+1} (Z', A', V', N')),   s_{n+1} = −κ N²,
 
-for all k, then 2 zᵀC(q, x)x ≤ κ (‖z‖² + ‖x‖⁴): a turn by q_k changes nothing in s_k, the sum telescopes, and
-s_1 = 0 at the base. That holds for all z and x only if ‖C(q, x)x‖ ≤ κ‖x‖². The first two joints are taken
-together, with q_2 kept. What is not negative is N^d mᵀPm with P positive definite, m monomials.
+for all k > K, and if for the first K joints, taken together at every posture,
+
+    κ Σ z_k² ≥ Σ cost_k + s_{K+1}(X_{K+1} (Z', A', V', N')),      k ≤ K,
+
+then 2 zᵀC(q, x)x ≤ κ (‖z‖² + ‖x‖⁴): a turn by q_k changes nothing in s_k, the sum telescopes, and all is 0 at
+the base. That holds for all z and x only if ‖C(q, x)x‖ ≤ κ‖x‖². Behind joint K what is not negative is
+N^d mᵀPm with P positive definite, m monomials; before it vᵀH(q)v, v the rates z_k and the products x_i x_j,
+with H positive definite at all angles (``head``, ``control_points``).
 
 References: recursive Newton–Euler algorithm, ``featherstone2008rigid`` chapter 5; ``willems1972dissipative``.
 """
@@ -26,16 +31,18 @@ from itertools import combinations_with_replacement
 from flint import Ordering, arb, ctx, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.control_points import definite_at_all_angles
+from lyapcheck.check.loop.head import Head, relation, stored_form
 from lyapcheck.check.loop.storage import BITS, TWIST, Hinge
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Vector
 
 Gram = tuple[tuple[Fraction, ...], ...]
 """The rows of a symmetric matrix up to the diagonal."""
-RING = fmpq_mpoly_ctx.get([*(f"{a}{i}" for a in "ZAV" for i in range(6)), *"Nzxytsc"], Ordering.lex)
+RING = fmpq_mpoly_ctx.get([*(f"{a}{i}" for a in "ZAV" for i in range(6)), *"Nzx"], Ordering.lex)
 GENS = RING.gens()
-STATE, (RATE, SPEED, FIRST_RATE, FIRST_SPEED, SINE, COSINE) = GENS[:19], GENS[19:]
-"""(Z, A, V, N); z and x of a joint, and of the first; sin q_2 and cos q_2."""
+STATE, (RATE, SPEED) = GENS[:19], GENS[19:]
+"""(Z, A, V, N); z and x of a joint."""
 COUNT = STATE[-1]
 POLYNOMIALS = Algebra(lambda value: RING.constant(rational(value)))
 
@@ -47,12 +54,7 @@ def products(a: Vector) -> list[Entry]:
 
 LINEAR = [*STATE[12:18], SPEED]
 JOINT = [*STATE[:12], RATE, *products(LINEAR), COUNT]
-HEAD = [
-    trig * term
-    for trig in (RING.constant(1), COSINE, SINE, COSINE**2, COSINE * SINE)
-    for term in (FIRST_RATE, RATE, *products([FIRST_SPEED, SPEED]))
-]
-"""The monomials m of a joint beside those with N, and those of the first two joints together."""
+"""The monomials m of a joint, beside those with N."""
 
 
 def carried(of: Algebra, hinge: Hinge, state: Vector) -> list[Entry]:
@@ -102,36 +104,42 @@ def coriolis_power(
     return total
 
 
-def shows(hinges: Sequence[Hinge], kappa: Fraction, joints: Sequence[tuple[Gram, Gram]], first: Gram) -> bool:
+def shows(
+    hinges: Sequence[Hinge],
+    kappa: Fraction,
+    joints: Sequence[tuple[Gram, Gram]],
+    relations: Sequence[Fraction],
+    start: Sequence[int],
+    halvings: Sequence[int],
+) -> bool:
     """Whether matrices show 2 zᵀC(q, x)x ≤ κ (‖z‖² + ‖x‖⁴), for two joints or more.
 
     Args:
         hinges: base first.
         kappa: the bound.
-        joints: for the third and each further joint P of ``JOINT`` and of N (V, x).
-        first: P of the first two joints.
+        joints: for the joints behind the first K, P of ``JOINT`` and of N (V, x).
+        relations: of the products of the first K speeds, see `head.relation`.
+        start: see `definite_at_all_angles`, for q_2 to q_K.
+        halvings: likewise.
 
     Soundness: s_k is what the condition with equality makes of it, a polynomial in the state alone; else it
-        is refused, as where turns change it. A multiple of s² + c² − 1 vanishes for a sine and a cosine.
+        is refused, as where turns change it.
     """
-    definite = all(is_definite(p, JOINT) and is_definite(q, LINEAR) for p, q in joints)
-    if not (definite and is_definite(first, HEAD)):
+    if not all(is_definite(p, JOINT) and is_definite(q, LINEAR) for p, q in joints):
         return False
-    of, price = POLYNOMIALS, rational(kappa)
+    of, price, first = POLYNOMIALS, rational(kappa), len(hinges) - len(joints)
     handed_on = -price * COUNT**2
-    for k in range(len(hinges) - 1, 1, -1):
-        squares, counted = joints[k - 2]
+    for k in range(len(hinges) - 1, first - 1, -1):
+        squares, counted = joints[k - first]
         state = moved(of, STATE, RATE, SPEED)
         form = gram(squares, JOINT) + COUNT * gram(counted, LINEAR) - price * RATE**2
         form += cost(of, hinges[k], state) + onwards(hinges[k + 1 :], state, handed_on)
         if form.derivative("z") or form.derivative("x") or _turning(form):
             return False
         handed_on = form
-    base = moved(of, [ZERO] * len(STATE), FIRST_RATE, FIRST_SPEED)
-    state = moved(of, turned(of, SINE, COSINE, carried(of, hinges[1], base)), RATE, SPEED)
-    form = price * (FIRST_RATE**2 + RATE**2) - gram(first, HEAD) - cost(of, hinges[0], base)
-    form -= cost(of, hinges[1], state) + onwards(hinges[2:], state, handed_on)
-    return not divmod(form, SINE**2 + COSINE**2 - 1)[1]
+    terms = {powers[: len(STATE)]: c for powers, c in handed_on.to_dict().items()}
+    at = Head(hinges[: first + 1], first, kappa, stored_form(terms), relation(relations, first))
+    return definite_at_all_angles(at.entries, at.degree, start, halvings)
 
 
 def onwards(following: Sequence[Hinge], state: Vector, form: fmpq_mpoly) -> fmpq_mpoly:

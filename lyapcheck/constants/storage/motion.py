@@ -1,8 +1,9 @@
-"""Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: one semidefinite program in doubles.
+"""Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: semidefinite programs in doubles.
 
-Unknown are κ, the polynomials s_3, …, s_n as sums of those that turns leave alone, and how each coefficient
-is shared out among the pairs of monomials with that product. The solution is rounded, and what this changes
-of the exact polynomials is put back into the matrices; the checker decides.
+Unknown are κ, the polynomials s_{K+1}, …, s_n as sums of those that turns leave alone, how each coefficient
+is shared out among the pairs of monomials with that product, and the relations of the first joints. What
+those ask is put for some postures, then for the worst ones of what was found (`Postures`). The solution is
+rounded, and what this changes of the exact polynomials is put back into the matrices; the checker decides.
 
 References: `lyapcheck.check.loop.motion`; rounding of sums of squares, ``peyrl2008computing``.
 """
@@ -23,18 +24,13 @@ from lyapcheck.check.kinds.chain_coriolis import MotionForms
 from lyapcheck.check.loop import motion
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.motion import (
-    COSINE,
     COUNT,
-    FIRST_RATE,
-    FIRST_SPEED,
     GENS,
-    HEAD,
     JOINT,
     LINEAR,
     POLYNOMIALS,
     RATE,
     RING,
-    SINE,
     SPEED,
     STATE,
     Gram,
@@ -42,18 +38,24 @@ from lyapcheck.check.loop.motion import (
 )
 from lyapcheck.check.loop.storage import Hinge, hinges
 from lyapcheck.check.numbers.polynomials import rational
-from lyapcheck.check.numbers.vectors import ZERO
+from lyapcheck.constants.storage.postures import Postures
 from lyapcheck.constants.storage.program import Blocks, solve
 from lyapcheck.robots.dynamics import Chain
 
 _TOLERANCE = 1e-6
-_RAISED = Fraction(1, 10**5)
 _BITS = 40
 """To which the matrices are rounded, relative to their largest entries."""
-_CIRCLE = SINE**2 + COSINE**2 - 1
 _STATES = [*STATE[:12], *products(STATE[12:18]), COUNT]
 """What s_k is a quadratic form of."""
 _COUNTED = list(combinations_with_replacement(range(len(LINEAR)), 2))
+FIRST = {2: 2, 3: 3, 4: 4, 5: 4, 6: 3}
+"""Of the number of joints, those that are taken together; with more joints two."""
+_ROUNDS, _NEAR = 12, 2e-3
+"""Of postures, at most, and what they may still ask for, as a share of κ."""
+_RAISES = (0.001, 0.003, 0.006, 0.009, 0.012, 0.015, 0.02, 0.03, 0.05, 0.1)
+"""Shares of κ by which it is raised, so that control points suffice."""
+_LEAST_OF_THREE = 0.006
+"""The first one that is tried where three angles matter: less takes too many points."""
 Pair = tuple[int, int]
 
 
@@ -67,37 +69,42 @@ def coriolis_forms(
         rounded: a number that is not below.
         margin: the least eigenvalues that are sought, relative to the largest entry of an inertia.
     """
-    solved = None if len(chain.links) < 2 else _solved(chain.links, margin)
-    if solved is None:
+    found = None if len(chain.links) < 2 else solved(chain.links, margin)
+    if found is None:
         return None
-    program, x = solved
-    kappa = rounded(Fraction(float(x[0])) * (1 + _RAISED))
-    return kappa, program.proof(x, kappa)
+    program, x = found
+    least = _LEAST_OF_THREE if program.first == 4 else 0.0
+    bounds = [rounded(Fraction(float(x[0] * (1 + share)))) for share in _RAISES if share >= least]
+    for kappa in dict.fromkeys(bounds):
+        proof = program.proof(x, kappa)
+        if proof is not None:
+            return kappa, proof
+    return None
 
 
 @lru_cache(maxsize=2)
-def _solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
+def solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
     """The program and its solution, from the store if it is there: it takes seconds, and several ask."""
     program, asked = _Program(hinges(links), margin), {"motion": store.exact(links, margin)}
     kept = store.take(asked)
     if isinstance(kept, list) and len(kept) == program.unknowns:
         return program, np.array(kept, dtype=np.float64)
-    x = solve(program.blocks, program.unknowns, _TOLERANCE)
-    if x is None or not x[0] > 0:
+    x = program.solution()
+    if x is None:
         return None
     store.put(asked, x.tolist())
     return program, x
 
 
 class _Squares:
-    """Polynomials as mᵀPm of some monomials m, where s² + c² = 1."""
+    """Polynomials as mᵀPm of some monomials m."""
 
     def __init__(self, terms: Sequence[fmpq_mpoly]) -> None:
         self.terms, self.size = terms, len(terms)
         self._pair: dict[tuple[int, ...], Pair] = {}
         others: list[tuple[Pair, fmpq_mpoly]] = []
         for pair in combinations_with_replacement(range(self.size), 2):
-            product = _reduced(terms[pair[0]] * terms[pair[1]])
+            product = terms[pair[0]] * terms[pair[1]]
             powers = list(product.to_dict())
             if len(powers) == 1 and powers[0] not in self._pair:
                 self._pair[powers[0]] = pair
@@ -107,7 +114,7 @@ class _Squares:
         """A basis of the P with mᵀPm = 0."""
 
     def _entries(self, polynomial: fmpq_mpoly) -> dict[Pair, fmpq]:
-        return {self._pair[powers]: c for powers, c in _reduced(polynomial).to_dict().items()}
+        return {self._pair[powers]: c for powers, c in polynomial.to_dict().items()}
 
     def matrix(self, polynomial: fmpq_mpoly) -> Array:
         """A P of a polynomial, in doubles."""
@@ -121,7 +128,7 @@ class _Squares:
         place = {next(iter(term.to_dict())): i for i, term in enumerate(self.terms)}
         result = np.zeros((len(polynomials), self.size))
         for row, polynomial in zip(result, polynomials, strict=True):
-            for powers, c in _reduced(polynomial).to_dict().items():
+            for powers, c in polynomial.to_dict().items():
                 row[place[powers]] = _double(c)
         return result
 
@@ -134,8 +141,8 @@ class _Squares:
 
 
 class _Program:
-    """The program of one chain; its unknowns are κ, then of each joint from the third on the coefficients of
-    s_k, the shares and Q, then the shares of the first two joints.
+    """The program of one chain; its unknowns are κ, of each joint behind the first ones the coefficients of
+    s_k, the shares and Q, and the relations.
 
     Args:
         links: two or more, base first.
@@ -144,30 +151,50 @@ class _Program:
 
     def __init__(self, links: Sequence[Hinge], margin: float) -> None:
         self.links, self.n = links, len(links)
-        self.joint, self.head, self.own = _Squares(JOINT), _Squares(HEAD), _invariant()
+        self.first = FIRST.get(self.n, 2)
+        self.joint, self.own = _Squares(JOINT), _invariant()
         states = _Squares(_STATES)
         self.forms = [states.matrix(form) for form in self.own]
         self.each = len(self.own) + len(self.joint.relations) + len(_COUNTED)
-        self.unknowns = 1 + (self.n - 2) * self.each + len(self.head.relations)
+        self.relations = 1 + (self.n - self.first) * self.each
+        self.postures = Postures(links[: self.first + 1], self.first)
+        self.unknowns = self.relations + len(self.postures.relations)
         self.least = margin * max(float(abs(x)) for link in links for row in link.body for x in row)
-        of = POLYNOMIALS
-        base = motion.moved(of, [ZERO] * len(STATE), FIRST_RATE, FIRST_SPEED)
-        second = motion.turned(of, SINE, COSINE, motion.carried(of, links[1], base))
-        self.second = motion.moved(of, second, RATE, SPEED)
-        self.moved = motion.moved(of, STATE, RATE, SPEED)
-        self.start = motion.cost(of, links[0], base)
+        self.moved = motion.moved(POLYNOMIALS, STATE, RATE, SPEED)
         self.blocks = Blocks()
-        for k in range(2, self.n):
+        for k in range(self.first, self.n):
             self._add_joint(k)
-        self._add_head()
 
-    def proof(self, x: Array, kappa: Fraction) -> MotionForms:
-        """The matrices of a solution, for a κ that may be larger."""
+    def solution(self) -> Array | None:
+        """The unknowns, with a κ that suffices for the first joints at all postures that were seen."""
+        for q in self.postures.some():
+            self._add_posture(q)
+        best: tuple[float, Array] | None = None
+        for _ in range(_ROUNDS):
+            x = solve(self.blocks, self.unknowns, _TOLERANCE)
+            if x is None or not x[0] > 0:
+                break
+            worst = self.postures.worst(self._head(x))
+            missing = max((lack for lack, _ in worst), default=0.0)
+            if best is None or x[0] + missing < best[0]:
+                best = x[0] + missing, self._raised(x, missing)
+            if missing <= _NEAR * x[0]:
+                break
+            for _, q in worst:
+                self._add_posture(q)
+        return None if best is None else best[1]
+
+    def proof(self, x: Array, kappa: Fraction) -> MotionForms | None:
+        """The matrices of a solution, for a larger κ; ``None`` where control points do not suffice."""
+        x = self._raised(x, float(kappa) - x[0])
+        points = self.postures.refined(self._head(x))
+        if points is None:
+            return None
         near = [self.blocks.at(x, b) + self.least * np.eye(size) for b, size in enumerate(self.blocks.sizes)]
         price, joints = rational(kappa), []
         after = -price * COUNT**2
-        for k in range(self.n - 1, 1, -1):
-            squares, counted = near[2 * (k - 2) : 2 * (k - 1)]
+        for k in range(self.n - 1, self.first - 1, -1):
+            squares, counted = near[2 * (k - self.first) : 2 * (k - self.first) + 2]
             q = _rounded(counted)
             own = RING.constant(0)
             for c, form in zip(x[self._first(k) :], self.own, strict=False):
@@ -177,8 +204,28 @@ class _Program:
             )
             joints.append((self.joint.exact(squares, left), q))
             after = own
-        left = price * (FIRST_RATE**2 + RATE**2) - self.start - self._charged(1, self.second, after)
-        return MotionForms(tuple(reversed(joints)), self.head.exact(near[-1], left))
+        relations = tuple(Fraction(float(c)) for c in x[self.relations :])
+        return MotionForms(tuple(reversed(joints)), relations, *points)
+
+    def _raised(self, x: Array, more: float) -> Array:
+        """A larger κ, s_k less so much N², and Q for 2 N x² that a joint then has over."""
+        x, square = x.copy(), self.own.index(COUNT**2)
+        x[0] += more
+        for k in range(self.first, self.n):
+            x[self._first(k) + square] -= more
+            x[self._first(k) + self.each - 1] += 2 * more
+        x[self.relations :] += more * self.postures.fourth
+        return x
+
+    def _head(self, x: Array) -> tuple[float, Array, Array]:
+        """κ, F and N of what the first joints ask."""
+        if self.first == self.n:
+            stored = np.zeros((len(_STATES),) * 2)
+            stored[-1, -1] = -x[0]
+        else:
+            start = self._first(self.first)
+            stored = np.tensordot(x[start : start + len(self.forms)], np.array(self.forms), 1)
+        return x[0], stored, np.tensordot(x[self.relations :], self.postures.relations, 1)
 
     def _charged(self, k: int, state: Sequence[fmpq_mpoly], after: fmpq_mpoly) -> fmpq_mpoly:
         onwards = motion.onwards(self.links[k + 1 :], state, after)
@@ -186,7 +233,7 @@ class _Program:
 
     def _first(self, k: int) -> int:
         """The place of the unknowns of joint k, counted from 0."""
-        return 1 + (k - 2) * self.each
+        return 1 + (k - self.first) * self.each
 
     def _add_joint(self, k: int) -> None:
         first = self._first(k)
@@ -201,11 +248,20 @@ class _Program:
         units = {place + i: _unit(pair, size) for i, pair in enumerate(_COUNTED)}
         self.blocks.add(-self.least * np.eye(size), units)
 
-    def _add_head(self) -> None:
-        constant, slopes = self._charges(self.head, 1, self.second)
-        slopes[0] = slopes.get(0, 0) + self.head.matrix(FIRST_RATE**2 + RATE**2)
-        slopes |= {self._first(self.n) + i: form for i, form in enumerate(self.head.relations)}
-        self.blocks.add(constant - self.head.matrix(self.start) - self.least * np.eye(len(HEAD)), slopes)
+    def _add_posture(self, q: Array) -> None:
+        """What the first joints ask at one posture."""
+        nothing = np.zeros((len(_STATES),) * 2)
+        constant = self.postures.form(q, 0.0, nothing)
+        slopes = {0: self.postures.form(q, 1.0, nothing) - constant}
+        if self.first == self.n:
+            nothing[-1, -1] = -1.0
+            slopes[0] = self.postures.form(q, 1.0, nothing) - constant
+        else:
+            start = self._first(self.first)
+            for i, form in enumerate(self.forms):
+                slopes[start + i] = self.postures.form(q, 0.0, form) - constant
+        slopes |= {self.relations + i: part for i, part in enumerate(self.postures.relations)}
+        self.blocks.add(constant - self.least * np.eye(len(constant)), slopes)
 
     def _charges(
         self, squares: _Squares, k: int, state: Sequence[fmpq_mpoly]
@@ -262,10 +318,6 @@ def _rounded(matrix: Array) -> Gram:
     step = 2.0 ** (np.ceil(np.log2(np.abs(matrix).max())) - _BITS)
     short = np.round(matrix / step) * step
     return tuple(tuple(Fraction(float(x)) for x in row[: i + 1]) for i, row in enumerate(short))
-
-
-def _reduced(polynomial: fmpq_mpoly) -> fmpq_mpoly:
-    return divmod(polynomial, _CIRCLE)[1]
 
 
 def _double(c: fmpq) -> float:

@@ -19,7 +19,7 @@ F = Fraction
 Links = tuple[RigidLink, ...]
 BESIDE = (F(1, 2), F(9, 10), F(99, 100), F(999, 1000), F(1001, 1000), F(101, 100), F(11, 10), F(3, 2), F(4))
 MARGIN = 1e-6
-NO_FORMS = MotionForms((), ())
+NO_FORMS = MotionForms((), (), (), ())
 
 
 def _links(random: Random) -> Links:
