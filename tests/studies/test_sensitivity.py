@@ -188,7 +188,7 @@ def test_figures_print_the_torques_that_the_proof_holds_against_table_2() -> Non
 
 @pytest.fixture(scope="module")
 def small() -> Study:
-    result = study([SETS["tau_m1"], SETS["tau_pd"]], ARM, spread=16, corners=16, seed=4)
+    result = study([SETS["tau_m1"], SETS["tau_pd"]], ARM, spread=32, corners=64, seed=4)
     assert result is not None
     return result
 
