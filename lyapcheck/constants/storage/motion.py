@@ -50,8 +50,8 @@ _STATES = [*STATE[:12], *products(STATE[12:18]), COUNT]
 _COUNTED = list(combinations_with_replacement(range(len(LINEAR)), 2))
 FIRST = {2: 2, 3: 3, 4: 4, 5: 4, 6: 3}
 """Of the number of joints, those that are taken together; with more joints two."""
-_ROUNDS, _NEAR = 12, 2e-3
-"""Of postures, at most, and what they may still ask for, as a share of κ."""
+_ROUNDS, _NEAR = {2: 12, 3: 5, 4: 12}, 2e-3
+"""Of postures, at most, by the joints taken together, and what they may still ask for, as a share of κ."""
 _RAISES = (0.001, 0.003, 0.006, 0.009, 0.012, 0.015, 0.02, 0.03, 0.05, 0.1)
 """Shares of κ by which it is raised, so that control points suffice."""
 _LEAST_OF_THREE = 0.006
@@ -170,7 +170,7 @@ class _Program:
         for q in self.postures.some():
             self._add_posture(q)
         best: tuple[float, Array] | None = None
-        for _ in range(_ROUNDS):
+        for _ in range(_ROUNDS[self.first]):
             x = solve(self.blocks, self.unknowns, _TOLERANCE)
             if x is None or not x[0] > 0:
                 break
