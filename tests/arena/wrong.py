@@ -279,7 +279,7 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
     ],
     ("ChainCoriolisBelow", "forms of the motion"): [
         (("relations",), [], "no relations"),
-        (("relations", 0), LARGE, "a relation that outweighs the bound"),
+        (("relations", 0, 0), LARGE, "a relation that outweighs the bound"),
         (("joints",), [[[], []]], "a joint that there is not"),
         (("start",), [], "no control points"),
         (("start", 0), 8, "fewer control points than values that determine the form"),

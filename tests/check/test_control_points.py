@@ -16,6 +16,7 @@ from lyapcheck.check.loop.control_points import (
     children,
     control_weights,
     definite_at_all_angles,
+    nodes,
 )
 
 DEGREES = st.integers(1, 4)
@@ -92,8 +93,12 @@ def test_halving_is_a_mean_with_weights_that_are_not_negative(degree: int) -> No
         assert np.allclose(total, scale * fine[i])
 
 
-def scalar(f: Callable[[Sequence[float]], float]) -> Callable[[Sequence[fmpq]], list[arb]]:
-    return lambda angles: [arb(f([float(a.p) / float(a.q) * np.pi for a in angles]))]
+def scalar(f: Callable[[Sequence[float]], float], degree: int = 2, angles: int = 2) -> list[list[arb]]:
+    return [[arb(f(radians(at)))] for at in nodes(degree, angles)]
+
+
+def radians(angles: Sequence[fmpq]) -> list[float]:
+    return [float(a.p) / float(a.q) * np.pi for a in angles]
 
 
 HALVINGS = tuple([0, 1] * 6)
@@ -124,11 +129,9 @@ def test_no_random_matrix_passes_that_is_not_definite_somewhere(seed: int, first
         basis = [[1, np.cos(a), np.sin(a), np.cos(2 * a), np.sin(2 * a)] for a in q]
         return np.einsum("i,j,ijab->ab", *map(np.array, basis), parts) + lift * np.eye(3)
 
-    def value(angles: Sequence[fmpq]) -> list[arb]:
-        matrix = at([float(a.p) / float(a.q) * np.pi for a in angles])
-        return [arb(matrix[i, j]) for i in range(3) for j in range(i + 1)]
-
-    shown = definite_at_all_angles(value, 2, (first, second), (0, 1, 0, 1))
+    matrices = [at(radians(angles)) for angles in nodes(2, 2)]
+    values = [[arb(matrix[i, j]) for i in range(3) for j in range(i + 1)] for matrix in matrices]
+    shown = definite_at_all_angles(values, 2, (first, second), (0, 1, 0, 1))
     least = min(np.linalg.eigvalsh(at(q))[0] for q in product(np.linspace(0, 2 * np.pi, 25), repeat=2))
     assert not shown or least > 0
     if least > lift / 4:
@@ -136,11 +139,23 @@ def test_no_random_matrix_passes_that_is_not_definite_somewhere(seed: int, first
 
 
 def test_too_many_points_are_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    near = scalar(lambda q: 1.001 - np.cos(q[0] - 0.2))
+    near = scalar(lambda q: 1.001 - np.cos(q[0] - 0.2), 1, 1)
     assert definite_at_all_angles(near, 1, (9,), (0,) * 6)
     monkeypatch.setattr(control_points, "MOST_AROUND", 50)
     assert not definite_at_all_angles(near, 1, (9,), (0,) * 6)
-    far = scalar(lambda q: 2 - np.cos(q[0]))
+    far = scalar(lambda q: 2 - np.cos(q[0]), 1, 1)
     monkeypatch.setattr(control_points, "MOST", 9)
     assert definite_at_all_angles(far, 1, (9,), ())
     assert not definite_at_all_angles(far, 1, (10,), ())
+    monkeypatch.setattr(control_points, "MOST", 20)
+    assert not definite_at_all_angles(near, 1, (9,), (0,) * 6)
+
+
+def test_too_few_points_and_angles_that_are_not_there_show_nothing() -> None:
+    """The weights are those of splines for more points than 2D only."""
+    one = scalar(lambda q: 1.0)
+    assert definite_at_all_angles(one, 2, (5, 5), (0,))
+    assert not definite_at_all_angles(one, 2, (4, 5), ())
+    assert not definite_at_all_angles(one, 2, (5, 0), ())
+    assert not definite_at_all_angles(one, 2, (5, 5), (2,))
+    assert not definite_at_all_angles(one, 2, (5, 5), (-1,))

@@ -67,14 +67,14 @@ class MotionForms(Proof):
 
     Args:
         joints: P and Q of each joint behind the first K.
-        relations: of the products of the first K speeds.
+        relations: of the products of the first K speeds, at each of the nodes of q_2, …, q_K.
         start: control points of each of the angles q_2, …, q_K to begin with.
         halvings: the angle, counted from 0, whose step is halved next.
     """
 
     rule = "forms of the motion"
     joints: tuple[tuple[motion.Gram, motion.Gram], ...]
-    relations: tuple[Fraction, ...]
+    relations: tuple[tuple[Fraction, ...], ...]
     start: tuple[int, ...]
     halvings: tuple[int, ...]
 

@@ -19,7 +19,7 @@ References: trigonometric splines, ``schoenberg1964trigonometric``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, product
 from operator import itemgetter
 
@@ -31,32 +31,45 @@ MOST, MOST_AROUND = 200_000, 4096
 Point = tuple[int, ...]
 
 
+def nodes(degree: int, angles: int) -> list[tuple[fmpq, ...]]:
+    """The angles, in units of π, at which trigonometric polynomials are given; the last one runs first.
+
+    Args:
+        degree: D in each angle.
+        angles: how many there are.
+    """
+    circle = [fmpq(2 * j, 2 * degree + 1) for j in range(2 * degree + 1)]
+    return list(product(circle, repeat=angles))
+
+
 def definite_at_all_angles(
-    value: Callable[[Sequence[fmpq]], list[arb]], degree: int, start: Sequence[int], halvings: Sequence[int]
+    values: Iterable[list[arb]], degree: int, start: Sequence[int], halvings: Sequence[int]
 ) -> bool:
     """Whether a symmetric matrix of trigonometric polynomials is shown positive definite at all angles.
 
     Args:
-        value: the entries on and below the diagonal, by rows, at angles in units of π.
+        values: the entries on and below the diagonal, by rows, at each of `nodes`.
         degree: D ≥ 1 of the polynomials, in each angle; not above what it is said to be.
         start: N of each angle, above 2D.
         halvings: of which angle, counted from 0, the step is halved next, at what is left.
     """
+    counts, seen = list(start), 0
+    if min(counts) <= 2 * degree or not set(halvings) <= {*range(len(counts))}:
+        return False
     with ctx.workprec(BITS):
-        nodes = [fmpq(2 * j, 2 * degree + 1) for j in range(2 * degree + 1)]
-        values = [entry for angles in product(nodes, repeat=len(start)) for entry in value(angles)]
-        counts, seen = list(start), 0
+        table = [entry for entries in values for entry in entries]
         points = list(product(*map(range, counts)))
         for axis in (*halvings, None):
             seen += len(points)
             if seen > MOST:
                 return False
             weights = [control_weights(count, degree) for count in counts]
-            left = [point for point, entries in _control(values, weights, points) if not _definite(entries)]
+            left = [point for point, entries in _control(table, weights, points) if not _definite(entries)]
             if not left or axis is None:
                 return not left
             counts[axis] *= 2
-            if counts[axis] > MOST_AROUND:
+            # half the step takes at least two points for each one
+            if counts[axis] > MOST_AROUND or seen + 2 * len(left) > MOST:
                 return False
             points = children(left, axis, degree, counts[axis])
     return False

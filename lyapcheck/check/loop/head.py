@@ -5,7 +5,8 @@ vᵀHv ≥ 0,
 
     H = diag(κ, …, κ, 0) − (C_v + C_vᵀ) − RᵀFR + N,     Σ_k cost_k = 2 zᵀC_v (x_i x_j),
 
-where R v are the entries of X_{K+1} (Z', A', V' V', N'), s_{K+1} is F of them, and N vanishes on products.
+where R v are the entries of X_{K+1} (Z', A', V' V', N'), s_{K+1} is F of them, and N vanishes on products. N
+may be another one at each posture: it is given at nodes, and so is a trigonometric polynomial as H is.
 """
 
 from __future__ import annotations
@@ -28,6 +29,9 @@ Split = tuple[tuple[int, int], tuple[int, int]]
 PAIRS = list(combinations_with_replacement(range(TWIST), 2))
 PARTS = 2 * TWIST + len(PAIRS) + 1
 """Entries of Z, A, the products of two of V, and N."""
+DEGREE = 4
+"""Of H in each angle, at most: the Christoffel symbols of each link are of degree 2, as its inertia matrix is; Z,
+A and V are of degree 1, and F is of degree 4 in V."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,21 +43,12 @@ class Head:
         joints: K of them, two or more.
         kappa: κ.
         stored: F, (PARTS, PARTS).
-        relation: N.
     """
 
     hinges: Sequence[Hinge]
     joints: int
     kappa: Fraction
     stored: arb_mat
-    relation: arb_mat
-
-    @property
-    def degree(self) -> int:
-        """Of H in each angle: the Christoffel symbols of each link are of degree 2, as its inertia matrix is;
-        Z, A and V are of degree 1, with F of degree 4 in V; behind the last joint F is of N alone.
-        """
-        return 4 if len(self.hinges) > self.joints else 2
 
     @cached_property
     def products(self) -> list[tuple[int, int]]:
@@ -68,11 +63,11 @@ class Head:
     def _bodies(self) -> list[arb_mat]:
         return [_balls(hinge.body) for hinge in self.hinges]
 
-    def entries(self, angles: Sequence[fmpq]) -> list[arb]:
-        """The entries of H on and below the diagonal, by rows, at q_2, …, q_K in units of π."""
+    def entries(self, angles: Sequence[fmpq], relation: arb_mat) -> list[arb]:
+        """The entries of H on and below the diagonal, by rows, at q_2, …, q_K in units of π, with an N."""
         power, state = self.posture(angles)
         n, kappa = self.joints, _ball(self.kappa)
-        form = self.relation - state.transpose() * self.stored * state
+        form = relation - state.transpose() * self.stored * state
         result = []
         for row in range(form.nrows()):
             for column in range(row + 1):

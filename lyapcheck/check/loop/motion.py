@@ -31,11 +31,12 @@ from itertools import combinations_with_replacement
 from flint import Ordering, arb, ctx, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.control_points import definite_at_all_angles
-from lyapcheck.check.loop.head import Head, relation, stored_form
+from lyapcheck.check.loop.control_points import definite_at_all_angles, nodes
+from lyapcheck.check.loop.head import DEGREE, Head, relation, stored_form
 from lyapcheck.check.loop.storage import BITS, TWIST, Hinge
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Vector
+from lyapcheck.check.refusal import require
 
 Gram = tuple[tuple[Fraction, ...], ...]
 """The rows of a symmetric matrix up to the diagonal."""
@@ -108,7 +109,7 @@ def shows(
     hinges: Sequence[Hinge],
     kappa: Fraction,
     joints: Sequence[tuple[Gram, Gram]],
-    relations: Sequence[Fraction],
+    relations: Sequence[Sequence[Fraction]],
     start: Sequence[int],
     halvings: Sequence[int],
 ) -> bool:
@@ -118,7 +119,7 @@ def shows(
         hinges: base first.
         kappa: the bound.
         joints: for the joints behind the first K, P of ``JOINT`` and of N (V, x).
-        relations: of the products of the first K speeds, see `head.relation`.
+        relations: of the products of the first K speeds, see `head.relation`, at each of the nodes.
         start: see `definite_at_all_angles`, for q_2 to q_K.
         halvings: likewise.
 
@@ -138,8 +139,13 @@ def shows(
             return False
         handed_on = form
     terms = {powers[: len(STATE)]: c for powers, c in handed_on.to_dict().items()}
-    at = Head(hinges[: first + 1], first, kappa, stored_form(terms), relation(relations, first))
-    return definite_at_all_angles(at.entries, at.degree, start, halvings)
+    head = Head(hinges[: first + 1], first, kappa, stored_form(terms))
+    postures = nodes(DEGREE, first - 1)
+    require(len(relations) == len(postures), "relations", len(relations), f"must be {len(postures)} rows")
+    values = (
+        head.entries(angles, relation(row, first)) for angles, row in zip(postures, relations, strict=True)
+    )
+    return definite_at_all_angles(values, DEGREE, start, halvings)
 
 
 def onwards(following: Sequence[Hinge], state: Vector, form: fmpq_mpoly) -> fmpq_mpoly:

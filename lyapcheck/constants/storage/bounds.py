@@ -15,7 +15,7 @@ from lyapcheck.robots.dynamics import Chain
 
 Bound = ChainAbove | ChainBelow | ChainGravityBelow | ChainCoriolisBelow
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
-_MARGINS_OF_CORIOLIS = (1e-6, 1e-4)
+_MARGINS_OF_CORIOLIS = (1e-5, 1e-4)
 _DIGITS = 7
 """Significant digits of a bound; coefficients are kept as the doubles that they are."""
 

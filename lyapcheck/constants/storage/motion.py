@@ -1,8 +1,9 @@
 """Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: semidefinite programs in doubles.
 
-Unknown are κ, the polynomials s_{K+1}, …, s_n as sums of those that turns leave alone, how each coefficient
-is shared out among the pairs of monomials with that product, and the relations of the first joints. What
-those ask is put for some postures, then for the worst ones of what was found (`Postures`). The solution is
+Unknown are κ, the polynomials s_{K+1}, …, s_n as sums of those that turns leave alone, and how each coefficient
+is shared out among the pairs of monomials with that product. What the first joints ask is put for some
+postures, each with relations of its own, then for the worst ones of what was found (`Postures`). No program
+is solved to the end: solutions that keep away from all limits leave fewer postures to find. The last one is
 rounded, and what this changes of the exact polynomials is put back into the matrices; the checker decides.
 
 References: `lyapcheck.check.loop.motion`; rounding of sums of squares, ``peyrl2008computing``.
@@ -42,20 +43,18 @@ from lyapcheck.constants.storage.postures import Postures
 from lyapcheck.constants.storage.program import Blocks, solve
 from lyapcheck.robots.dynamics import Chain
 
-_TOLERANCE = 1e-6
-_BITS = 40
-"""To which the matrices are rounded, relative to their largest entries."""
+_TOLERANCE = 3e-4
+_BITS, _RELATION_BITS = 40, 14
+"""To which matrices are rounded, relative to their largest entries, and relations, relative to κ."""
 _STATES = [*STATE[:12], *products(STATE[12:18]), COUNT]
 """What s_k is a quadratic form of."""
 _COUNTED = list(combinations_with_replacement(range(len(LINEAR)), 2))
-FIRST = {2: 2, 3: 3, 4: 4, 5: 4, 6: 3}
+FIRST = {2: 2, 3: 3, 4: 4, 5: 4, 6: 3, 7: 4}
 """Of the number of joints, those that are taken together; with more joints two."""
-_ROUNDS, _NEAR = {2: 12, 3: 5, 4: 12}, 2e-3
-"""Of postures, at most, by the joints taken together, and what they may still ask for, as a share of κ."""
-_RAISES = (0.001, 0.003, 0.006, 0.009, 0.012, 0.015, 0.02, 0.03, 0.05, 0.1)
-"""Shares of κ by which it is raised, so that control points suffice."""
-_LEAST_OF_THREE = 0.006
-"""The first one that is tried where three angles matter: less takes too many points."""
+_ROUNDS, _NEAR = 12, 2e-3
+"""Of postures, at most, and what they may still ask for, as a share of κ."""
+_RAISES = (0.0015, 0.003, 0.006, 0.01, 0.02, 0.04, 0.1)
+"""Shares of κ by which it is raised beyond what it lacks, so that control points suffice."""
 Pair = tuple[int, int]
 
 
@@ -73,10 +72,12 @@ def coriolis_forms(
     if found is None:
         return None
     program, x = found
-    least = _LEAST_OF_THREE if program.first == 4 else 0.0
-    bounds = [rounded(Fraction(float(x[0] * (1 + share)))) for share in _RAISES if share >= least]
-    for kappa in dict.fromkeys(bounds):
-        proof = program.proof(x, kappa)
+    form = program.handed_on(x)
+    relations = program.postures.fitted(x[0], form, program.asked)
+    least = x[0] + program.postures.lack(x[0], form, relations)
+    for share in _RAISES:
+        kappa = rounded(Fraction(float(least + share * x[0])))
+        proof = program.proof(x, kappa, relations)
         if proof is not None:
             return kappa, proof
     return None
@@ -86,13 +87,14 @@ def coriolis_forms(
 def solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
     """The program and its solution, from the store if it is there: it takes seconds, and several ask."""
     program, asked = _Program(hinges(links), margin), {"motion": store.exact(links, margin)}
-    kept = store.take(asked)
-    if isinstance(kept, list) and len(kept) == program.unknowns:
-        return program, np.array(kept, dtype=np.float64)
+    match store.take(asked):
+        case [list(x), list(postures)] if len(x) == program.unknowns:
+            program.asked = [np.array(q, dtype=np.float64) for q in postures]
+            return program, np.array(x, dtype=np.float64)
     x = program.solution()
     if x is None:
         return None
-    store.put(asked, x.tolist())
+    store.put(asked, [x.tolist(), [q.tolist() for q in program.asked]])
     return program, x
 
 
@@ -141,8 +143,8 @@ class _Squares:
 
 
 class _Program:
-    """The program of one chain; its unknowns are κ, of each joint behind the first ones the coefficients of
-    s_k, the shares and Q, and the relations.
+    """The program of one chain; its unknowns are κ and of each joint behind the first ones the coefficients
+    of s_k, the shares and Q; behind them stand the relations of each posture.
 
     Args:
         links: two or more, base first.
@@ -156,25 +158,33 @@ class _Program:
         states = _Squares(_STATES)
         self.forms = [states.matrix(form) for form in self.own]
         self.each = len(self.own) + len(self.joint.relations) + len(_COUNTED)
-        self.relations = 1 + (self.n - self.first) * self.each
+        self.unknowns = 1 + (self.n - self.first) * self.each
         self.postures = Postures(links[: self.first + 1], self.first)
-        self.unknowns = self.relations + len(self.postures.relations)
+        self.parts, self.places = np.array(self.forms), self._first(self.first) + np.arange(len(self.own))
+        """Of what F is a sum, and the unknowns that go with it; behind the last joint it is −κN²."""
+        if self.first == self.n:
+            self.parts, self.places = -states.matrix(COUNT**2)[None], np.array([0])
         self.least = margin * max(float(abs(x)) for link in links for row in link.body for x in row)
         self.moved = motion.moved(POLYNOMIALS, STATE, RATE, SPEED)
         self.blocks = Blocks()
         for k in range(self.first, self.n):
             self._add_joint(k)
+        self.behind = len(self.blocks.sizes)
+        self.asked: list[Array] = []
+        """The postures of the program."""
 
     def solution(self) -> Array | None:
         """The unknowns, with a κ that suffices for the first joints at all postures that were seen."""
+        best: tuple[float, Array] | None = None
         for q in self.postures.some():
             self._add_posture(q)
-        best: tuple[float, Array] | None = None
-        for _ in range(_ROUNDS[self.first]):
-            x = solve(self.blocks, self.unknowns, _TOLERANCE)
+        for _ in range(_ROUNDS):
+            unknowns = self.unknowns + len(self.asked) * len(self.postures.relations)
+            x = solve(self.blocks, unknowns, _TOLERANCE)
             if x is None or not x[0] > 0:
                 break
-            worst = self.postures.worst(self._head(x))
+            x = x[: self.unknowns]
+            worst = self.postures.worst(x[0], self.handed_on(x), self.asked)
             missing = max((lack for lack, _ in worst), default=0.0)
             if best is None or x[0] + missing < best[0]:
                 best = x[0] + missing, self._raised(x, missing)
@@ -184,13 +194,16 @@ class _Program:
                 self._add_posture(q)
         return None if best is None else best[1]
 
-    def proof(self, x: Array, kappa: Fraction) -> MotionForms | None:
+    def proof(self, x: Array, kappa: Fraction, relations: Array) -> MotionForms | None:
         """The matrices of a solution, for a larger κ; ``None`` where control points do not suffice."""
-        x = self._raised(x, float(kappa) - x[0])
-        points = self.postures.refined(self._head(x))
+        more = float(kappa) - x[0]
+        x = self._raised(x, more)
+        step = 2.0 ** (np.ceil(np.log2(x[0])) - _RELATION_BITS)
+        relations = np.round((relations + more * self.postures.fourth) / step) * step
+        points = self.postures.refined(self.postures.at_nodes(x[0], self.handed_on(x), relations))
         if points is None:
             return None
-        near = [self.blocks.at(x, b) + self.least * np.eye(size) for b, size in enumerate(self.blocks.sizes)]
+        near = [self.blocks.at(x, b) + self.least * np.eye(self.blocks.sizes[b]) for b in range(self.behind)]
         price, joints = rational(kappa), []
         after = -price * COUNT**2
         for k in range(self.n - 1, self.first - 1, -1):
@@ -204,8 +217,8 @@ class _Program:
             )
             joints.append((self.joint.exact(squares, left), q))
             after = own
-        relations = tuple(Fraction(float(c)) for c in x[self.relations :])
-        return MotionForms(tuple(reversed(joints)), relations, *points)
+        rows = tuple(tuple(Fraction(c) for c in row) for row in relations.tolist())
+        return MotionForms(tuple(reversed(joints)), rows, *points)
 
     def _raised(self, x: Array, more: float) -> Array:
         """A larger κ, s_k less so much N², and Q for 2 N x² that a joint then has over."""
@@ -214,18 +227,11 @@ class _Program:
         for k in range(self.first, self.n):
             x[self._first(k) + square] -= more
             x[self._first(k) + self.each - 1] += 2 * more
-        x[self.relations :] += more * self.postures.fourth
         return x
 
-    def _head(self, x: Array) -> tuple[float, Array, Array]:
-        """κ, F and N of what the first joints ask."""
-        if self.first == self.n:
-            stored = np.zeros((len(_STATES),) * 2)
-            stored[-1, -1] = -x[0]
-        else:
-            start = self._first(self.first)
-            stored = np.tensordot(x[start : start + len(self.forms)], np.array(self.forms), 1)
-        return x[0], stored, np.tensordot(x[self.relations :], self.postures.relations, 1)
+    def handed_on(self, x: Array) -> Array:
+        """F of what the first joints ask."""
+        return np.asarray(np.tensordot(x[self.places], self.parts, 1))
 
     def _charged(self, k: int, state: Sequence[fmpq_mpoly], after: fmpq_mpoly) -> fmpq_mpoly:
         onwards = motion.onwards(self.links[k + 1 :], state, after)
@@ -249,18 +255,13 @@ class _Program:
         self.blocks.add(-self.least * np.eye(size), units)
 
     def _add_posture(self, q: Array) -> None:
-        """What the first joints ask at one posture."""
-        nothing = np.zeros((len(_STATES),) * 2)
-        constant = self.postures.form(q, 0.0, nothing)
-        slopes = {0: self.postures.form(q, 1.0, nothing) - constant}
-        if self.first == self.n:
-            nothing[-1, -1] = -1.0
-            slopes[0] = self.postures.form(q, 1.0, nothing) - constant
-        else:
-            start = self._first(self.first)
-            for i, form in enumerate(self.forms):
-                slopes[start + i] = self.postures.form(q, 0.0, form) - constant
-        slopes |= {self.relations + i: part for i, part in enumerate(self.postures.relations)}
+        """What the first joints ask at one posture; its relations are further unknowns."""
+        first = self.unknowns + len(self.asked) * len(self.postures.relations)
+        self.asked.append(q)
+        constant, price, forms = self.postures.parts(q, self.parts)
+        slopes = dict(zip(self.places.tolist(), forms, strict=True))
+        slopes[0] = slopes.get(0, 0) + price
+        slopes |= {first + i: relation for i, relation in enumerate(self.postures.relations)}
         self.blocks.add(constant - self.least * np.eye(len(constant)), slopes)
 
     def _charges(

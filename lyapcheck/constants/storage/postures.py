@@ -1,7 +1,8 @@
 """What the first joints of a chain ask of a bound of k_c at all postures, in doubles.
 
 Their matrix H of `lyapcheck.check.loop.head` is a trigonometric polynomial of their angles: from its values
-at nodes it is known at every posture, and so are its control points.
+at nodes it is known at every posture, and so are its control points. At each node N is an analytic centre:
+so it depends smoothly on the angles, and what is between the nodes comes near to it.
 """
 
 from __future__ import annotations
@@ -9,29 +10,35 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
+from operator import itemgetter
 
 import numpy as np
-from flint import arb_mat, fmpq
+from flint import arb_mat
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.loop.control_points import MOST_AROUND, children, control_weights
-from lyapcheck.check.loop.head import PARTS, Head, relation, splits
+from lyapcheck.check.loop.control_points import MOST_AROUND, children, control_weights, nodes
+from lyapcheck.check.loop.head import DEGREE, PARTS, Head, relation, splits
 from lyapcheck.check.loop.storage import Hinge
+from lyapcheck.constants.storage.centres import centres
 
-Asked = tuple[float, Array, Array]
-"""κ, F and N."""
-_SOME, _WORST, _APART = 40, 12, 0.35
+_SOME, _WORST, _APART = 60, 20, 0.5
 """Postures to begin with, more of them at a time, and how far they are apart, rad."""
 _GRID, _NARROWED = 24, 8
 """Points of a circle on which the worst postures are sought, and how often the step around them shrinks."""
+_SAMPLES = {1: 48, 2: 24, 3: 10}
+"""Points of a circle at which relations are chosen, by the number of angles."""
+_WIDTH, _SHARP = 0.003, 1e-4
+"""Widths of centres relative to κ: of those relations, and where the least κ of a posture is sought."""
 _MOST_LEFT, _HALVINGS = 20_000, 24
+_AROUND = 2 * DEGREE + 1
+"""Nodes of each angle."""
 _BLOCK = 4000
 """Matrices that are held at a time."""
 
 
 class Postures:
-    """The matrix of the first joints.
+    """The matrix of the first joints, in products √2 x_i x_j, i < j: so κ and κN² with some N add κ to it.
 
     Args:
         links: as `Head` takes them.
@@ -40,80 +47,115 @@ class Postures:
 
     def __init__(self, links: Sequence[Hinge], joints: int) -> None:
         self.joints, self.angles = joints, joints - 1
-        pairs = joints * (joints + 1) // 2
-        self.size = joints + pairs
-        nothing = arb_mat(self.size, self.size)
-        head = Head(links, joints, Fraction(0), arb_mat(PARTS, PARTS), nothing)
-        self.degree = head.degree
-        self._size = 2 * self.degree + 1
-        nodes = [fmpq(2 * j, self._size) for j in range(self._size)]
-        values = [head.posture(angles) for angles in product(nodes, repeat=self.angles)]
-        self._power = np.array([_doubles(power) for power, _ in values])
-        self._state = np.array([_doubles(state) for _, state in values])
+        head = Head(links, joints, Fraction(0), arb_mat(PARTS, PARTS))
+        self.size = joints + len(head.products)
+        values = [head.posture(angles) for angles in nodes(DEGREE, self.angles)]
+        squares = [1.0 if a == b else 2.0 for a, b in head.products]
+        self._scale = 1 / np.sqrt(np.array([1.0] * joints + squares))
+        self._power = np.array([_doubles(power) for power, _ in values]) * self._scale[joints:]
+        self._state = np.array([_doubles(state) for _, state in values]) * self._scale
         ways = splits(joints)
         units = np.eye(len(ways), dtype=np.intp).tolist()
         self.relations = np.array(
             [_doubles(relation([Fraction(c) for c in unit], joints)) for unit in units]
         ).reshape(-1, self.size, self.size)
-        squares = [1.0 if a == b else 2.0 for a, b in head.products]
-        self._scale = 1 / np.sqrt(np.array([1.0] * joints + squares))
+        self.relations *= self._scale[:, None] * self._scale
         self.fourth = np.array([2.0 if a == b and c == d else 0.0 for ((a, b), (c, d)), _ in ways])
-        """Coefficients of the relations that make of N² the sum of the squares of all products, as ‖x‖⁴."""
+        """Coefficients of the N that makes of N² the sum of the squares of all products, as ‖x‖⁴."""
         self._triangle = np.tril_indices(self.size)
 
     def some(self) -> Array:
         """Postures to begin with, (count, K − 1)."""
         return np.random.default_rng(SEED).uniform(-np.pi, np.pi, (_SOME, self.angles))
 
-    def form(self, q: Array, kappa: float, stored: Array) -> Array:
-        """H without N at one posture."""
-        weights = np.ones(1)
-        for angle in q:
-            weights = np.multiply.outer(weights, self._weights(angle)).ravel()
+    def parts(self, q: Array, forms: Array) -> tuple[Array, Array, Array]:
+        """H without N at one posture: what there is with κ = 0 and F = 0, what κ adds, and what each F."""
+        weights = self._at(q)
         power = np.tensordot(weights, self._power, 1)
         state = np.tensordot(weights, self._state, 1)
-        return np.asarray(self._assembled(power[None], state[None], kappa, stored)[0])
+        nothing = np.zeros((PARTS, PARTS))
+        constant = self._assembled(power, state, 0.0, nothing)
+        price = self._assembled(power, state, 1.0, nothing) - constant
+        return constant, price, self._assembled(power, state, 0.0, forms) - constant
 
-    def _assembled(self, power: Array, state: Array, kappa: float, stored: Array) -> Array:
-        n, result = self.joints, -np.swapaxes(state, 1, 2) @ stored @ state
-        result[:, range(n), range(n)] += kappa
-        result[:, :n, n:] -= power
-        result[:, n:, :n] -= np.swapaxes(power, 1, 2)
+    def _assembled(self, power: Array, state: Array, kappa: float, forms: Array) -> Array:
+        n, result = self.joints, -np.swapaxes(state, -1, -2) @ forms @ state
+        result[..., range(n), range(n)] += kappa
+        result[..., :n, n:] -= power
+        result[..., n:, :n] -= np.swapaxes(power, -1, -2)
         return np.asarray(result)
 
-    def _at_nodes(self, asked: Asked) -> Array:
-        """H, scaled so that κ and N² with `fourth` are the identity, (nodes of each angle, entries)."""
-        kappa, stored, relations = asked
-        matrices = self._assembled(self._power, self._state, kappa, stored) + relations
-        matrices *= self._scale[:, None] * self._scale
-        return matrices[:, self._triangle[0], self._triangle[1]].reshape((self._size,) * self.angles + (-1,))
+    def at_nodes(self, kappa: float, form: Array, relations: Array | None = None) -> Array:
+        """H, with an N or without, (nodes, size, size)."""
+        matrices = self._assembled(self._power, self._state, kappa, form)
+        return matrices if relations is None else matrices + np.tensordot(relations, self.relations, 1)
 
-    def worst(self, asked: Asked) -> list[tuple[float, Array]]:
-        """Postures apart from each other at which H is not positive, and by how much κ is too small there."""
-        table = self._at_nodes(asked)
-        found: list[tuple[float, Array]] = []
+    def fitted(self, kappa: float, form: Array, others: Sequence[Array]) -> Array:
+        """Coefficients of an N at each node, (nodes, ways), so that H is as positive as can be everywhere.
+
+        Centres of many postures, and of some others, are fitted, the closer the less there is to spare.
+        """
+        count = _SAMPLES[self.angles]
+        circle = 2 * np.pi * (np.arange(count) + 0.5) / count
+        weights = np.array([self._at(np.array(q)) for q in [*product(circle, repeat=self.angles), *others]])
+        matrices = np.tensordot(weights, self.at_nodes(kappa, form), 1)
+        chosen = centres(matrices, self.relations, _WIDTH * kappa)
+        slack = np.linalg.eigvalsh(matrices + np.tensordot(chosen, self.relations, 1))[:, 0]
+        tight = weights / (np.maximum(slack, 0) + _WIDTH * kappa)[:, None] ** 2
+        normal = weights.T @ tight
+        normal += 1e-9 * np.trace(normal) / len(normal) * np.eye(len(normal))
+        return np.asarray(np.linalg.solve(normal, tight.T @ chosen))
+
+    def lack(self, kappa: float, form: Array, relations: Array) -> float:
+        """By how much κ is too small with relations at nodes."""
+        return max(0.0, -self._lowest(self._table(self.at_nodes(kappa, form, relations)))[0][0])
+
+    def _table(self, matrices: Array) -> Array:
+        """The entries of matrices at the nodes, (nodes of each angle, entries)."""
+        entries = matrices[:, self._triangle[0], self._triangle[1]]
+        return np.asarray(entries.reshape((_AROUND,) * self.angles + (-1,)))
+
+    def worst(self, kappa: float, form: Array, seen: Sequence[Array]) -> list[tuple[float, Array]]:
+        """Postures apart from each other for which no N is found, and by how much κ is too small there."""
+        table = self._table(self.at_nodes(kappa, form, self.fitted(kappa, form, seen)))
+        postures = [q for _, q in self._lowest(table)]
+        found = []
+        for q in postures:
+            constant, price, stored = self.parts(q, form)
+            found.append(constant + kappa * price + stored)
+        there = np.array(found)
+        there += np.tensordot(centres(there, self.relations, _SHARP * kappa), self.relations, 1)
+        lacks = -np.linalg.eigvalsh(there)[:, 0]
+        return [(float(lack), q) for lack, q in zip(lacks, postures, strict=True) if lack > 0]
+
+    def _lowest(self, table: Array) -> list[tuple[float, Array]]:
+        """Postures apart from each other at which the least eigenvalue is low, and these."""
         circle = 2 * np.pi * np.arange(_GRID) / _GRID
         grid = np.stack(np.meshgrid(*[circle] * self.angles, indexing="ij"), axis=-1).reshape(-1, self.angles)
         least = self._least(table, [self._weights(circle)] * self.angles, np.indices((_GRID,) * self.angles))
         around = np.array(list(product((-1, 0, 1), repeat=self.angles)))
+        found: list[tuple[float, Array]] = []
         for place in np.argsort(least, kind="stable")[: 50 * _WORST]:
-            q, low = grid[place], least[place]
+            q, low = grid[place], float(least[place])
             if any(np.linalg.norm((q - other + np.pi) % (2 * np.pi) - np.pi) < _APART for _, other in found):
                 continue
             for k in range(_NARROWED):
                 tried = q + around * (np.pi / _GRID / 1.7**k)
-                lows = self._least(
-                    table, list(map(self._weights, tried.T)), np.tile(np.arange(len(tried)), (self.angles, 1))
-                )
+                places = np.tile(np.arange(len(tried)), (self.angles, 1))
+                lows = self._least(table, list(map(self._weights, tried.T)), places)
                 q, low = tried[np.argmin(lows)], float(lows.min())
-            found.append((-low, q))
+            found.append((low, q))
             if len(found) == _WORST:
                 break
-        return [(lack, q) for lack, q in found if lack > 0]
+        return sorted(found, key=itemgetter(0))
 
-    def refined(self, asked: Asked) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
-        """Numbers of control points, and angles to halve until all are positive; ``None`` if many are not."""
-        table = self._at_nodes(asked)
+    def refined(self, matrices: Array) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
+        """Numbers of control points, and angles to halve until all are positive; ``None`` if many are not.
+
+        Args:
+            matrices: H at the nodes.
+        """
+        table = self._table(matrices)
         bend = np.array([self._bend(table, axis) for axis in range(self.angles)])
         counts = np.maximum(9, np.ceil(_GRID * np.sqrt(bend / bend.max()))).astype(np.intp)
         start = tuple(counts.tolist())
@@ -121,7 +163,7 @@ class Postures:
         points = np.indices(counts).reshape(self.angles, -1).T
         for _ in range(_HALVINGS):
             weights = [
-                np.array(control_weights(count, self.degree), dtype=np.float64) for count in counts.tolist()
+                np.array(control_weights(count, DEGREE), dtype=np.float64) for count in counts.tolist()
             ]
             left = points[self._least(table, weights, points.T) <= 0]
             if not len(left):
@@ -133,7 +175,7 @@ class Postures:
             counts[axis] *= 2
             if counts[axis] > MOST_AROUND:
                 return None
-            points = np.array(children(map(tuple, left.tolist()), axis, self.degree, int(counts[axis])))
+            points = np.array(children(map(tuple, left.tolist()), axis, DEGREE, int(counts[axis])))
         return None
 
     def _least(self, table: Array, weights: Sequence[Array], places: NDArray[np.intp]) -> Array:
@@ -162,15 +204,22 @@ class Postures:
         matrices[:, self._triangle[0], self._triangle[1]] = entries
         return np.asarray(np.linalg.eigvalsh(matrices, UPLO="L")[:, 0])
 
+    def _at(self, q: Array) -> Array:
+        """What all nodes count for at a posture."""
+        result = np.ones(1)
+        for angle in q:
+            result = np.multiply.outer(result, self._weights(angle)).ravel()
+        return result
+
     def _weights(self, angles: Array) -> Array:
-        """What the nodes count for at angles, (..., nodes)."""
-        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(self._size) / self._size
-        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, self.degree + 1))) / self._size)
+        """What the nodes of one angle count for at angles, (..., nodes)."""
+        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(_AROUND) / _AROUND
+        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, DEGREE + 1))) / _AROUND)
 
     def _bend(self, table: Array, axis: int) -> float:
         """How large second derivatives by an angle are."""
         values = np.fft.rfft(np.moveaxis(table, axis, 0), axis=0)
-        squares = np.arange(self.degree + 1) ** 2
+        squares = np.arange(DEGREE + 1) ** 2
         return float(np.linalg.norm(values * squares.reshape(-1, *[1] * (table.ndim - 1))))
 
 
