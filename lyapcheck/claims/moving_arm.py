@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,6 @@ from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
-    from lyapcheck.constants.storage.bounds import BoundWithProof
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.dynamics import Chain
 
@@ -65,7 +65,7 @@ def mass_bounded(robot: RobotModel) -> Statement:
 
     chain = _chain(robot.fixed())
     shown = None if chain is None else storage_proof(chain, "lambda_max")
-    return ArmBounds(robot).mass_below() if shown is None else _with_room(shown)
+    return ArmBounds(robot).mass_below() if shown is None else shown.at_end(_with_room(shown.bound))
 
 
 def coriolis_bounded(robot: RobotModel) -> Statement:
@@ -74,12 +74,12 @@ def coriolis_bounded(robot: RobotModel) -> Statement:
     Raises:
         Lacking: M(q) is too long to be written out.
     """
-    from lyapcheck.constants.storage import storage_proof
+    from lyapcheck.constants.storage import coriolis_bound
 
     chain = _chain(robot.fixed())
-    shown = None if chain is None else storage_proof(chain, "k_c")
+    shown = None if chain is None else coriolis_bound(chain)
     if shown is not None:
-        return _with_room(shown)
+        return replace(shown, high=_with_room(shown.high))
     try:
         return ArmBounds(robot).coriolis_below()
     except TooManyTerms as error:
@@ -92,16 +92,16 @@ def gravity_bounded(robot: RobotModel) -> Statement:
 
     chain = _chain(robot.fixed())
     shown = None if chain is None else storage_proof(chain, "k_g")
-    return bounded(gravity_vector(robot.fixed())) if shown is None else _with_room(shown)
+    return bounded(gravity_vector(robot.fixed())) if shown is None else shown.at_end(_with_room(shown.bound))
 
 
-def _with_room(shown: BoundWithProof) -> Statement:
+def _with_room(bound: Fraction) -> Fraction:
     """A bound a thousandth larger, in four digits.
 
     Its proof is looked for again by who decides the claim, maybe in a process with other threads of BLAS,
     where the semidefinite program may end at a slightly larger bound.
     """
-    return shown.at_end(significant_up(shown.bound * Fraction(1001, 1000), 4))
+    return significant_up(bound * Fraction(1001, 1000), 4)
 
 
 def _of_links(robot: RobotModel, identity: str) -> ChainIdentity | None:

@@ -4,7 +4,7 @@
 
 Over a box each of these is bounded at the corners of a linear part, because eigenvalues and norms are convex
 functions of the entries (λmin is concave); near an extremum that leaves an error of second order. For more
-than three joints bounds along the chain of links take their place, and for k_c points of a lattice.
+than three joints bounds along the chain of links take their place.
 
 References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 """
@@ -27,8 +27,6 @@ from lyapcheck.robots.plant import Plant
 GAP = 1e-3
 GAP_OF_MANY = 2e-2
 MAX_BOXES = 60_000
-THOROUGH = 150_000
-"""Boxes times the square of the joints from which k_c of a chain may take a minute."""
 
 
 def arm_constants(
@@ -69,8 +67,7 @@ def arm_constants(
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
         if arm is None:
-            thorough = max_boxes * model.n**2 >= THOROUGH
-            result.append(chain_constant(fixed, name, thorough, enough, progress))
+            result.append(chain_constant(fixed, name, progress))
         else:
             progress(0.0, "sampling")
             result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
-
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import ConstantResult
-from lyapcheck.constants.coriolis_chain import coriolis_bound
 from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.outside import from_distances
 from lyapcheck.constants.storage.bounds import storage_proof
@@ -15,39 +12,27 @@ from lyapcheck.errors import argument_error
 from lyapcheck.robots.plant import Plant
 
 
-def chain_constant(
-    plant: Plant, name: str, thorough: bool, gap: float, on_progress: Progress = silent
-) -> ConstantResult:
+def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> ConstantResult:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Args:
         plant: the arm.
         name: of the constant.
-        thorough: whether k_c may take a minute; else forms along the links alone bound it.
-        gap: relative width that is good enough for k_c.
         on_progress: receives the share of the work done.
 
-    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts, or
-        for k_c the lower bound of `lyapcheck.constants.coriolis_chain`.
+    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
     """
     on_progress(0.0, "posture")
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
     outer = from_distances(plant, name)
-    with ThreadPoolExecutor(1) as pool:  # both work in compiled code most of the time
-        points = name == "k_c" and thorough and inner.value > 0
-        lattice = pool.submit(coriolis_bound, plant, float(inner.value), gap) if points else None
-        still = name.startswith("k_g") and inner.value == 0
-        shown = storage_proof(chain, name, still=True) if still else None
-        if shown is None:
-            on_progress(0.1, "forms along the links")
-            shown = storage_proof(chain, name)
-        if lattice is not None:
-            on_progress(0.5, "points of a lattice")
+    still = name.startswith("k_g") and inner.value == 0
+    shown = storage_proof(chain, name, still=True) if still else None
+    if shown is None:
+        on_progress(0.1, "forms along the links")
+        shown = storage_proof(chain, name)
     if shown is not None:
         outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
-    if lattice is not None:
-        outer = min((x for x in (outer, lattice.result()) if x is not None), default=None)
     if outer is None:
         raise argument_error(
             name, "", "has no bound: no body has the inertia of some link", "correct the inertias"

@@ -189,7 +189,7 @@ def test_known_extremes_of_the_two_joint_arm() -> None:
     ("name", "advice"),
     [
         ("pelican2", "try a larger --max-boxes"),
-        ("ur5", "with --max-boxes 4167 or more, as by default, points of a lattice are tried"),
+        ("ur5", "bounded by the best forms along the links, which more boxes do not change"),
         ("generic8", "bounded by the best forms along the links, which more boxes do not change"),
     ],
 )

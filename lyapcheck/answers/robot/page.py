@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.entries import inertia_sections
-from lyapcheck.constants.arm import THOROUGH
-from lyapcheck.constants.coriolis_chain import MOST_JOINTS
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
@@ -112,9 +110,6 @@ def _wide(constant: ConstantResult, model: RobotModel) -> str:
     advice = "try a larger --max-boxes"
     if model.n > FEW_JOINTS and model.fixed().chain is not None:
         advice = "bounded by the best forms along the links, which more boxes do not change"
-        if constant.name == "k_c" and model.n <= MOST_JOINTS:
-            least = -(-THOROUGH // model.n**2)
-            advice = f"with --max-boxes {least} or more, as by default, points of a lattice are tried"
     return f"{_symbol(constant)} is wide, {100 * constant.gap:.2g} %: {advice}"
 
 

@@ -125,28 +125,19 @@ def _control(
 
 
 def _definite(entries: list[arb]) -> bool:
+    """Whether a symmetric matrix is positive definite, by elimination: all its pivots are positive."""
     rows: list[list[arb]] = []
     start = 0
     while start < len(entries):
         rows.append(entries[start : start + len(rows) + 1])
         start += len(rows)
-    return _pivots([row + [other[i] for other in rows[i + 1 :]] for i, row in enumerate(rows)])
-
-
-def _pivots(rows: list[list[arb]]) -> bool:
-    """Whether a symmetric matrix is positive definite: its first half is, and what it leaves of the other."""
-    n = len(rows)
-    if n == 1:
-        return bool(rows[0][0] > 0)
-    half = n // 2
-    upper, lower = rows[:half], rows[half:]
-    first = [row[:half] for row in upper]
-    if not _pivots(first):
-        return False
-    beside = arb_mat([row[half:] for row in upper])
-    rest = arb_mat([row[half:] for row in lower])
-    try:
-        inverse = arb_mat(first).inv()
-    except ZeroDivisionError:  # it cannot be told from a singular one at this precision
-        return False
-    return _pivots((rest - beside.transpose() * inverse * beside).tolist())
+    for k, row in enumerate(rows):
+        pivot = row[k]
+        if not pivot > 0:
+            return False
+        for i in range(k + 1, len(rows)):
+            other = rows[i]
+            factor = other[k] / pivot
+            for j in range(k + 1, i + 1):
+                other[j] -= factor * rows[j][k]
+    return True

@@ -30,8 +30,8 @@ PAIRS = list(combinations_with_replacement(range(TWIST), 2))
 PARTS = 2 * TWIST + len(PAIRS) + 1
 """Entries of Z, A, the products of two of V, and N."""
 DEGREE = 4
-"""Of H in each angle, at most: the Christoffel symbols of each link are of degree 2, as its inertia matrix is; Z,
-A and V are of degree 1, and F is of degree 4 in V."""
+"""Of H in each angle, at most: the Christoffel symbols of each link are of degree 2, as its inertia matrix
+is; Z, A and V are of degree 1, and F is of degree 4 in V."""
 
 
 @dataclass(frozen=True, eq=False)

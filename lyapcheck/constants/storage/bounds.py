@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from lyapcheck import store
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.constants.storage.motion import coriolis_forms
@@ -49,7 +50,10 @@ def storage_proof(
         high: of k_c, whose forms show one bound alone: where the best one is smaller, this one is shown.
     """
     if name == "k_c":
-        return _coriolis_proof(chain, high)
+        shown = _coriolis_proof(chain, high)
+        if shown is not None and not high:
+            store.put(_asked(chain), str(shown.bound))
+        return shown
     problem, statement = _question(chain, name)
     if still:
         return _accepted(BoundWithProof(statement, NoTorque()))
@@ -76,6 +80,19 @@ def _coriolis_proof(chain: Chain, high: Fraction) -> BoundWithProof | None:
             if shown is not None:
                 return shown
     return None
+
+
+def coriolis_bound(chain: Chain) -> ChainCoriolisBelow | None:
+    """The bound of k_c that `storage_proof` finds; from the store, where it is there, as a proof takes long."""
+    kept = store.take(_asked(chain))
+    if isinstance(kept, str):
+        return ChainCoriolisBelow(chain.links, Fraction(kept))
+    shown = storage_proof(chain, "k_c")
+    return None if shown is None else ChainCoriolisBelow(chain.links, shown.bound)
+
+
+def _asked(chain: Chain) -> dict[str, str]:
+    return {"k_c": store.exact(chain.links)}
 
 
 def _accepted(shown: BoundWithProof) -> BoundWithProof | None:

@@ -1,10 +1,11 @@
 """Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: semidefinite programs in doubles.
 
-Unknown are κ, the polynomials s_{K+1}, …, s_n as sums of those that turns leave alone, and how each coefficient
-is shared out among the pairs of monomials with that product. What the first joints ask is put for some
-postures, each with relations of its own, then for the worst ones of what was found (`Postures`). No program
-is solved to the end: solutions that keep away from all limits leave fewer postures to find. The last one is
-rounded, and what this changes of the exact polynomials is put back into the matrices; the checker decides.
+Unknown are κ, the polynomials s_{K+1}, …, s_n as sums of those that turns leave alone, and how each
+coefficient is shared out among the pairs of monomials with that product. What the first joints ask is put
+for some postures, each with relations of its own, then for the worst ones of what was found (`Postures`). No
+program is solved to the end: solutions that keep away from all limits leave fewer postures to find. The last
+one is rounded, and what this changes of the exact polynomials is put back into the matrices; the checker
+decides.
 
 References: `lyapcheck.check.loop.motion`; rounding of sums of squares, ``peyrl2008computing``.
 """
@@ -53,8 +54,9 @@ FIRST = {2: 2, 3: 3, 4: 4, 5: 4, 6: 3, 7: 4}
 """Of the number of joints, those that are taken together; with more joints two."""
 _ROUNDS, _NEAR = 12, 2e-3
 """Of postures, at most, and what they may still ask for, as a share of κ."""
-_RAISES = (0.0015, 0.003, 0.006, 0.01, 0.02, 0.04, 0.1)
-"""Shares of κ by which it is raised beyond what it lacks, so that control points suffice."""
+_RAISES, _OF_THREE = (0.0015, 0.003, 0.006, 0.01, 0.02, 0.04, 0.1), 0.006
+"""Shares of κ by which it is raised beyond what it lacks, so that control points suffice; of three angles
+the least of them, as smaller ones take many more points."""
 Pair = tuple[int, int]
 
 
@@ -76,6 +78,8 @@ def coriolis_forms(
     relations = program.postures.fitted(x[0], form, program.asked)
     least = x[0] + program.postures.lack(x[0], form, relations)
     for share in _RAISES:
+        if share < _OF_THREE and program.first == 4:
+            continue
         kappa = rounded(Fraction(float(least + share * x[0])))
         proof = program.proof(x, kappa, relations)
         if proof is not None:
@@ -87,14 +91,14 @@ def coriolis_forms(
 def solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
     """The program and its solution, from the store if it is there: it takes seconds, and several ask."""
     program, asked = _Program(hinges(links), margin), {"motion": store.exact(links, margin)}
-    match store.take(asked):
-        case [list(x), list(postures)] if len(x) == program.unknowns:
-            program.asked = [np.array(q, dtype=np.float64) for q in postures]
-            return program, np.array(x, dtype=np.float64)
+    kept = store.take(asked)
+    if isinstance(kept, list) and [len(part) for part in kept[:1]] == [program.unknowns]:
+        program.asked = [np.array(q, dtype=np.float64) for q in kept[1:]]
+        return program, np.array(kept[0], dtype=np.float64)
     x = program.solution()
     if x is None:
         return None
-    store.put(asked, [x.tolist(), [q.tolist() for q in program.asked]])
+    store.put(asked, [part.tolist() for part in (x, *program.asked)])
     return program, x
 
 

@@ -1,8 +1,8 @@
 """What the first joints of a chain ask of a bound of k_c at all postures, in doubles.
 
 Their matrix H of `lyapcheck.check.loop.head` is a trigonometric polynomial of their angles: from its values
-at nodes it is known at every posture, and so are its control points. At each node N is an analytic centre:
-so it depends smoothly on the angles, and what is between the nodes comes near to it.
+at nodes it is known at every posture, and so are its control points. N is fitted to analytic centres of many
+postures, which depend smoothly on the angles, and closest where there is least to spare.
 """
 
 from __future__ import annotations
