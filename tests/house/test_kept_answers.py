@@ -24,7 +24,7 @@ from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.constants.storage import motion, storage_proof
+from lyapcheck.constants.storage import coriolis_bound, motion, storage_proof
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
@@ -273,13 +273,23 @@ def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.Mon
         assert first is not None
         assert storage_proof(chain, "k_c") == first
 
-    def shortened(answer: list[float]) -> None:
-        answer.pop()
+    def shortened(answer: list[Any] | str) -> None:
+        if isinstance(answer, list):
+            answer[0].pop()
 
     motion.solved.cache_clear()
     rewritten(place, shortened)
     assert storage_proof(chain, "k_c") == first
     motion.solved.cache_clear()
+
+
+def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    chain = load("pelican2").fixed().chain
+    assert chain is not None
+    shown = storage_proof(chain, "k_c")
+    monkeypatch.setattr("lyapcheck.constants.storage.bounds.coriolis_forms", never)
+    assert shown is not None
+    assert coriolis_bound(chain) == shown.statement
 
 
 def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
@@ -289,8 +299,9 @@ def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
     first = storage_proof(chain, "k_c")
     motion.solved.cache_clear()
 
-    def halved(answer: list[float]) -> None:
-        answer[0] /= 2
+    def halved(answer: list[Any] | str) -> None:
+        if isinstance(answer, list):
+            answer[0][0] /= 2
 
     rewritten(place, halved)
     second = storage_proof(chain, "k_c")

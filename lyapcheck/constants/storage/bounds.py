@@ -83,7 +83,7 @@ def _coriolis_proof(chain: Chain, high: Fraction) -> BoundWithProof | None:
 
 
 def coriolis_bound(chain: Chain) -> ChainCoriolisBelow | None:
-    """The bound of k_c that `storage_proof` finds; from the store, where it is there, as a proof takes long."""
+    """The bound of k_c that `storage_proof` finds; from the store, if there, as a proof takes long."""
     kept = store.take(_asked(chain))
     if isinstance(kept, str):
         return ChainCoriolisBelow(chain.links, Fraction(kept))
