@@ -221,7 +221,7 @@ def test_three_joints_with_skew_axes(
 ) -> None:
     """With all joints taken together, and with a form along the chain for the third."""
     monkeypatch.setitem(storage_motion.FIRST, 3, first)
-    storage_motion.solved.cache_clear()
+    storage_motion.program_of.cache_clear()
     arm = arm_of("leaning", tmp_path)
     statement, proof = shown_for("leaning", tmp_path)
     assert len(proof.joints) == 3 - first
@@ -230,7 +230,7 @@ def test_three_joints_with_skew_axes(
     assert refused(replace(statement, high=exact.lower * F(999, 1000)), proof)
     for changed in (*points_changed(proof), *forms_changed(proof)):
         assert refused(statement, changed)
-    storage_motion.solved.cache_clear()
+    storage_motion.program_of.cache_clear()
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from lyapcheck import store
+from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.constants.storage.motion import coriolis_forms
@@ -39,7 +40,11 @@ class BoundWithProof:
 
 
 def storage_proof(
-    chain: Chain, name: str, still: bool = False, high: Fraction = Fraction(0)
+    chain: Chain,
+    name: str,
+    still: bool = False,
+    high: Fraction = Fraction(0),
+    on_progress: Progress = silent,
 ) -> BoundWithProof | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
@@ -48,9 +53,10 @@ def storage_proof(
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
         high: of k_c, whose forms show one bound alone: where the best one is smaller, this one is shown.
+        on_progress: receives the share of the work done, of k_c.
     """
     if name == "k_c":
-        shown = _coriolis_proof(chain, high)
+        shown = _coriolis_proof(chain, high, on_progress)
         if shown is not None and not high:
             store.put(_asked(chain), str(shown.bound))
         return shown
@@ -71,10 +77,10 @@ def storage_proof(
     return None
 
 
-def _coriolis_proof(chain: Chain, high: Fraction) -> BoundWithProof | None:
+def _coriolis_proof(chain: Chain, high: Fraction, on_progress: Progress) -> BoundWithProof | None:
     """The least bound, or one that is not below it."""
     for margin in _MARGINS_OF_CORIOLIS:
-        forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)))
+        forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)), on_progress)
         if forms is not None:
             shown = _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
             if shown is not None:

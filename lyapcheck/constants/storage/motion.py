@@ -21,7 +21,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from lyapcheck import store
-from lyapcheck._types import Array
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.check.kinds.chain_coriolis import MotionForms
 from lyapcheck.check.loop import motion
 from lyapcheck.check.loop.chain import RigidLink
@@ -38,7 +38,7 @@ from lyapcheck.check.loop.motion import (
     Gram,
     products,
 )
-from lyapcheck.check.loop.storage import Hinge, hinges
+from lyapcheck.check.loop.storage import hinges
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.constants.storage.postures import Postures
 from lyapcheck.constants.storage.program import Blocks, solve
@@ -61,7 +61,7 @@ Pair = tuple[int, int]
 
 
 def coriolis_forms(
-    chain: Chain, margin: float, rounded: Callable[[Fraction], Fraction]
+    chain: Chain, margin: float, rounded: Callable[[Fraction], Fraction], on_progress: Progress = silent
 ) -> tuple[Fraction, MotionForms] | None:
     """An upper bound of k_c and what is to show it; ``None`` for one joint, or where the solver fails.
 
@@ -69,11 +69,14 @@ def coriolis_forms(
         chain: the arm.
         rounded: a number that is not below.
         margin: the least eigenvalues that are sought, relative to the largest entry of an inertia.
+        on_progress: receives the share of the work done.
     """
-    found = None if len(chain.links) < 2 else solved(chain.links, margin)
-    if found is None:
+    if len(chain.links) < 2:
         return None
-    program, x = found
+    program = program_of(chain.links, margin)
+    x = program.kept_solution(on_progress)
+    if x is None:
+        return None
     form = program.handed_on(x)
     relations = program.postures.fitted(x[0], form, program.asked)
     least = x[0] + program.postures.lack(x[0], form, relations)
@@ -88,18 +91,9 @@ def coriolis_forms(
 
 
 @lru_cache(maxsize=2)
-def solved(links: tuple[RigidLink, ...], margin: float) -> tuple[_Program, Array] | None:
-    """The program and its solution, from the store if it is there: it takes seconds, and several ask."""
-    program, asked = _Program(hinges(links), margin), {"motion": store.exact(links, margin)}
-    kept = store.take(asked)
-    if isinstance(kept, list) and [len(part) for part in kept[:1]] == [program.unknowns]:
-        program.asked = [np.array(q, dtype=np.float64) for q in kept[1:]]
-        return program, np.array(kept[0], dtype=np.float64)
-    x = program.solution()
-    if x is None:
-        return None
-    store.put(asked, [part.tolist() for part in (x, *program.asked)])
-    return program, x
+def program_of(links: tuple[RigidLink, ...], margin: float) -> _Program:
+    """The program of a chain, with its solution once there is one: that takes seconds, and several ask."""
+    return _Program(links, margin)
 
 
 class _Squares:
@@ -151,11 +145,13 @@ class _Program:
     of s_k, the shares and Q; behind them stand the relations of each posture.
 
     Args:
-        links: two or more, base first.
+        chain: the links, two or more, base first.
         margin: see `coriolis_forms`.
     """
 
-    def __init__(self, links: Sequence[Hinge], margin: float) -> None:
+    def __init__(self, chain: tuple[RigidLink, ...], margin: float) -> None:
+        links = hinges(chain)
+        self.question = {"motion": store.exact(chain, margin)}
         self.links, self.n = links, len(links)
         self.first = FIRST.get(self.n, 2)
         self.joint, self.own = _Squares(JOINT), _invariant()
@@ -176,13 +172,27 @@ class _Program:
         self.behind = len(self.blocks.sizes)
         self.asked: list[Array] = []
         """The postures of the program."""
+        self.found: Array | None = None
 
-    def solution(self) -> Array | None:
+    def kept_solution(self, on_progress: Progress) -> Array | None:
+        """What `solution` finds, from the store if it is there."""
+        if self.found is None:
+            kept = store.take(self.question)
+            if isinstance(kept, list) and [len(part) for part in kept[:1]] == [self.unknowns]:
+                self.found, *self.asked = (np.array(part, dtype=np.float64) for part in kept)
+            else:
+                self.found = self.solution(on_progress)
+                if self.found is not None:
+                    store.put(self.question, [part.tolist() for part in (self.found, *self.asked)])
+        return self.found
+
+    def solution(self, on_progress: Progress) -> Array | None:
         """The unknowns, with a κ that suffices for the first joints at all postures that were seen."""
         best: tuple[float, Array] | None = None
         for q in self.postures.some():
             self._add_posture(q)
-        for _ in range(_ROUNDS):
+        for done in range(_ROUNDS):
+            on_progress(1 - 0.7**done, f"{len(self.asked)} postures")
             unknowns = self.unknowns + len(self.asked) * len(self.postures.relations)
             x = solve(self.blocks, unknowns, _TOLERANCE)
             if x is None or not x[0] > 0:
