@@ -42,6 +42,7 @@ from lyapcheck.constants.storage import motion as storage_motion
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.constants.storage.bounds import BoundWithProof
 from lyapcheck.robots import load
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
 from tests.helpers.committed import ROOT
@@ -169,6 +170,16 @@ def test_two_joints_lose_nothing_and_what_shows_less_is_refused(tmp_path: Path) 
     assert refused(replace(statement, links=(statement.links[0], heavier(statement.links[1]))), proof)
     for changed in points_changed(proof):
         assert refused(statement, changed)
+
+
+def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(tmp_path: Path) -> None:
+    """Two joints about one axis, on which both bodies have their centres of mass."""
+    nowhere = (F(0), F(0), F(0))
+    links = arm_of("pelican2", tmp_path).chain.links
+    chain = Chain(tuple(replace(link, origin=nowhere, com=nowhere) for link in links), nowhere)
+    shown = storage_proof(chain, "k_c")
+    assert shown is not None
+    assert shown.bound < F(1, 1000)
 
 
 def heavier(link: RigidLink) -> RigidLink:

@@ -157,7 +157,7 @@ class Postures:
         """
         table = self._table(matrices)
         bend = np.array([self._bend(table, axis) for axis in range(self.angles)])
-        counts = np.maximum(9, np.ceil(_GRID * np.sqrt(bend / bend.max()))).astype(np.intp)
+        counts = np.maximum(9, np.ceil(_GRID * np.sqrt(bend / (bend.max() or 1.0)))).astype(np.intp)
         start = tuple(counts.tolist())
         halvings: list[int] = []
         points = np.indices(counts).reshape(self.angles, -1).T
