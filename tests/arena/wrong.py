@@ -278,6 +278,9 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("viscous",), [LARGE], "a friction out of its range"),
     ],
     ("ChainCoriolisBelow", "forms of the motion"): [
+        (("kappa",), LARGE, "forms of a larger bound"),
+        (("kappa",), "0", "forms of a smaller bound, which they do not show"),
+        (("kappa",), "-1", "a bound below 0"),
         (("relations",), [], "no relations"),
         (("relations", 0, 0), LARGE, "a relation that outweighs the bound"),
         (("joints",), [[[], []]], "a joint that there is not"),

@@ -37,6 +37,7 @@ from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.arena.attacks import encoded, sealed
 from tests.arena.run import ARENA
+from tests.helpers.forgotten import forget_bounds
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
@@ -265,9 +266,9 @@ def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) ->
 def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     chain = load("pelican2").fixed().chain
     assert chain is not None
-    motion.program_of.cache_clear()
+    forget_bounds()
     first = storage_proof(chain, "k_c")
-    motion.program_of.cache_clear()
+    forget_bounds()
     with monkeypatch.context() as patch:
         patch.setattr(motion, "solve", never)
         assert first is not None
@@ -277,10 +278,10 @@ def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.Mon
         if isinstance(answer, list):
             answer[0].pop()
 
-    motion.program_of.cache_clear()
+    forget_bounds()
     rewritten(place, shortened)
     assert storage_proof(chain, "k_c") == first
-    motion.program_of.cache_clear()
+    forget_bounds()
 
 
 def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -295,9 +296,9 @@ def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: py
 def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
     chain = load("pelican2").fixed().chain
     assert chain is not None
-    motion.program_of.cache_clear()
+    forget_bounds()
     first = storage_proof(chain, "k_c")
-    motion.program_of.cache_clear()
+    forget_bounds()
 
     def halved(answer: list[Any] | str) -> None:
         if isinstance(answer, list):
@@ -307,4 +308,4 @@ def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
     second = storage_proof(chain, "k_c")
     assert first is not None
     assert second is None or second.bound >= first.bound * Fraction(99, 100)
-    motion.program_of.cache_clear()
+    forget_bounds()

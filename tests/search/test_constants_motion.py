@@ -46,9 +46,10 @@ from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
 from tests.helpers.committed import ROOT
+from tests.helpers.forgotten import forget_bounds
 from tests.search.test_constants_storage import arm_of
 
-NO_FORMS = MotionForms((), (), (), ())
+NO_FORMS = MotionForms(F(1), (), (), (), ())
 
 
 def refused(statement: ChainCoriolisBelow, proof: Proof) -> bool:
@@ -164,7 +165,8 @@ def test_two_joints_lose_nothing_and_what_shows_less_is_refused(tmp_path: Path) 
     statement, proof = shown_for("pelican2", tmp_path)
     exact = arm_constants(arm, 2000, names=["k_c"])[0].enclosure
     assert exact.lower <= statement.high <= exact.upper * F(101, 100)
-    assert refused(replace(statement, high=exact.lower * F(999, 1000)), proof)
+    for shown in (proof, replace(proof, kappa=exact.lower * F(999, 1000))):
+        assert refused(replace(statement, high=exact.lower * F(999, 1000)), shown)
     assert not refused(replace(statement, high=statement.high * F(1001, 1000)), proof)
     assert refused(replace(statement, links=statement.links[:1]), proof)
     assert refused(replace(statement, links=(statement.links[0], heavier(statement.links[1]))), proof)
@@ -232,16 +234,17 @@ def test_three_joints_with_skew_axes(
 ) -> None:
     """With all joints taken together, and with a form along the chain for the third."""
     monkeypatch.setitem(storage_motion.FIRST, 3, first)
-    storage_motion.program_of.cache_clear()
+    forget_bounds()
     arm = arm_of("leaning", tmp_path)
     statement, proof = shown_for("leaning", tmp_path)
     assert len(proof.joints) == 3 - first
     exact = arm_constants(arm, 4000, names=["k_c"])[0].enclosure
     assert exact.lower <= statement.high <= exact.upper * most
-    assert refused(replace(statement, high=exact.lower * F(999, 1000)), proof)
+    for shown in (proof, replace(proof, kappa=exact.lower * F(999, 1000))):
+        assert refused(replace(statement, high=exact.lower * F(999, 1000)), shown)
     for changed in (*points_changed(proof), *forms_changed(proof)):
         assert refused(statement, changed)
-    storage_motion.program_of.cache_clear()
+    forget_bounds()
 
 
 @pytest.mark.slow

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
-from lyapcheck.certificate import to_json
+from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.implies import Implies
@@ -69,6 +69,65 @@ def run_proof(
     claim is proved only if its own certificate is accepted and every claim it uses is proved for the same m,
     and if those behind the hypotheses of a theorem state what these come to.
     """
+    proposed = proposed_proof(path, ms, robot, n, gains, only, on_progress)
+    return proposed.result(judge_afresh(proposed.certificates))
+
+
+@dataclass(frozen=True)
+class ProposedProof:
+    """What searches propose for the claims of a proof; nothing of it is decided.
+
+    Args:
+        path: of the script.
+        ms: the members of the family.
+        joints: n.
+        model: the arm, if there is one.
+        only: the ids to report; all if empty.
+        handover: what the script states.
+        proposals: a row for each claim and m.
+        certificates: of those rows for which there is a proof or a refutation.
+    """
+
+    path: str
+    ms: tuple[int, ...]
+    joints: int
+    model: Any
+    only: tuple[str, ...]
+    handover: Handover
+    proposals: Mapping[Key, Proposal]
+    certificates: Mapping[Key, Certificate]
+
+    def result(self, judged: Mapping[Key, Judged]) -> ProofResult:
+        """What a fresh process of the checker makes of it, see `judge_afresh`; that is kept."""
+        _keep(self.proposals, judged)
+        results, claims = _results(self.proposals, judged), self.handover.claims
+        about_arm = any("robot" in answer.read for claim in claims for answer in claim.answers)
+        places = {claim.id: k for k, claim in enumerate(claims)}
+        every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
+        made = self.certificates
+        return ProofResult(
+            self.handover.name,
+            self.handover.title,
+            self.ms,
+            self.joints,
+            self.model.name if self.model else None,
+            tuple(results[key] for key in every if not self.only or key[0] in self.only),
+            self.model.assumptions if self.model is not None and about_arm else (),
+            {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
+            self.path,
+        )
+
+
+def proposed_proof(
+    path: str | Path,
+    ms: Sequence[int] = (1, 2, 3),
+    robot: Any = None,
+    n: int | None = None,
+    gains: Any = None,
+    only: Sequence[str] = (),
+    on_progress: Progress | None = None,
+) -> ProposedProof:
+    """What is proposed for the claims of a proof script, to be judged beside others; see `run_proof`."""
     script = find_script(str(path))
     model = _robot(robot, n)
     if model is not None:
@@ -79,23 +138,7 @@ def run_proof(
     handover = ask(ScriptRequest(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(handover, asked, script.name, on_progress or silent)
     made = certificates(proposals, handover.name)
-    judged = judge_afresh(made)
-    _keep(proposals, judged)
-    results = _results(proposals, judged)
-    about_arm = any("robot" in answer.read for claim in handover.claims for answer in claim.answers)
-    places = {claim.id: k for k, claim in enumerate(handover.claims)}
-    every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
-    return ProofResult(
-        handover.name,
-        handover.title,
-        tuple(ms),
-        joints,
-        model.name if model else None,
-        tuple(results[key] for key in every if not only or key[0] in only),
-        model.assumptions if model is not None and about_arm else (),
-        {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
-        str(path),
-    )
+    return ProposedProof(str(path), tuple(ms), joints, model, tuple(only), handover, proposals, made)
 
 
 def paper_case(m: int) -> Case:
@@ -169,7 +212,7 @@ def _search(statement: Statement | Missing) -> SearchResult:
         return SearchResult(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
 
-def _keep(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> None:
+def _keep(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) -> None:
     """Put what the checker has accepted into the store."""
     for key, row in proposals.items():
         if not isinstance(row.stated, Missing) and row.finding.proof is not None and judged[key].accepted:
@@ -198,7 +241,7 @@ def _read(kept: Any, statement: Statement) -> SearchResult | None:
         return None
 
 
-def _results(proposals: dict[Key, Proposal], judged: dict[Key, Judged]) -> dict[Key, ClaimResult]:
+def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) -> dict[Key, ClaimResult]:
     """What the checker says about each row; what the row uses can only take from that."""
     result: dict[Key, ClaimResult] = {}
     for key, row in proposals.items():

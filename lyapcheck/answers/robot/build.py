@@ -5,11 +5,12 @@ from __future__ import annotations
 from lyapcheck._types import Progress
 from lyapcheck.answers.robot import certified as ends
 from lyapcheck.answers.robot import print_claims
-from lyapcheck.answers.robot.judged import judged
+from lyapcheck.answers.robot.judged import answered, certificates
 from lyapcheck.answers.robot.kept import kept_constants
-from lyapcheck.answers.robot.properties import properties
+from lyapcheck.answers.robot.properties import properties, proposed_properties
 from lyapcheck.answers.robot.report import RobotReport
 from lyapcheck.claims.certificates import file_name
+from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
@@ -33,19 +34,24 @@ def build(
     constants = kept_constants(model, budget, on_progress)
     if on_progress is not None:
         on_progress(1.0, "properties 2.1–2.8")
-    decided, made = properties(model)
+    proposed = proposed_properties(model)
+    prints, bounds = list(print_claims.questions(model)), list(ends.questions(model, constants))
+    made = certificates(model, [*prints, *bounds])
+    # one process for all, in which what several rest on is judged once
+    judged = judge_afresh({**proposed.certificates, **made})
+    decided, of_properties = properties(model, proposed.result(judged))
     positive = decided[0].verdict is Verdict.PROVED
-    prints = print_claims.questions(model)
-    answers = judged(model, [*prints, *ends.questions(model, constants)])
-    about_print, about_constants = answers[: len(prints)], answers[len(prints) :]
+    about_prints, about_bounds = answered(prints, made, judged), answered(bounds, made, judged)
     own = {
-        file_name(row.question.id, None): row.certificate for row in answers if row.certificate is not None
+        file_name(row.question.id, None): row.certificate
+        for row in [*about_prints, *about_bounds]
+        if row.certificate is not None
     }
     return RobotReport(
         model,
         decided,
         constants,
-        tuple(map(print_claims.as_property, about_print)),
-        ends.certified(about_constants, positive),
-        {**made, **own},
+        tuple(map(print_claims.as_property, about_prints)),
+        ends.certified(about_bounds, positive),
+        {**of_properties, **own},
     )

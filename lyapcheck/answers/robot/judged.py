@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import Decision, decided
-from lyapcheck.claims.fresh_check import judge_afresh
+from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.robots import RobotModel
@@ -37,7 +37,13 @@ class DecidedProperty:
 def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[DecidedProperty]:
     """The decisions, in order."""
     rows = list(questions)
-    made: dict[Key, Certificate] = {
+    made = certificates(model, rows)
+    return answered(rows, made, judge_afresh(made))
+
+
+def certificates(model: RobotModel, questions: Iterable[PropertyQuestion]) -> dict[Key, Certificate]:
+    """What a fresh process of the checker is to judge."""
+    return {
         (row.id, None): Certificate(
             About(row.id, row.says, None, model.n, model.name),
             row.statement,
@@ -45,13 +51,18 @@ def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[Dec
             row.finding.grade.label,
             row.finding.proof,
         )
-        for row in rows
+        for row in questions
         if row.finding.proof is not None
     }
-    judged_rows = judge_afresh(made)
+
+
+def answered(
+    questions: Iterable[PropertyQuestion], made: Mapping[Key, Certificate], judged: Mapping[Key, Judged]
+) -> list[DecidedProperty]:
+    """The decisions of that process, in order."""
     answers = []
-    for row in rows:
-        decision = decided(row.finding, judged_rows.get((row.id, None)))
+    for row in questions:
+        decision = decided(row.finding, judged.get((row.id, None)))
         accepted = None if decision.certificate is None else made[row.id, None]
         answers.append(DecidedProperty(row, decision, accepted))
     return answers

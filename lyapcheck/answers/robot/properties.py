@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from lyapcheck._types import Progress
-from lyapcheck.answers.check.run import run_proof
+from lyapcheck.answers.check import ProofResult
+from lyapcheck.answers.check.run import ProposedProof, proposed_proof
 from lyapcheck.certificate import Certificate
 from lyapcheck.claims.decision import Decision, undecided
 from lyapcheck.robots import RobotModel
@@ -30,14 +30,18 @@ class PropertyResult:
         return self.finding.verdict
 
 
+def proposed_properties(model: RobotModel) -> ProposedProof:
+    """What searches propose for the eight properties."""
+    return proposed_proof("published.py", [1], model, only=IDS)
+
+
 def properties(
-    model: RobotModel, on_progress: Progress | None = None
+    model: RobotModel, result: ProofResult
 ) -> tuple[tuple[PropertyResult, ...], Mapping[str, Certificate]]:
-    """The eight properties, and their certificates by file name.
+    """The eight properties as they are decided, and their certificates by file name.
 
     Friction that nobody has stated is not 0: then 2.7 is open, whatever follows for 0.
     """
-    result = run_proof("published.py", [1], model, None, None, IDS, on_progress)
     rows = {row.id: PropertyResult(row.id, row.statement, row.decision) for row in result.claims}
     made = dict(result.certificates)
     missing = _without_friction(model, assumed=True)

@@ -5,7 +5,7 @@ References: ``reyes2019family``, Property 2.6.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import arb
@@ -19,7 +19,7 @@ from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import Accepted, rule
+from lyapcheck.check.verify import Accepted, rule, verify
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,7 @@ class MotionForms(Proof):
     """Positive definite matrices of monomials of the motion, see :func:`motion.shows`; untrusted.
 
     Args:
+        kappa: the bound that they show, the stated one or a smaller one.
         joints: P and Q of each joint behind the first K.
         relations: of the products of the first K speeds, at each of the nodes of q_2, …, q_K.
         start: control points of each of the angles q_2, …, q_K to begin with.
@@ -73,6 +74,7 @@ class MotionForms(Proof):
     """
 
     rule = "forms of the motion"
+    kappa: Fraction
     joints: tuple[tuple[motion.Gram, motion.Gram], ...]
     relations: tuple[tuple[Fraction, ...], ...]
     start: tuple[int, ...]
@@ -81,7 +83,11 @@ class MotionForms(Proof):
 
 @rule(ChainCoriolisBelow, MotionForms)
 def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
-    """Soundness: 2 zᵀC(q, x)x ≤ κ(‖z‖² + ‖x‖⁴) with κ = high; for z along C(q, x)x, ‖z‖ = ‖x‖²."""
+    """Soundness: 2 zᵀC(q, x)x ≤ κ(‖z‖² + ‖x‖⁴), κ ≤ high; for z along C(q, x)x, ‖z‖ = ‖x‖²."""
+    require(proof.kappa <= statement.high, "kappa", proof.kappa, f"must be at most {statement.high}")
+    if proof.kappa < statement.high:
+        # what is seen once for the smallest bound serves for all of them, see ``each_once``
+        return verify(replace(statement, high=proof.kappa), proof)
     n, start, halvings = len(statement.links), proof.start, proof.halvings
     first = n - len(proof.joints)
     require(n >= 2, "links", n, "must be two or more")
@@ -92,6 +98,6 @@ def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
     require(len(halvings) <= MOST_HALVINGS, "halvings", len(halvings), f"must be {MOST_HALVINGS} at most")
     require(all(0 <= axis < first - 1 for axis in halvings), "halvings", halvings, "must number those angles")
     links = hinges(statement.links)
-    shown = motion.shows(links, statement.high, proof.joints, proof.relations, start, halvings)
+    shown = motion.shows(links, proof.kappa, proof.joints, proof.relations, start, halvings)
     require(shown, "forms", "", "do not show the bound")
     return Accepted("proved", "enclosure")

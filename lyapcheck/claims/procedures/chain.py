@@ -37,7 +37,7 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
     if reached.value > statement.high:
         witness = failing(entries(q=reached.q, x=reached.x), reached.value, "<=", statement.high)
         return broken(PostureWitness(reached.q, (), reached.x), f"{METHOD}: a posture", witness)
-    result = storage_proof(chain, name, high=statement.high)
+    result = storage_proof(chain, name)
     if result is None or result.bound > statement.high:
         least = "none" if result is None else f"{float(result.bound):.6g}"
         return still_open(

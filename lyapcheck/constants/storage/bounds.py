@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
-from lyapcheck.constants.storage.motion import coriolis_forms
+from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.constants.storage.motion import coriolis_forms, program_of
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.control.judgement import proves
@@ -43,7 +45,6 @@ def storage_proof(
     chain: Chain,
     name: str,
     still: bool = False,
-    high: Fraction = Fraction(0),
     on_progress: Progress = silent,
 ) -> BoundWithProof | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
@@ -52,12 +53,13 @@ def storage_proof(
         chain: the arm.
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
-        high: of k_c, whose forms show one bound alone: where the best one is smaller, this one is shown.
         on_progress: receives the share of the work done, of k_c.
     """
     if name == "k_c":
-        shown = _coriolis_proof(chain, high, on_progress)
-        if shown is not None and not high:
+        if chain.n > 1:
+            program_of(chain.links, _MARGINS_OF_CORIOLIS[0]).kept_solution(on_progress)
+        shown = coriolis_proof(chain.links)
+        if shown is not None:
             store.put(_asked(chain), str(shown.bound))
         return shown
     problem, statement = _question(chain, name)
@@ -77,12 +79,14 @@ def storage_proof(
     return None
 
 
-def _coriolis_proof(chain: Chain, high: Fraction, on_progress: Progress) -> BoundWithProof | None:
-    """The least bound, or one that is not below it."""
+@lru_cache(maxsize=2)
+def coriolis_proof(links: tuple[RigidLink, ...]) -> BoundWithProof | None:
+    """The best bound of k_c that forms show; found once, as the checker takes seconds to accept it."""
+    chain = Chain(links, (Fraction(0),) * 3)
     for margin in _MARGINS_OF_CORIOLIS:
-        forms = coriolis_forms(chain, margin, lambda least: max(high, _above(least)), on_progress)
+        forms = coriolis_forms(chain, margin, _above)
         if forms is not None:
-            shown = _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, forms[0]), forms[1]))
+            shown = _accepted(BoundWithProof(ChainCoriolisBelow(links, forms.kappa), forms))
             if shown is not None:
                 return shown
     return None

@@ -61,20 +61,19 @@ Pair = tuple[int, int]
 
 
 def coriolis_forms(
-    chain: Chain, margin: float, rounded: Callable[[Fraction], Fraction], on_progress: Progress = silent
-) -> tuple[Fraction, MotionForms] | None:
-    """An upper bound of k_c and what is to show it; ``None`` for one joint, or where the solver fails.
+    chain: Chain, margin: float, rounded: Callable[[Fraction], Fraction]
+) -> MotionForms | None:
+    """What is to show an upper bound of k_c; ``None`` for one joint, or where the solver fails.
 
     Args:
         chain: the arm.
         rounded: a number that is not below.
         margin: the least eigenvalues that are sought, relative to the largest entry of an inertia.
-        on_progress: receives the share of the work done.
     """
     if len(chain.links) < 2:
         return None
     program = program_of(chain.links, margin)
-    x = program.kept_solution(on_progress)
+    x = program.kept_solution()
     if x is None:
         return None
     form = program.handed_on(x)
@@ -86,7 +85,7 @@ def coriolis_forms(
         kappa = rounded(Fraction(float(least + share * x[0])))
         proof = program.proof(x, kappa, relations)
         if proof is not None:
-            return kappa, proof
+            return proof
     return None
 
 
@@ -174,7 +173,7 @@ class _Program:
         """The postures of the program."""
         self.found: Array | None = None
 
-    def kept_solution(self, on_progress: Progress) -> Array | None:
+    def kept_solution(self, on_progress: Progress = silent) -> Array | None:
         """What `solution` finds, from the store if it is there."""
         if self.found is None:
             kept = store.take(self.question)
@@ -232,7 +231,7 @@ class _Program:
             joints.append((self.joint.exact(squares, left), q))
             after = own
         rows = tuple(tuple(Fraction(c) for c in row) for row in relations.tolist())
-        return MotionForms(tuple(reversed(joints)), rows, *points)
+        return MotionForms(kappa, tuple(reversed(joints)), rows, *points)
 
     def _raised(self, x: Array, more: float) -> Array:
         """A larger κ, s_k less so much N², and Q for 2 N x² that a joint then has over."""

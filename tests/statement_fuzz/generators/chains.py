@@ -19,7 +19,7 @@ F = Fraction
 Links = tuple[RigidLink, ...]
 BESIDE = (F(1, 2), F(9, 10), F(99, 100), F(999, 1000), F(1001, 1000), F(101, 100), F(11, 10), F(3, 2), F(4))
 MARGIN = 1e-6
-NO_FORMS = MotionForms((), (), (), ())
+NO_FORMS = MotionForms(F(1), (), (), (), ())
 
 
 def _links(random: Random) -> Links:
@@ -48,14 +48,15 @@ def by_motion(random: Random) -> Made:
     if random.random() < 0.5:
         high, truth = _beside(random, links)
         found = coriolis_forms(chain, MARGIN, lambda least: high)
-        forms = bent(random, found[1] if found else NO_FORMS)
+        forms = bent(random, found or NO_FORMS)
         return Made(ByMotion(ChainCoriolisBelow(links, high), forms), "forms for this bound", truth)
     # as the proposer rounds its bound: not below what forms can show
     found = coriolis_forms(chain, MARGIN, lambda least: F(f"{float(least) * (1 + 1e-5):.6g}"))
-    best, forms = found or (F(1), NO_FORMS)
-    statement = ChainCoriolisBelow(links, best)
+    forms = found or NO_FORMS
+    statement = ChainCoriolisBelow(links, forms.kappa)
     changed, what = _changed(random, statement)
-    return Made(ByMotion(changed, bent(random, forms)), what)
+    kept = replace(forms, kappa=random.choice((forms.kappa, changed.high)))
+    return Made(ByMotion(changed, bent(random, kept)), what)
 
 
 def _changed(random: Random, one: ChainCoriolisBelow) -> tuple[ChainCoriolisBelow, str]:
