@@ -9,6 +9,7 @@ from lyapcheck.answers.robot.judged import answered, certificates
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.answers.robot.properties import properties, proposed_properties
 from lyapcheck.answers.robot.report import RobotReport
+from lyapcheck.check.verify import each_once
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.robots import RobotModel
@@ -31,10 +32,12 @@ def build(
     Soundness: what is called proved, refuted or certified is what a fresh process of the checker accepts.
     """
     budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
-    constants = kept_constants(model, budget, on_progress)
-    if on_progress is not None:
-        on_progress(1.0, "properties 2.1–2.8")
-    proposed = proposed_properties(model)
+    # searches ask the rules about what they find, property 2.6 about the bound of k_c; no verdict comes of it
+    with each_once():
+        constants = kept_constants(model, budget, on_progress)
+        if on_progress is not None:
+            on_progress(1.0, "properties 2.1–2.8")
+        proposed = proposed_properties(model)
     prints, bounds = list(print_claims.questions(model)), list(ends.questions(model, constants))
     made = certificates(model, [*prints, *bounds])
     # one process for all, in which what several rest on is judged once

@@ -24,6 +24,7 @@ def centres(matrices: Array, directions: Array, width: float) -> Array:
     """
     count, size = matrices.shape[:2]
     basis = np.concatenate([directions, np.eye(size)[None]])
+    flat = basis.reshape(len(basis), -1).T
     lacks = np.maximum(-np.linalg.eigvalsh(matrices)[:, 0], 0)
     mu = max(lacks.max(initial=0.0), width)
     c = np.zeros((count, len(basis)))
@@ -31,11 +32,9 @@ def centres(matrices: Array, directions: Array, width: float) -> Array:
     while True:
         for _ in range(_LAST if mu == width else _STEPS):
             inverse = np.linalg.inv(matrices + np.tensordot(c, basis, 1))
-            turned = inverse[:, None] @ basis
-            gradient = -np.trace(turned, axis1=2, axis2=3)
+            gradient = -inverse.reshape(count, -1) @ flat
             gradient[:, -1] += 1 / mu
-            flat = turned.reshape(count, len(basis), -1)
-            hessian = flat @ turned.transpose(0, 3, 2, 1).reshape(count, -1, len(basis))
+            hessian = (inverse[:, None] @ basis @ inverse[:, None]).reshape(count, len(basis), -1) @ flat
             step = -np.linalg.solve(hessian, gradient[..., None])[..., 0]
             decrement = np.sqrt(np.maximum(-(gradient * step).sum(1), 0))
             c += step * np.where(decrement < 0.25, 1, 1 / (1 + decrement))[:, None]

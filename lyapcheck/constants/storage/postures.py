@@ -97,7 +97,7 @@ class Postures:
         """
         count = _SAMPLES[self.angles]
         circle = 2 * np.pi * (np.arange(count) + 0.5) / count
-        weights = np.array([self._at(np.array(q)) for q in [*product(circle, repeat=self.angles), *others]])
+        weights = self._at(np.array([*product(circle, repeat=self.angles), *others]))
         matrices = np.tensordot(weights, self.at_nodes(kappa, form), 1)
         chosen = centres(matrices, self.relations, _WIDTH * kappa)
         slack = np.linalg.eigvalsh(matrices + np.tensordot(chosen, self.relations, 1))[:, 0]
@@ -134,6 +134,7 @@ class Postures:
         grid = np.stack(np.meshgrid(*[circle] * self.angles, indexing="ij"), axis=-1).reshape(-1, self.angles)
         least = self._least(table, [self._weights(circle)] * self.angles, np.indices((_GRID,) * self.angles))
         around = np.array(list(product((-1, 0, 1), repeat=self.angles)))
+        entries = table.reshape(-1, table.shape[-1])
         found: list[tuple[float, Array]] = []
         for place in np.argsort(least, kind="stable")[: 50 * _WORST]:
             q, low = grid[place], float(least[place])
@@ -141,8 +142,7 @@ class Postures:
                 continue
             for k in range(_NARROWED):
                 tried = q + around * (np.pi / _GRID / 1.7**k)
-                places = np.tile(np.arange(len(tried)), (self.angles, 1))
-                lows = self._least(table, list(map(self._weights, tried.T)), places)
+                lows = self._eigenvalues(self._at(tried) @ entries)
                 q, low = tried[np.argmin(lows)], float(lows.min())
             found.append((low, q))
             if len(found) == _WORST:
@@ -205,10 +205,10 @@ class Postures:
         return np.asarray(np.linalg.eigvalsh(matrices, UPLO="L")[:, 0])
 
     def _at(self, q: Array) -> Array:
-        """What all nodes count for at a posture."""
-        result = np.ones(1)
-        for angle in q:
-            result = np.multiply.outer(result, self._weights(angle)).ravel()
+        """What all nodes count for at postures, (..., nodes)."""
+        result = np.ones((*q.shape[:-1], 1))
+        for angle in np.moveaxis(q, -1, 0):
+            result = (result[..., None] * self._weights(angle)[..., None, :]).reshape(*q.shape[:-1], -1)
         return result
 
     def _weights(self, angles: Array) -> Array:

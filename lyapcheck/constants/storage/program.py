@@ -109,12 +109,15 @@ def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8, first: int = 1
     import clarabel
     from scipy import sparse
 
-    parts = []
+    constants, entries, places, begin = np.concatenate(blocks.constants), [], [], 0
     for constant, slopes in zip(blocks.constants, blocks.slopes, strict=True):
-        part = np.zeros((len(constant), unknowns))
-        for i, slope in slopes.items():
-            part[:, i] = -slope
-        parts.append(sparse.csc_matrix(part))
+        stacked = -np.array(list(slopes.values()))
+        which, row = np.nonzero(stacked)
+        entries.append(stacked[which, row])
+        places.append((begin + row, np.array(list(slopes))[which]))
+        begin += len(constant)
+    table = (np.concatenate(entries), np.hstack(places))
+    rows = sparse.coo_matrix(table, shape=(begin, unknowns)).tocsc()
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.chordal_decomposition_enable = False
@@ -125,9 +128,6 @@ def solve(blocks: Blocks, unknowns: int, tolerance: float = 1e-8, first: int = 1
     aim[:first] = 1.0
     cones = [clarabel.PSDTriangleConeT(size) for size in blocks.sizes]
     nothing = sparse.csc_matrix((unknowns, unknowns))
-    rows = sparse.vstack(parts, format="csc")
-    result = clarabel.DefaultSolver(
-        nothing, aim, rows, np.concatenate(blocks.constants), cones, settings
-    ).solve()
+    result = clarabel.DefaultSolver(nothing, aim, rows, constants, cones, settings).solve()
     x = np.array(result.x)
     return x if np.isfinite(x).all() else None
