@@ -45,22 +45,23 @@ def extreme(plant: Plant, name: str) -> Extreme:
     n, directed = plant.n, not name.startswith("k_g")
     sign, merit = _merit(plant, name)
     rng = np.random.default_rng(SEED)
-    best, least = np.zeros(2 * n), np.inf
-    for start in range(STARTS):
-        q = rng.uniform(-np.pi, np.pi, n) * (start > 0)
-        result = minimize(
-            merit, np.concatenate([q, rng.normal(size=n)]), jac=True, options={"maxiter": STEPS}
-        )
-        if result.fun < least:
-            best, least = result.x, float(result.fun)
+    turns = rng.uniform(-np.pi, np.pi, (STARTS, n))
+    starts = np.hstack([turns * (np.arange(STARTS) > 0)[:, None], rng.normal(size=(STARTS, n))])
+    best = max(starts, key=lambda start: abs(merit(start)[0]))
+    for start in [*starts, None]:
+        # steps end at slopes below 1e-5: relative to what was found, or all of them are for an arm of 0.1 kg
+        size = abs(merit(best)[0]) or 1.0
+        begin = best if start is None else start
+        found = minimize(merit, begin, args=(size,), jac=True, options={"maxiter": STEPS}).x
+        best = min(best, found, key=lambda point: merit(point)[0])
     q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
     x = best[n:] / np.linalg.norm(best[n:])
     q_exact, x_exact = _short(q), _short(x) if directed else ()
     return Extreme(q_exact, x_exact, _in_balls(chain, name, q_exact, x_exact, sign))
 
 
-def _merit(plant: Plant, name: str) -> tuple[int, Callable[[Array], tuple[float, Array]]]:
-    """1 for a supremum, −1 for an infimum; what is to be made small, with its gradient, at (q, x)."""
+def _merit(plant: Plant, name: str) -> tuple[int, Callable[..., tuple[float, Array]]]:
+    """1 for a supremum, −1 for an infimum; what is to be small at (q, x), by a size, and its slopes."""
     import casadi as ca
 
     from lyapcheck.robots import graph
@@ -81,9 +82,9 @@ def _merit(plant: Plant, name: str) -> tuple[int, Callable[[Array], tuple[float,
     aim = -sign * value
     function = ca.Function("merit", [z], [aim, ca.densify(ca.gradient(aim, z))])
 
-    def merit(point: Array) -> tuple[float, Array]:
+    def merit(point: Array, size: float = 1.0) -> tuple[float, Array]:
         result: Any = function(point)
-        return float(result[0]), np.array(result[1])[:, 0]
+        return float(result[0]) / size, np.array(result[1])[:, 0] / size
 
     return sign, merit
 

@@ -189,6 +189,28 @@ def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name: str, tmp_pat
     assert (result.verdict, result.grade) == ("refuted", "enclosure")
 
 
+@pytest.mark.parametrize("name", [*NAMES, "k_c"])
+def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name: str, tmp_path: Path) -> None:
+    """Lengths a sixteenth and masses a hundred-and-twenty-eighth: inertias 2⁻¹⁵, torques of gravity 2⁻¹¹."""
+    arm, long, heavy = arm_of("leaning", tmp_path), F(1, 16), F(1, 128)
+    assert arm.chain is not None
+    links = tuple(
+        replace(
+            link,
+            origin=tuple(long * x for x in link.origin),
+            mass=heavy * link.mass,
+            com=tuple(long * x for x in link.com),
+            inertia=tuple(tuple(long**2 * heavy * x for x in row) for row in link.inertia),
+        )
+        for link in arm.chain.links
+    )
+    small = replace(arm, dynamics=replace(arm.chain, links=links))
+    share = long * heavy if name == "k_g" else long**2 * heavy
+    assert float(extreme(small, name).value / share) == pytest.approx(
+        float(extreme(arm, name).value), rel=1e-5
+    )
+
+
 def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
     arm = arm_of("ur5", tmp_path)
     result = storage_proof(arm.chain, "k_g5", still=True)
