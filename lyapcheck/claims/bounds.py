@@ -15,7 +15,8 @@ from flint import arb, ctx
 
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.inertia import CoriolisBelow, Mass, MassAbove, MassBelow
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
 from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.enclosure import Enclosure

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -22,7 +23,7 @@ from lyapcheck.check.kinds.decreasing import (
     PositiveAndDecreasing,
     StateWitness,
 )
-from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
+from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
 from lyapcheck.check.loop.closed_loop import ClosedLoop, root_above
 from lyapcheck.check.loop.field import PI_ABOVE

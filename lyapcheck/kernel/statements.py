@@ -15,6 +15,7 @@ from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
@@ -22,7 +23,7 @@ from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.property import (
     AN_EQUILIBRIUM,

@@ -38,6 +38,7 @@ from lyapcheck.check.kinds.coriolis import (
     RateLessTwiceCoriolis,
     RateOfMass,
 )
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -51,7 +52,6 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import (
     Bisection,
-    CoriolisBelow,
     Dominance,
     HarmonicSizes,
     Links,
@@ -71,9 +71,11 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.decay.margin import Margin
+from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
+from lyapcheck.constants.products import products_below
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.branch_and_bound import certify
@@ -142,6 +144,9 @@ def of_the_arm() -> Iterator[Row]:
         MassBelow(ranged, ((F(1), F(2)),), F(5, 2)),
         PostureWitness((F(0),), (F(2),), (F(1),)),
     )
+    products = products_below(inertia_of(MASS, ()), F(5, 3))
+    assert products is not None
+    yield "coriolis-products", CoriolisBelow(MASS, (), F(5, 3)), products
     yield "coriolis-range", CoriolisBelow(ranged, ((F(1), F(2)),), F(1)), HarmonicSizes()
     yield "gravity-boxes", GravityBelow(1, ((*SINE, *COSINE),), (), F(3, 2)), Bisection()
     yield (

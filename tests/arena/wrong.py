@@ -290,6 +290,16 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("halvings",), [1], "an angle that there is not"),
         (("halvings",), [0] * 25, "too many halvings"),
     ],
+    ("CoriolisBelow", "products of rates"): [
+        (("relations",), [], "no relations"),
+        (("relations", 0), [], "a node without relations"),
+        (("relations", 0, 0), LARGE, "a relation that outweighs the bound"),
+        (("start",), [], "no control points"),
+        (("start", 0), 2, "fewer control points than values that determine the form"),
+        (("start", 0), 33, "too many control points"),
+        (("halvings",), [1], "an angle that there is not"),
+        (("halvings",), [0] * 25, "too many halvings"),
+    ],
     ("ChainCoriolisBelow", "posture"): [
         *NO_POSTURE,
         (("x",), ["0", "0"], "the vector 0"),

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from . import alone, batches, certificates, epsilon, gate, simulate, table, throughput
+from . import alone, batches, certificates, constants, epsilon, gate, simulate, table, throughput
 from .machine import description
 from .render import markdown
 from .results import CommandResult
@@ -30,7 +30,7 @@ def progress(line: str) -> None:
 
 def main() -> None:
     """Measure, then write the document in one piece."""
-    measured, proofs, many, rates, runs = [], [], [], [], []
+    measured, proofs, many, arms, rates, runs = [], [], [], [], [], []
     for result in commands():
         progress(f"{result.command}: {result.seconds:.2f} s")
         measured.append(result)
@@ -42,6 +42,9 @@ def main() -> None:
             f"epsilon on {row.arm}, m = {row.m}: {row.certified / row.falsified:.1%} in {row.seconds:.0f} s"
         )
         many.append(row)
+    for arm in constants.benchmark():
+        progress(f"robot on {arm.arm}: {arm.seconds:.1f} s")
+        arms.append(arm)
     for rate in throughput.benchmark():
         progress(f"{rate.function} on {rate.arm}: {next(iter(rate.rates.values())):.2e} states/s")
         rates.append(rate)
@@ -49,7 +52,7 @@ def main() -> None:
         progress(f"{way.way}: {way.rate:.0f} runs/s")
         runs.append(way)
     OUT.parent.mkdir(exist_ok=True)
-    OUT.write_text(markdown(description(), measured, rates, proofs, many, runs), encoding="utf-8")
+    OUT.write_text(markdown(description(), measured, rates, proofs, many, arms, runs), encoding="utf-8")
     progress(f"written: {OUT.relative_to(Path.cwd()) if OUT.is_relative_to(Path.cwd()) else OUT.name}")
 
 

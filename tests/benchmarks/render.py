@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .results import CertificateResult, CommandResult, Cost, ManyResult, RateResult, RunsResult
+from .results import (
+    CertificateResult,
+    CommandResult,
+    ConstantsResult,
+    Cost,
+    ManyResult,
+    RateResult,
+    RunsResult,
+)
 
 HEAD = """# Benchmarks
 
@@ -49,6 +57,15 @@ beside the arms in `examples/`. Processor time of the whole command `epsilon`, f
 and of `recheck` of its certificate, the start of Python included.
 """
 
+CONSTANTS = """
+## Constants of an arm
+
+How far apart the certified ends of a constant are, relative to the upper one: one end is shown by a posture,
+the other by forms along the links. Processor time of the whole command `robot`, which decides Properties 2.1
+to 2.8, too, and of `recheck` of all that it wrote. A user's own way, the largest value at many postures,
+gives one end only, and no proof of the other.
+"""
+
 BATCHES = """
 ## Many runs at once
 
@@ -65,12 +82,14 @@ def markdown(
     rates: Sequence[RateResult],
     certificates: Sequence[CertificateResult],
     many: Sequence[ManyResult],
+    constants: Sequence[ConstantsResult] = (),
     batches: Sequence[RunsResult] = (),
 ) -> str:
     """The whole document."""
     parts = [HEAD.format(machine="\n".join(f"- {line}" for line in machine))]
     parts += _commands(commands)
     parts += [CERTIFICATES, *_certificates(certificates), MANY_JOINTS, *_many_joints(many)]
+    parts += [CONSTANTS, *_constants(constants)]
     parts += [RATES, *_rates(rates), BATCHES, *_batches(batches)]
     return "\n".join(parts) + "\n"
 
@@ -133,6 +152,22 @@ def _many_joints(results: Sequence[ManyResult]) -> list[str]:
     ]
     head = ["arm", "m", "certified ε₀", "falsified", "share", "`epsilon`", "certificate", "`recheck`"]
     return _table(head, rows)
+
+
+def _constants(results: Sequence[ConstantsResult]) -> list[str]:
+    rows = [
+        [
+            f"{result.arm} (n = {result.joints})",
+            *(f"{gap:.2%}" for gap in result.gaps),
+            _seconds(result.seconds),
+            f"{result.bytes / 1000:.0f} kB",
+            _seconds(result.checked),
+        ]
+        for result in results
+    ]
+    return _table(
+        ["arm", "λmin(M)", "λmax(M)", "k_c", "k_g", "`robot`", "certificate of k_c", "`recheck`"], rows
+    )
 
 
 def _batches(results: Sequence[RunsResult]) -> list[str]:

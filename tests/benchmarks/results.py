@@ -121,3 +121,24 @@ class ManyResult:
     seconds: float
     bytes: int
     checked: float
+
+
+@dataclass(frozen=True)
+class ConstantsResult:
+    """The command ``robot`` on an arm of many joints.
+
+    Args:
+        arm: its name.
+        joints: how many.
+        gaps: of λmin(M), λmax(M), k_c and k_g: 1 less the lower end that is certified by the upper one.
+        seconds: processor time of the whole command.
+        bytes: of the certificate of k_c.
+        checked: processor time of ``recheck`` of all certificates.
+    """
+
+    arm: str
+    joints: int
+    gaps: tuple[float, ...]
+    seconds: float
+    bytes: int
+    checked: float

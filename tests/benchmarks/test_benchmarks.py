@@ -12,12 +12,20 @@ import pytest
 from lyapcheck import load_robot
 from lyapcheck.robots.numeric import NumericModel
 
-from . import batches, certificates, epsilon, gate, simulate, table, throughput
+from . import batches, certificates, constants, epsilon, gate, simulate, table, throughput
 from .by_hand import arms
 from .machine import description
 from .measure import Disagreement, states_per_second
 from .render import markdown
-from .results import CertificateResult, CommandResult, Cost, ManyResult, RateResult, RunsResult
+from .results import (
+    CertificateResult,
+    CommandResult,
+    ConstantsResult,
+    Cost,
+    ManyResult,
+    RateResult,
+    RunsResult,
+)
 
 MEASURED = [
     CommandResult("lyapcheck table", 0.25, 5, "mpmath", 0.5, "equal"),
@@ -28,6 +36,7 @@ PROOFS = [
     CertificateResult("buap3", 3, 2, 0.1665327, (Cost(0.9, 4019, 0.25, 0.5), Cost(0.995, 6000, 3.5, None)))
 ]
 MANY = [ManyResult("ur5", 6, 1, 1.0, 1.25, 30.0, 56_400, 0.61)]
+CONSTANTS = [ConstantsResult("panda", 7, (0.0024, 1.9e-5, 0.046, 7e-6), 32.9, 221_400, 10.5)]
 
 
 def cells(text, first):
@@ -36,7 +45,7 @@ def cells(text, first):
 
 
 def test_a_row_has_the_times_and_their_ratio():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, CONSTANTS)
     assert "- a machine" in text
     assert cells(text, "`lyapcheck table`")[1:] == ["0.25 s", "5", "0.50 s", "2.00", "mpmath", "equal"]
     assert cells(text, "`lyapcheck explain")[1:] == ["0.20 s", "3", "—", "—", "nothing compares", "—"]
@@ -50,8 +59,14 @@ def test_a_certificate_has_its_boxes_and_seconds_or_a_dash():
 
 
 def test_an_arm_of_many_joints_has_one_line():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, CONSTANTS)
     assert cells(text, "ur5 (n = 6)")[1:] == ["1", "1", "1.25", "80.0%", "30.00 s", "56 kB", "0.61 s"]
+
+
+def test_the_constants_of_an_arm_have_one_line():
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, CONSTANTS)
+    gaps = ["0.24%", "0.00%", "4.60%", "0.00%"]
+    assert cells(text, "panda (n = 7)")[1:] == [*gaps, "32.90 s", "221 kB", "10.50 s"]
 
 
 @pytest.mark.slow
@@ -72,12 +87,12 @@ def test_a_share_that_is_not_proved_has_no_time_of_the_checker():
 
 def test_runs_have_their_ratio():
     rows = [RunsResult("lyapcheck", 400, 1600.0, 1e-9), RunsResult("CVODES", 400, 160.0, 2e-7)]
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, rows)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, CONSTANTS, rows)
     assert cells(text, "CVODES")[1:] == ["400", "160", "0.100", "2e-07"]
 
 
 def test_every_table_row_is_as_wide_as_its_head():
-    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY)
+    text = markdown(["a machine"], MEASURED, RATES, PROOFS, MANY, CONSTANTS)
     for block in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         assert len({line.count("|") for line in block.splitlines()}) == 1
 
@@ -188,6 +203,16 @@ def test_an_arm_of_four_joints_is_proved_for_half_of_what_is_refuted():
     assert 0.5 < result.certified / result.falsified < 1
     assert result.bytes > 1000
     assert 0 < result.checked < result.seconds
+
+
+@pytest.mark.slow
+def test_the_constants_of_an_arm_are_enclosed():
+    (result,) = constants.benchmark(("pelican2",))
+    assert (result.joints, len(result.gaps)) == (2, 4)
+    assert all(0 <= gap < 0.02 for gap in result.gaps)
+    assert result.bytes > 1000
+    assert result.seconds > 0
+    assert result.checked > 0
 
 
 @pytest.mark.slow

@@ -14,12 +14,13 @@ from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
 from lyapcheck.check.kinds.for_all import ForAll, Pieces, Sturm
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity, NormalForm
-from lyapcheck.check.kinds.inertia import CoriolisBelow, HarmonicSizes, MassBelow, PostureWitness
+from lyapcheck.check.kinds.inertia import HarmonicSizes, MassBelow, PostureWitness
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound
 from lyapcheck.check.refusal import Refused

@@ -31,6 +31,7 @@ HEADLINES = {
     "a bound of M(q) by boxes": ("MassBelow", "bisection"),
     "a bound of M(q) along links": ("ChainBelow", "storage forms"),
     "a bound of C(q, x) along links": ("ChainCoriolisBelow", "forms of the motion"),
+    "a bound of C(q, x) at control points": ("CoriolisBelow", "products of rates"),
     "ε₀ by boxes": ("Decreasing", "M positive and V decreasing", "links", "tree of boxes"),
     "ε₀ by boxes, M(q) positive by boxes": (
         "Decreasing",
@@ -133,7 +134,8 @@ FORMULAS = (
 PURPOSES = {
     "`kinds/`, formulas": FORMULAS,
     "`kinds/`, every n": "every_n bound_every_n",
-    "`kinds/`, one arm": "inertia coriolis gravity compared chain chain_coriolis chain_identity",
+    "`kinds/`, one arm": "inertia coriolis coriolis_below gravity compared chain chain_coriolis "
+    "chain_identity",
     "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting "
     "of_loop at_corners",
     "`kinds/`, theorems": "stability stable_arm property",

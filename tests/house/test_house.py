@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
@@ -69,3 +70,15 @@ def test_the_checker_imports_nothing_from_the_rest_of_the_house() -> None:
         if module.startswith("lyapcheck.check.") and module != "lyapcheck.check.__main__":
             outside = [n for n in imported(module) if n.startswith("lyapcheck.") and ".check" not in n]
             assert not outside, f"{module} imports {outside}"
+
+
+def test_every_work_that_is_referred_to_stands_in_the_bibliography() -> None:
+    works = (TOP.parent / "proofs" / "references.bib").read_text(encoding="utf-8")
+    known = set(re.findall(r"^@\w+\{(\w+),", works, re.MULTILINE))
+    named = {
+        key
+        for path in modules().values()
+        for key in re.findall(r"``([a-z]+\d{4}[a-z]*)``", path.read_text(encoding="utf-8"))
+    }
+    assert named
+    assert named <= known

@@ -18,6 +18,7 @@ from lyapcheck.check.kinds.coriolis import (
     RateLessTwiceCoriolis,
     RateOfMass,
 )
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.damping import DampingBelow
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.every_n import EveryN, Given
@@ -26,7 +27,7 @@ from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.inertia import CoriolisBelow, MassAbove, MassBelow
+from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.kinds.phases import DiesOut, StaysWithin
 from lyapcheck.check.kinds.property import Property

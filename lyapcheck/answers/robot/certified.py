@@ -1,7 +1,8 @@
 """Ends of the constants of an arm that certificates show, beside the sharper ones of floating point.
 
 The end that a state shows is a bound refuted at a posture; the other is shown for all angles: for few joints
-by boxes, for more by storage forms along the links, and else by the sizes of harmonics, which are coarse.
+by boxes and for k_c at control points, for more by storage forms along the links, and else by the sizes of
+harmonics, which are coarse.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ import numpy as np
 from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
-    CoriolisBelow,
     HarmonicSizes,
     MassAbove,
     MassBelow,
@@ -27,11 +28,11 @@ from lyapcheck.check.kinds.inertia import (
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.statement import Statement
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
-from lyapcheck.constants import SEED, ConstantResult
-from lyapcheck.constants.arm_harmonics import ArmHarmonics
+from lyapcheck.constants import ConstantResult
+from lyapcheck.constants.products import products_below
 from lyapcheck.constants.storage.bounds import BoundWithProof
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
@@ -45,10 +46,15 @@ BOXES = 2000
 DIGITS = 6
 MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
 """How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
-MARGINS_OF_MANY = (Fraction(1, 200), Fraction(1, 20))
-"""The same for k_c, whose boxes cost more and end in a coarser bound anyway."""
+MARGINS_OF_CORIOLIS = (
+    Fraction(1, 1000),
+    Fraction(3, 1000),
+    Fraction(6, 1000),
+    Fraction(1, 100),
+    Fraction(1, 20),
+)
+"""The same for k_c: the nearer, the more control points."""
 BITS = 64
-SAMPLES = 4096
 _ABOVE = (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
 
@@ -67,8 +73,8 @@ class _Bound:
 
     Args:
         state: a bound of it as a statement.
-        boxes: whether boxes show a bound.
-        start: about the best that they can show.
+        proof: of a bound, if one is found.
+        start: about the best that can be shown.
         sizes: what the sizes of harmonics show; none for λmin(M).
         witness: the posture that shows the other end.
         seen: the constant there.
@@ -76,7 +82,7 @@ class _Bound:
     """
 
     state: Callable[[Fraction], Statement]
-    boxes: Callable[[Fraction], bool]
+    proof: Callable[[Fraction], Proof | None]
     start: Fraction
     sizes: Fraction | None
     witness: PostureWitness
@@ -176,8 +182,9 @@ def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | 
         value = _rounded(bound.start * (1 + sign * margin), sign)
         if coarse is not None and coarse <= value:
             break
-        if value > 0 and bound.boxes(value):
-            return value, shown(Bisection(), Bisection.rule)
+        proof = bound.proof(value) if value > 0 else None
+        if proof is not None:
+            return value, shown(proof, proof.rule)
     return None if coarse is None else (coarse, shown(HarmonicSizes(), HarmonicSizes.rule))
 
 
@@ -199,7 +206,7 @@ def _of_mass(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) 
     if low:
         return _Bound(
             lambda value: MassAbove(mass, (), value),
-            lambda value: inertia.above(value, BOXES),
+            lambda value: _boxes(inertia.above(value, BOXES)),
             constant.enclosure.lower,
             None,
             witness,
@@ -207,7 +214,7 @@ def _of_mass(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) 
         )
     return _Bound(
         lambda value: MassBelow(mass, (), value),
-        lambda value: inertia.below(value, BOXES),
+        lambda value: _boxes(inertia.below(value, BOXES)),
         constant.enclosure.upper,
         inertia.largest_row,
         witness,
@@ -223,12 +230,12 @@ def _of_coriolis(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ..
     size = float(sum(entry * entry for entry in x))
     return _Bound(
         lambda value: CoriolisBelow(mass, (), value),
-        lambda value: inertia.coriolis_below(value, BOXES),
-        _unfolded(arm.robot) if arm.robot.n <= FEW_JOINTS else Fraction(0),
+        lambda value: products_below(inertia, value),
+        constant.enclosure.upper,
         arm.kc,
         PostureWitness(q, (), x, x),
         Fraction(float(np.linalg.norm(turned)) / size),
-        MARGINS_OF_MANY,
+        MARGINS_OF_CORIOLIS,
     )
 
 
@@ -245,7 +252,7 @@ def _of_gravity(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...
     seen = np.linalg.norm([float(value) for value in state(Fraction(0)).at(q, ())])
     return _Bound(
         state,
-        lambda value: state(value).shown_by_boxes(BOXES),
+        lambda value: _boxes(state(value).shown_by_boxes(BOXES)),
         constant.enclosure.upper,
         size_of(entries[0], ()) if len(entries) == 1 else _root(square),
         PostureWitness(q, (), ()),
@@ -253,14 +260,8 @@ def _of_gravity(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...
     )
 
 
-def _unfolded(robot: RobotModel) -> Fraction:
-    """About the least bound of ‖C(q, x)y‖ that boxes can show: that of the better unfolding of the c_ijk."""
-    arm = ArmHarmonics(robot)
-    states = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, robot.n))
-    c = arm.tensor(arm.symbols.at(states))
-    both = (np.einsum("bijk,bijl->bkl", c, c), np.einsum("bijk,bljk->bil", c, c))
-    tops = [np.linalg.eigvalsh(square)[:, -1] for square in both]
-    return _root(Fraction(float(max(np.max(np.minimum(*tops)), 0.0))))
+def _boxes(show: bool) -> Bisection | None:
+    return Bisection() if show else None
 
 
 def _root(square: Fraction) -> Fraction:

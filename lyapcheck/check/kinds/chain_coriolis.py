@@ -14,6 +14,8 @@ from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.kinds.chain import OfLinks
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture
 from lyapcheck.check.loop import motion
+from lyapcheck.check.loop.control_points import require_points
+from lyapcheck.check.loop.head import DEGREE
 from lyapcheck.check.loop.storage import hinges
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import Algebra
@@ -57,8 +59,8 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return dot(torques, torques) - to_arb(4 * self.high**2) * dot(x, x) ** 2
 
 
-MOST_FIRST, FEWEST, MOST_START, MOST_HALVINGS = 4, 9, 32, 24
-"""First joints, control points of an angle to begin with, and halvings."""
+MOST_FIRST = 4
+"""First joints."""
 
 
 @dataclass(frozen=True)
@@ -92,11 +94,7 @@ def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
     first = n - len(proof.joints)
     require(n >= 2, "links", n, "must be two or more")
     require(2 <= first <= MOST_FIRST, "joints", len(proof.joints), f"must leave 2 to {MOST_FIRST} joints")
-    require(len(start) == first - 1, "start", len(start), f"must be {first - 1} numbers")
-    enough = all(FEWEST <= count <= MOST_START for count in start)
-    require(enough, "start", start, f"must be numbers from {FEWEST} to {MOST_START}")
-    require(len(halvings) <= MOST_HALVINGS, "halvings", len(halvings), f"must be {MOST_HALVINGS} at most")
-    require(all(0 <= axis < first - 1 for axis in halvings), "halvings", halvings, "must number those angles")
+    require_points(start, halvings, DEGREE, first - 1)
     links = hinges(statement.links)
     shown = motion.shows(links, proof.kappa, proof.joints, proof.relations, start, halvings)
     require(shown, "forms", "", "do not show the bound")

@@ -25,9 +25,13 @@ from operator import itemgetter
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from lyapcheck.check.refusal import require
+
 BITS = 64
 MOST, MOST_AROUND = 200_000, 4096
 """Control points that are looked at, and N."""
+MOST_START, MOST_HALVINGS = 32, 24
+"""Control points of an angle to begin with, and halvings."""
 Point = tuple[int, ...]
 
 
@@ -40,6 +44,20 @@ def nodes(degree: int, angles: int) -> list[tuple[fmpq, ...]]:
     """
     circle = [fmpq(2 * j, 2 * degree + 1) for j in range(2 * degree + 1)]
     return list(product(circle, repeat=angles))
+
+
+def require_points(start: Sequence[int], halvings: Sequence[int], degree: int, angles: int) -> None:
+    """Refuse other numbers of control points than so many angles and such a degree ask for.
+
+    Raises:
+        Refused: at the first fault.
+    """
+    fewest = 2 * degree + 1
+    require(len(start) == angles, "start", len(start), f"must be {angles} numbers")
+    enough = all(fewest <= count <= MOST_START for count in start)
+    require(enough, "start", start, f"must be numbers from {fewest} to {MOST_START}")
+    require(len(halvings) <= MOST_HALVINGS, "halvings", len(halvings), f"must be {MOST_HALVINGS} at most")
+    require(all(0 <= axis < angles for axis in halvings), "halvings", halvings, "must number those angles")
 
 
 def definite_at_all_angles(

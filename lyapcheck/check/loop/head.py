@@ -66,16 +66,7 @@ class Head:
     def entries(self, angles: Sequence[fmpq], relation: arb_mat) -> list[arb]:
         """The entries of H on and below the diagonal, by rows, at q_2, …, q_K in units of π, with an N."""
         power, state = self.posture(angles)
-        n, kappa = self.joints, _ball(self.kappa)
-        form = relation - state.transpose() * self.stored * state
-        result = []
-        for row in range(form.nrows()):
-            for column in range(row + 1):
-                entry = form[row, column]
-                if column < n <= row:
-                    entry -= power[column, row - n]
-                result.append(entry + kappa if row == column < n else entry)
-        return result
+        return assembled(power, relation - state.transpose() * self.stored * state, self.kappa)
 
     def posture(self, angles: Sequence[fmpq]) -> tuple[arb_mat, arb_mat]:
         """C_v, (K, products), and R, (PARTS, K + products)."""
@@ -117,6 +108,18 @@ class Head:
                 state[row, n + column] = speeds[i, a] * speeds[j, b] + other
             state[PARTS - 1, n + column] = int(a == b)
         return state
+
+
+def assembled(power: arb_mat, form: arb_mat, kappa: Fraction) -> list[arb]:
+    """The entries on and below the diagonal, by rows, of diag(κ, …, κ, 0) − (C_v + C_vᵀ) and a form."""
+    n, price, result = power.nrows(), _ball(kappa), []
+    for row in range(form.nrows()):
+        for column in range(row + 1):
+            entry = form[row, column]
+            if column < n <= row:
+                entry -= power[column, row - n]
+            result.append(entry + price if row == column < n else entry)
+    return result
 
 
 def splits(joints: int) -> list[tuple[Split, Split]]:

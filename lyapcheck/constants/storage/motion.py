@@ -18,13 +18,15 @@ from functools import lru_cache
 from itertools import combinations_with_replacement
 
 import numpy as np
-from flint import fmpq, fmpq_mat, fmpq_mpoly
+from flint import arb_mat, fmpq, fmpq_mat, fmpq_mpoly
 
 from lyapcheck import store
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.check.kinds.chain_coriolis import MotionForms
 from lyapcheck.check.loop import motion
 from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.control_points import nodes
+from lyapcheck.check.loop.head import DEGREE, PARTS, Head
 from lyapcheck.check.loop.motion import (
     COUNT,
     GENS,
@@ -38,15 +40,15 @@ from lyapcheck.check.loop.motion import (
     Gram,
     products,
 )
-from lyapcheck.check.loop.storage import hinges
+from lyapcheck.check.loop.storage import Hinge, hinges
 from lyapcheck.check.numbers.polynomials import rational
-from lyapcheck.constants.storage.postures import Postures
+from lyapcheck.constants.storage.postures import Postures, exact_rows
 from lyapcheck.constants.storage.program import Blocks, solve
 from lyapcheck.robots.dynamics import Chain
 
 _TOLERANCE = 3e-4
-_BITS, _RELATION_BITS = 40, 14
-"""To which matrices are rounded, relative to their largest entries, and relations, relative to κ."""
+_BITS = 40
+"""To which matrices are rounded, relative to their largest entries."""
 _STATES = [*STATE[:12], *products(STATE[12:18]), COUNT]
 """What s_k is a quadratic form of."""
 _COUNTED = list(combinations_with_replacement(range(len(LINEAR)), 2))
@@ -93,6 +95,11 @@ def coriolis_forms(
 def program_of(links: tuple[RigidLink, ...], margin: float) -> _Program:
     """The program of a chain, with its solution once there is one: that takes seconds, and several ask."""
     return _Program(links, margin)
+
+
+def _postures(links: Sequence[Hinge], first: int) -> Postures:
+    head = Head(links, first, Fraction(0), arb_mat(PARTS, PARTS))
+    return Postures([head.posture(angles) for angles in nodes(DEGREE, first - 1)], DEGREE, first - 1)
 
 
 class _Squares:
@@ -158,7 +165,7 @@ class _Program:
         self.forms = [states.matrix(form) for form in self.own]
         self.each = len(self.own) + len(self.joint.relations) + len(_COUNTED)
         self.unknowns = 1 + (self.n - self.first) * self.each
-        self.postures = Postures(links[: self.first + 1], self.first)
+        self.postures = _postures(links[: self.first + 1], self.first)
         self.parts, self.places = np.array(self.forms), self._first(self.first) + np.arange(len(self.own))
         """Of what F is a sum, and the unknowns that go with it; behind the last joint it is −κN²."""
         if self.first == self.n:
@@ -211,8 +218,7 @@ class _Program:
         """The matrices of a solution, for a larger κ; ``None`` where control points do not suffice."""
         more = float(kappa) - x[0]
         x = self._raised(x, more)
-        step = 2.0 ** (np.ceil(np.log2(x[0])) - _RELATION_BITS)
-        relations = np.round((relations + more * self.postures.fourth) / step) * step
+        relations = self.postures.short(x[0], relations + more * self.postures.fourth)
         points = self.postures.refined(self.postures.at_nodes(x[0], self.handed_on(x), relations))
         if points is None:
             return None
@@ -230,7 +236,7 @@ class _Program:
             )
             joints.append((self.joint.exact(squares, left), q))
             after = own
-        rows = tuple(tuple(Fraction(c) for c in row) for row in relations.tolist())
+        rows = exact_rows(relations)
         return MotionForms(kappa, tuple(reversed(joints)), rows, *points)
 
     def _raised(self, x: Array, more: float) -> Array:

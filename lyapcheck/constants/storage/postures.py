@@ -1,15 +1,15 @@
-"""What the first joints of a chain ask of a bound of k_c at all postures, in doubles.
+"""What the first joints of a chain, or all of an arm, ask of a bound of k_c at all postures, in doubles.
 
-Their matrix H of `lyapcheck.check.loop.head` is a trigonometric polynomial of their angles: from its values
-at nodes it is known at every posture, and so are its control points. N is fitted to analytic centres of many
-postures, which depend smoothly on the angles, and closest where there is least to spare.
+Their matrix H of `lyapcheck.check.loop.head` or ``symbols`` is a trigonometric polynomial of their angles:
+from its values at nodes it is known at every posture, and so are its control points. N is fitted to analytic
+centres of many postures, which depend smoothly on the angles, and closest where there is least to spare.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import product
+from itertools import combinations_with_replacement, product
 from operator import itemgetter
 
 import numpy as np
@@ -17,9 +17,8 @@ from flint import arb_mat
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.loop.control_points import MOST_AROUND, children, control_weights, nodes
-from lyapcheck.check.loop.head import DEGREE, PARTS, Head, relation, splits
-from lyapcheck.check.loop.storage import Hinge
+from lyapcheck.check.loop.control_points import MOST_AROUND, MOST_HALVINGS, children, control_weights
+from lyapcheck.check.loop.head import relation, splits
 from lyapcheck.constants.storage.centres import centres
 
 _SOME, _WORST, _APART = 60, 20, 0.5
@@ -30,27 +29,27 @@ _SAMPLES = {1: 48, 2: 24, 3: 10}
 """Points of a circle at which relations are chosen, by the number of angles."""
 _WIDTH, _SHARP = 0.003, 1e-4
 """Widths of centres relative to κ: of those relations, and where the least κ of a posture is sought."""
-_MOST_LEFT, _HALVINGS = 20_000, 24
-_AROUND = 2 * DEGREE + 1
-"""Nodes of each angle."""
+_MOST_LEFT = 20_000
+_BITS = 14
+"""To which relations are rounded, relative to κ."""
 _BLOCK = 4000
 """Matrices that are held at a time."""
 
 
 class Postures:
-    """The matrix of the first joints, in products √2 x_i x_j, i < j: so κ and κN² with some N add κ to it.
+    """The matrix H of some joints, in products √2 x_i x_j, i < j: so κ and κN² with some N add κ to it.
 
     Args:
-        links: as `Head` takes them.
-        joints: K.
+        values: C_v and R of H, at each of the nodes of the angles that enter.
+        degree: of both and of H in each of these angles, at most.
+        angles: how many enter.
     """
 
-    def __init__(self, links: Sequence[Hinge], joints: int) -> None:
-        self.joints, self.angles = joints, joints - 1
-        head = Head(links, joints, Fraction(0), arb_mat(PARTS, PARTS))
-        self.size = joints + len(head.products)
-        values = [head.posture(angles) for angles in nodes(DEGREE, self.angles)]
-        squares = [1.0 if a == b else 2.0 for a, b in head.products]
+    def __init__(self, values: Sequence[tuple[arb_mat, arb_mat]], degree: int, angles: int) -> None:
+        self.degree, self.angles, self._nodes = degree, angles, 2 * degree + 1
+        self.joints, self.size = values[0][0].nrows(), values[0][1].ncols()
+        joints = self.joints
+        squares = [1.0 if a == b else 2.0 for a, b in combinations_with_replacement(range(joints), 2)]
         self._scale = 1 / np.sqrt(np.array([1.0] * joints + squares))
         self._power = np.array([_doubles(power) for power, _ in values]) * self._scale[joints:]
         self._state = np.array([_doubles(state) for _, state in values]) * self._scale
@@ -65,7 +64,7 @@ class Postures:
         self._triangle = np.tril_indices(self.size)
 
     def some(self) -> Array:
-        """Postures to begin with, (count, K − 1)."""
+        """Postures to begin with, (count, angles)."""
         return np.random.default_rng(SEED).uniform(-np.pi, np.pi, (_SOME, self.angles))
 
     def parts(self, q: Array, forms: Array) -> tuple[Array, Array, Array]:
@@ -73,7 +72,7 @@ class Postures:
         weights = self._at(q)
         power = np.tensordot(weights, self._power, 1)
         state = np.tensordot(weights, self._state, 1)
-        nothing = np.zeros((PARTS, PARTS))
+        nothing = np.zeros((state.shape[-2],) * 2)
         constant = self._assembled(power, state, 0.0, nothing)
         price = self._assembled(power, state, 1.0, nothing) - constant
         return constant, price, self._assembled(power, state, 0.0, forms) - constant
@@ -106,6 +105,11 @@ class Postures:
         normal += 1e-9 * np.trace(normal) / len(normal) * np.eye(len(normal))
         return np.asarray(np.linalg.solve(normal, tight.T @ chosen))
 
+    def short(self, kappa: float, relations: Array) -> Array:
+        """The coefficients of N with fewer digits."""
+        step = 2.0 ** (np.ceil(np.log2(kappa)) - _BITS)
+        return np.asarray(np.round(relations / step) * step)
+
     def lack(self, kappa: float, form: Array, relations: Array) -> float:
         """By how much κ is too small with relations at nodes."""
         return max(0.0, -self._lowest(self._table(self.at_nodes(kappa, form, relations)))[0][0])
@@ -113,7 +117,7 @@ class Postures:
     def _table(self, matrices: Array) -> Array:
         """The entries of matrices at the nodes, (nodes of each angle, entries)."""
         entries = matrices[:, self._triangle[0], self._triangle[1]]
-        return np.asarray(entries.reshape((_AROUND,) * self.angles + (-1,)))
+        return np.asarray(entries.reshape((self._nodes,) * self.angles + (-1,)))
 
     def worst(self, kappa: float, form: Array, seen: Sequence[Array]) -> list[tuple[float, Array]]:
         """Postures apart from each other for which no N is found, and by how much κ is too small there."""
@@ -157,13 +161,13 @@ class Postures:
         """
         table = self._table(matrices)
         bend = np.array([self._bend(table, axis) for axis in range(self.angles)])
-        counts = np.maximum(9, np.ceil(_GRID * np.sqrt(bend / (bend.max() or 1.0)))).astype(np.intp)
+        counts = np.maximum(self._nodes, np.ceil(_GRID * np.sqrt(bend / (bend.max() or 1.0)))).astype(np.intp)
         start = tuple(counts.tolist())
         halvings: list[int] = []
         points = np.indices(counts).reshape(self.angles, -1).T
-        for _ in range(_HALVINGS):
+        for _ in range(MOST_HALVINGS):
             weights = [
-                np.array(control_weights(count, DEGREE), dtype=np.float64) for count in counts.tolist()
+                np.array(control_weights(count, self.degree), dtype=np.float64) for count in counts.tolist()
             ]
             left = points[self._least(table, weights, points.T) <= 0]
             if not len(left):
@@ -175,7 +179,7 @@ class Postures:
             counts[axis] *= 2
             if counts[axis] > MOST_AROUND:
                 return None
-            points = np.array(children(map(tuple, left.tolist()), axis, DEGREE, int(counts[axis])))
+            points = np.array(children(map(tuple, left.tolist()), axis, self.degree, int(counts[axis])))
         return None
 
     def _least(self, table: Array, weights: Sequence[Array], places: NDArray[np.intp]) -> Array:
@@ -213,14 +217,19 @@ class Postures:
 
     def _weights(self, angles: Array) -> Array:
         """What the nodes of one angle count for at angles, (..., nodes)."""
-        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(_AROUND) / _AROUND
-        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, DEGREE + 1))) / _AROUND)
+        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(self._nodes) / self._nodes
+        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, self.degree + 1))) / self._nodes)
 
     def _bend(self, table: Array, axis: int) -> float:
         """How large second derivatives by an angle are."""
         values = np.fft.rfft(np.moveaxis(table, axis, 0), axis=0)
-        squares = np.arange(DEGREE + 1) ** 2
+        squares = np.arange(self.degree + 1) ** 2
         return float(np.linalg.norm(values * squares.reshape(-1, *[1] * (table.ndim - 1))))
+
+
+def exact_rows(relations: Array) -> tuple[tuple[Fraction, ...], ...]:
+    """The coefficients of N at each node as the rational numbers that doubles are."""
+    return tuple(tuple(map(Fraction, row)) for row in relations.tolist())
 
 
 def _doubles(matrix: arb_mat) -> Array:
