@@ -46,14 +46,8 @@ BOXES = 2000
 DIGITS = 6
 MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
 """How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
-MARGINS_OF_CORIOLIS = (
-    Fraction(1, 1000),
-    Fraction(3, 1000),
-    Fraction(6, 1000),
-    Fraction(1, 100),
-    Fraction(1, 20),
-)
-"""The same for k_c: the nearer, the more control points."""
+MARGINS_OF_CORIOLIS = tuple(Fraction(k, 1000) for k in (1, 3, 6, 10, 15, 50, 200))
+"""The same for k_c, from what is reached: the nearer, the more control points."""
 BITS = 64
 _ABOVE = (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
@@ -231,7 +225,7 @@ def _of_coriolis(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ..
     return _Bound(
         lambda value: CoriolisBelow(mass, (), value),
         lambda value: products_below(inertia, value),
-        constant.enclosure.upper,
+        constant.enclosure.lower,
         arm.kc,
         PostureWitness(q, (), x, x),
         Fraction(float(np.linalg.norm(turned)) / size),
