@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from flint import fmpq_mpoly
 
 from lyapcheck.robots import Number, RobotModel, load
+from lyapcheck.robots.chain_bounds import chain_bounds
+from lyapcheck.robots.dynamics import TooManyTerms
 
 if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
@@ -103,15 +105,26 @@ def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
 
     The sum of the coefficients of g_i in size, and for a chain of links what masses and distances say.
 
+    Raises:
+        TooManyTerms: no links are known, and g is too long to be written out.
+
     Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
-    most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other.
+        most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other, which grows
+        with each mass.
     """
-    printed = (None if bound is None else bound.bounds[1] for bound in model.gravity_bound)
-    sums = [_coefficient_sum(model, torque) for torque in model.gravity]
-    chain = sums if model.chain_bounds is None else model.chain_bounds.gravity
-    return tuple(
-        min(a, b) if bound is None else bound for bound, a, b in zip(printed, sums, chain, strict=True)
-    )
+    printed = [None if bound is None else bound.bounds[1] for bound in model.gravity_bound]
+    along = model.chain_bounds
+    if along is None and model.heaviest is not None:
+        along = chain_bounds(model.heaviest)
+    chain = None if along is None else along.gravity
+    try:
+        sums = tuple(_coefficient_sum(model, torque) for torque in model.gravity)
+    except TooManyTerms:
+        if chain is None:
+            raise
+        sums = chain
+    pairs = zip(printed, sums, chain or sums, strict=True)
+    return tuple(min(a, b) if bound is None else bound for bound, a, b in pairs)
 
 
 def _coefficient_sum(model: RobotModel, poly: fmpq_mpoly) -> Fraction:

@@ -236,6 +236,7 @@ class Chain(Dynamics):
             if len(poly) > MOST_TERMS:
                 rule = f"has more than {MOST_TERMS} terms for these {self.n} links, too many to write out"
                 repair = "give an arm of fewer joints, or with axes along or across each other"
+                repair += "; in a URDF file write a right angle as 1.57079632679"
                 raise TooManyTerms(Problem("arm", None, "M(q)", "", rule, repair))
             return trig.normal_form(poly)
 

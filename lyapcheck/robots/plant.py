@@ -75,6 +75,20 @@ class Plant:
         return self.dynamics if isinstance(self.dynamics, Chain) and not self.parameters else None
 
     @cached_property
+    def heaviest(self) -> Chain | None:
+        """The links with their largest masses, where those are known and nothing else is uncertain."""
+        if not isinstance(self.dynamics, Chain) or not self.parameters:
+            return self.chain
+        light, heavy = (
+            self.dynamics.fixed({key: number.bounds[end] for key, number in self.parameters.items()})
+            for end in (0, 1)
+        )
+        masses_alone = light.fall == heavy.fall and all(
+            replace(a, mass=b.mass) == b for a, b in zip(light.links, heavy.links, strict=True)
+        )
+        return heavy if masses_alone else None
+
+    @cached_property
     def chain_bounds(self) -> ChainBounds | None:
         """What masses and distances of exact links say for all angles."""
         return None if self.chain is None else chain_bounds(self.chain)

@@ -56,10 +56,13 @@ class Vary:
             low, high = Fraction(result[2]), Fraction(result[4])
         except ValueError:
             raise argument_error(OPTION, text, "has an end that is no number", repair) from None
-        if result[3]:
-            low, high = 1 + low / 100, 1 + high / 100
         if low > high:
             raise argument_error(OPTION, text, "is an empty range", "give the smaller end first")
+        if result[1] == PAYLOAD and (result[3] or low < 0):
+            rule = "is no mass: a payload is in kg, from 0 on"
+            raise argument_error(OPTION, text, rule, "write --vary payload=0..3")
+        if result[3]:
+            low, high = 1 + low / 100, 1 + high / 100
         return cls(result[1], low, high, bool(result[3]))
 
     @property
@@ -119,32 +122,36 @@ def varied(
     if masses:
         chain = model.dynamics
         assert isinstance(chain, Chain)
+        ranged = {key: number for key, number in masses.items() if number.ranged}
+        now = {key: ParameterShare(key) if key in ranged else masses[key].value for key in masses}
         links = tuple(
-            replace(link, mass=cast(Any, ParameterShare(key))) if (key := f"{joint}_mass") in masses else link
+            replace(link, mass=cast(Any, now.get(f"{joint}_mass", link.mass)))
             for joint, link in zip(model.joints, chain.links, strict=True)
         )
-        changed["dynamics"] = Chain(links, chain.fall, (*chain.names, *masses))
-        changed["parameters"] = model.parameters | masses
+        changed["dynamics"] = Chain(links, chain.fall, tuple(dict.fromkeys((*chain.names, *ranged))))
+        changed["parameters"] = model.parameters | ranged
     return replace(model, numbers=numbers, **changed)
 
 
 def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> dict[str, Number]:
-    """The masses of links that get a range, by the name of their joint."""
-    if not isinstance(model.dynamics, Chain) or "mass" not in parts:
+    """The masses of links that change, by the name of their joint; a payload adds to the last one."""
+    chain = model.dynamics
+    if not isinstance(chain, Chain):
         return {}
-    links = zip(model.joints, model.dynamics.links, strict=True)
-    known = {
-        f"{joint}_mass": Number(link.mass, "kg") for joint, link in links if isinstance(link.mass, Fraction)
-    }
-    result = varied_numbers(known, varies)
+    links = zip(model.joints, chain.links, strict=True)
+    known = {f"{joint}_mass": _mass(model, link.mass) for joint, link in links}
+    result = varied_numbers(known, varies) if "mass" in parts else dict(known)
     last = f"{model.joints[-1]}_mass"
     for vary in varies:
-        if vary.name == PAYLOAD and last in known:
+        if vary.name == PAYLOAD and PAYLOAD in parts:
             own = result[last]
-            result[last] = Number(
-                own.value + vary.low, "kg", low=own.bounds[0] + vary.low, high=own.bounds[1] + vary.high
-            )
-    return {key: number for key, number in result.items() if number is not known[key] and number.ranged}
+            low, high = (end + more for end, more in zip(own.bounds, (vary.low, vary.high), strict=True))
+            result[last] = replace(own, value=own.value + vary.low, low=low, high=high)
+    return {key: number for key, number in result.items() if number is not known[key]}
+
+
+def _mass(model: RobotModel, mass: Fraction | ParameterShare) -> Number:
+    return model.parameters[mass.name] if isinstance(mass, ParameterShare) else Number(mass, "kg")
 
 
 def _require_physical(numbers: Mapping[str, Number]) -> None:

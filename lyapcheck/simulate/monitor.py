@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.entries import gravity_sizes
+from lyapcheck.control.arm_limits import gravity_bounds
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.run import Promises
 
@@ -64,7 +64,7 @@ def torque_bound(gains: Gains, model: RobotModel) -> float | None:
     gamma = gains.family.constants().gamma
     if gamma is None:
         return None
-    gravity = math.hypot(*gravity_bounds(model))
+    gravity = math.hypot(*map(float, gravity_bounds(model)))
     return math.sqrt(model.n) * gamma.float_upper * (max(gains.kp) + max(gains.kv)) + gravity
 
 
@@ -76,16 +76,5 @@ def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
     gamma = gains.family.constants().gamma
     if gamma is None:
         return None
-    rows = zip(gains.kp, gains.kv, gravity_sizes(model), strict=True)
+    rows = zip(gains.kp, gains.kv, gravity_bounds(model), strict=True)
     return tuple(gamma.float_upper * (p + v) + float(weight) for p, v, weight in rows)
-
-
-def gravity_bounds(model: RobotModel) -> tuple[float, ...]:
-    """Per joint a bound of |g_i| in N·m: the printed k_gi, else the sum of the sizes of its coefficients."""
-    from lyapcheck.robots.trig import evaluate
-
-    ones = [1.0] * (2 * model.n) + [max(map(abs, map(float, p.bounds))) for p in model.parameters.values()]
-    return tuple(
-        float(printed.value) if printed is not None else evaluate(entry, ones, lambda x: abs(float(x)))
-        for printed, entry in zip(model.gravity_bound, model.gravity, strict=True)
-    )

@@ -43,7 +43,11 @@ def test_what_is_typed_is_read_exactly(text: str, name: str, low: F, high: F, re
 
 
 @pytest.mark.parametrize(
-    "text", ["viscous", "viscous=30%", "viscous=1..30%", "viscous=2..1", "v=1..2..3", "v=a..1"]
+    "text",
+    [
+        *("viscous", "viscous=30%", "viscous=1..30%", "viscous=2..1", "v=1..2..3", "v=a..1"),
+        *("payload=5%..10%", "payload=-1..3"),
+    ],
 )
 def test_text_of_another_form_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="--vary"):
@@ -74,6 +78,65 @@ def test_masses_and_payload_of_a_urdf_arm_move_its_dynamics() -> None:
     np.testing.assert_allclose(
         NumericModel(same).mass(q), NumericModel(nominal).mass(q), rtol=1e-13, atol=1e-15
     )
+
+
+PLANAR = """
+title = "two joints in a vertical plane"
+gravity = [0, 0, -9.81]
+
+[[links]]
+name = "shoulder"
+axis = [0, 1, 0]
+origin = [0, 0, 0]
+mass = 6
+com = [0, 0, -0.1]
+inertia = 0.12
+viscous = 0.5
+
+[[links]]
+name = "elbow"
+axis = [0, 1, 0]
+origin = [0, 0, -0.3]
+mass = 2
+com = [0, 0, -0.05]
+inertia = 0.02
+viscous = 0.3
+"""
+
+
+@pytest.mark.parametrize("masses", [(), ("elbow_mass=1..3",), ("mass=-50%..50%",)])
+def test_a_payload_of_links_in_an_arm_file_is_carried(masses: tuple[str, ...], tmp_path: Path) -> None:
+    file = tmp_path / "planar.toml"
+    file.write_text(PLANAR, encoding="utf-8")
+    before, after = varied(str(file), *masses), varied(str(file), "payload=0..10", *masses)
+    low, high = before.parameters["elbow_mass"].bounds if masses else (F(2), F(2))
+    assert after.parameters["elbow_mass"].bounds == (low, high + 10)
+    weight = F("9.81") * F("0.35")
+    bare, loaded = (
+        varied_limits(str(file), tuple(map(Vary.parsed, one))) for one in (masses, (*masses, "payload=0..10"))
+    )
+    assert float(loaded.gravity[0] - bare.gravity[0]) == pytest.approx(float(10 * weight))
+
+
+@pytest.mark.parametrize("text", ["payload=2..2", "mass=20%..20%"])
+def test_a_range_of_one_value_is_that_value(text: str) -> None:
+    nominal, model = robots.load(UR5), varied(UR5, text)
+    assert model.chain is not None
+    own = [link.mass for link in nominal.chain.links]
+    expected = [*own[:-1], own[-1] + 2] if "payload" in text else [F(6, 5) * mass for mass in own]
+    assert [link.mass for link in model.chain.links] == expected
+
+
+@pytest.mark.parametrize("texts", [("payload=0..3",), ("mass=-5%..5%",), ("mass=-5%..5%", "payload=0..3")])
+def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts: tuple[str, ...]) -> None:
+    varies = tuple(map(Vary.parsed, texts))
+    limits, model = varied_limits(UR5, varies), robots.load(UR5, vary=varies)
+    heavy = model.fixed(**{name: number.bounds[1] for name, number in model.parameters.items()})
+    q = np.random.default_rng(2).uniform(-np.pi, np.pi, (4000, 6))
+    worst = np.abs(NumericModel(heavy).gravity(q)).max(axis=0)
+    bounds = np.array([float(bound) for bound in limits.gravity])
+    assert np.all(worst <= bounds * (1 + 1e-12) + 1e-12)
+    assert np.all(bounds[1:3] <= 1.2 * worst[1:3])
 
 
 def test_the_corners_are_the_ends_of_all_that_varies() -> None:

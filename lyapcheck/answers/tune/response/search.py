@@ -18,13 +18,13 @@ from lyapcheck.answers.gate.bench import dry_friction
 from lyapcheck.answers.tune.response.one_joint import Joint, proposal
 from lyapcheck.answers.tune.response.trial import Trial, tried
 from lyapcheck.answers.tune.response.wishes import BY_19, Trials
+from lyapcheck.control.arm_limits import gravity_bounds
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
 from lyapcheck.family import named
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.simulate.monitor import gravity_bounds
 
 if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits
@@ -147,13 +147,13 @@ class Search:
         )
         steps = np.max([np.abs(task.step) for task in self.bench.tasks], axis=0)
         dry = [max(float(f) for f in each) for each in zip(*map(dry_friction, self.models), strict=True)]
-        unit = float(self.unit)
+        weights, unit = gravity_bounds(model), float(self.unit)
         return [
             Joint(
                 inertia=float(mass[i]),
                 friction=float(model.viscous[i].value),
                 dry=dry[i],
-                gravity=gravity_bounds(model)[i],
+                gravity=float(weights[i]),
                 step=float(steps[i]),
                 torque=math.inf if torque is None else float(torque),
                 sum_limit=self.most_sum[i] * unit,
