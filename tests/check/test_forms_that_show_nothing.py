@@ -127,7 +127,7 @@ def test_links_that_are_none(change: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("size", [F(1, 10), F(1), F(10)])
 def test_the_bound_that_a_posture_refutes(size: F) -> None:
-    """Two bodies at distance 1: C(q, x)x = sin q₂ (−2x₁x₂ − x₂², x₁²), of length √2 at x = (−1, 1), ‖x‖² = 2."""
+    """Two bodies at distance 1: C(q, x)x = sin q₂ (−2x₁x₂ − x₂², x₁²) has length √2 at x = (−1, 1)."""
     links = tuple(replace(link, turn=UNIT) for link in chain(2))
     nothing = tuple((F(0),) * 3 for _ in range(3))
     links = tuple(replace(link, inertia=nothing) for link in links)
