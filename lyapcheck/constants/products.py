@@ -28,9 +28,5 @@ def products_below(inertia: Inertia, bound: Fraction) -> ProductsOfRates | None:
     if not (2 <= inertia.n <= MOST_JOINTS and 1 <= angles <= MOST_ANGLES and degree <= DEGREE and kappa > 0):
         return None
     values = [(symbols.power(q), symbols.square) for q in nodes(degree, angles)]
-    postures, form = Postures(values, degree, angles), np.array([[-kappa]])
-    relations = postures.short(kappa, postures.fitted(kappa, form, ()))
-    if postures.lack(kappa, form, relations) > 0:
-        return None
-    points = postures.refined(postures.at_nodes(kappa, form, relations))
-    return None if points is None else ProductsOfRates(exact_rows(relations), *points)
+    shown = Postures(values, degree, angles).shown(kappa, np.array([[-kappa]]))
+    return None if shown is None else ProductsOfRates(exact_rows(shown[0]), *shown[1:])

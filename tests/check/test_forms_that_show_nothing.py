@@ -8,19 +8,24 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import arb
+from flint import arb, arb_mat
 
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.control_points import children, definite_at_all_angles
-from lyapcheck.check.loop.head import stored_form
+from lyapcheck.check.loop.control_points import children, definite_at_all_angles, nodes
+from lyapcheck.check.loop.head import PARTS, Head, stored_form
 from lyapcheck.check.loop.motion import COUNT, JOINT, LINEAR, RATE, SPEED, STATE
+from lyapcheck.check.loop.storage import hinges
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
+from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage import motion as storage_motion
 from lyapcheck.constants.storage import storage_proof
+from lyapcheck.constants.storage.postures import Postures, exact_rows
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.number import Number
+from lyapcheck.robots.plant import Plant
 from tests.helpers.forgotten import forget_bounds
 
 UNIT = ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))
@@ -150,8 +155,10 @@ def test_start_has_a_number_for_each_angle(shown: Any) -> None:
     for start in ((), (24, 24)):
         with pytest.raises(Refused, match="must be 1 numbers"):
             verify(statement, replace(proof, start=start))
+    with pytest.raises(Refused, match="must leave 2 to 5 joints"):
+        verify(ChainCoriolisBelow(chain(6), F(1)), replace(proof, kappa=F(1), joints=()))
     with pytest.raises(Refused, match="must leave 2 to 4 joints"):
-        verify(ChainCoriolisBelow(chain(5), F(1)), replace(proof, kappa=F(1), joints=()))
+        verify(ChainCoriolisBelow(chain(7), F(1)), replace(proof, kappa=F(1)))
 
 
 def test_what_is_handed_on_is_left_as_it_is_by_turns(shown: Any) -> None:
@@ -162,3 +169,28 @@ def test_what_is_handed_on_is_left_as_it_is_by_turns(shown: Any) -> None:
     by = min(p[first][first], p[second][second]) / 10**12
     uneven = plus(plus(p, first, first, by), second, second, -by)
     assert refused(statement, replace(proof, joints=((uneven, q), *others)))
+
+
+def test_degree_two_is_enough_where_nothing_is_handed_on_and_there_alone(shown: Any) -> None:
+    links = chain(2)
+    reached = extreme(
+        Plant(name="two", joints=("a", "b"), dynamics=Chain(links, (F(0),) * 3), viscous=(Number(F(0)),) * 2),
+        "k_c",
+    ).value
+    head = Head(hinges(links), 2, F(0), arb_mat(PARTS, PARTS))
+    count = np.zeros((PARTS, PARTS))
+    count[-1, -1] = 1.0
+    for degree in (2, 3, 4):
+        postures = Postures([head.posture(angles) for angles in nodes(degree, 1)], degree, 1)
+        bound = reached * F(101, 100)
+        result = postures.shown(float(bound), -float(bound) * count)
+        assert result is not None
+        proof = MotionForms(bound, (), exact_rows(result[0]), *result[1:])
+        assert not refused(ChainCoriolisBelow(links, bound), proof)
+        assert refused(
+            ChainCoriolisBelow(links, reached * F(999, 1000)), replace(proof, kappa=reached * F(999, 1000))
+        )
+    statement, behind = shown
+    for rows in (5, 7):
+        with pytest.raises(Refused, match="must be 9 rows"):
+            verify(statement, replace(behind, relations=behind.relations[:rows]))

@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.chain import OfLinks
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture
 from lyapcheck.check.loop import motion
 from lyapcheck.check.loop.control_points import require_points
-from lyapcheck.check.loop.head import DEGREE
+from lyapcheck.check.loop.head import DEGREE, DEGREE_ALONE
 from lyapcheck.check.loop.storage import hinges
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import Algebra
@@ -59,8 +59,8 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return dot(torques, torques) - to_arb(4 * self.high**2) * dot(x, x) ** 2
 
 
-MOST_FIRST = 4
-"""First joints."""
+MOST_FIRST, MOST_ALONE = 4, 5
+"""First joints, with others behind them and without."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,8 @@ class MotionForms(Proof):
     Args:
         kappa: the bound that they show, the stated one or a smaller one.
         joints: P and Q of each joint behind the first K.
-        relations: of the products of the first K speeds, at each of the nodes of q_2, …, q_K.
+        relations: of the products of the first K speeds, at each of the nodes of q_2, …, q_K; of which
+            degree says their number.
         start: control points of each of the angles q_2, …, q_K to begin with.
         halvings: the angle, counted from 0, whose step is halved next.
     """
@@ -93,9 +94,14 @@ def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
     n, start, halvings = len(statement.links), proof.start, proof.halvings
     first = n - len(proof.joints)
     require(n >= 2, "links", n, "must be two or more")
-    require(2 <= first <= MOST_FIRST, "joints", len(proof.joints), f"must leave 2 to {MOST_FIRST} joints")
-    require_points(start, halvings, DEGREE, first - 1)
+    most, least = (MOST_FIRST, DEGREE) if proof.joints else (MOST_ALONE, DEGREE_ALONE)
+    require(2 <= first <= most, "joints", len(proof.joints), f"must leave 2 to {most} joints")
+    rows = {(2 * degree + 1) ** (first - 1): degree for degree in range(least, DEGREE + 1)}
+    known = len(proof.relations) in rows
+    require(known, "relations", len(proof.relations), f"must be {' or '.join(map(str, rows))} rows")
+    degree = rows[len(proof.relations)]
+    require_points(start, halvings, degree, first - 1)
     links = hinges(statement.links)
-    shown = motion.shows(links, proof.kappa, proof.joints, proof.relations, start, halvings)
+    shown = motion.shows(links, proof.kappa, proof.joints, proof.relations, degree, start, halvings)
     require(shown, "forms", "", "do not show the bound")
     return Accepted("proved", "enclosure")

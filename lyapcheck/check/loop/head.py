@@ -32,6 +32,8 @@ PARTS = 2 * TWIST + len(PAIRS) + 1
 DEGREE = 4
 """Of H in each angle, at most: the Christoffel symbols of each link are of degree 2, as its inertia matrix
 is; Z, A and V are of degree 1, and F is of degree 4 in V."""
+DEGREE_ALONE = 2
+"""That where nothing is handed on: of the Christoffel symbols alone."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,11 +32,10 @@ from flint import Ordering, arb, ctx, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.control_points import definite_at_all_angles, nodes
-from lyapcheck.check.loop.head import DEGREE, Head, relation, stored_form
+from lyapcheck.check.loop.head import Head, relation, stored_form
 from lyapcheck.check.loop.storage import BITS, TWIST, Hinge
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Vector
-from lyapcheck.check.refusal import require
 
 Gram = tuple[tuple[Fraction, ...], ...]
 """The rows of a symmetric matrix up to the diagonal."""
@@ -110,6 +109,7 @@ def shows(
     kappa: Fraction,
     joints: Sequence[tuple[Gram, Gram]],
     relations: Sequence[Sequence[Fraction]],
+    degree: int,
     start: Sequence[int],
     halvings: Sequence[int],
 ) -> bool:
@@ -120,6 +120,7 @@ def shows(
         kappa: the bound.
         joints: for the joints behind the first K, P of ``JOINT`` and of N (V, x).
         relations: of the products of the first K speeds, see `head.relation`, at each of the nodes.
+        degree: of which these are; not below that of H.
         start: see `definite_at_all_angles`, for q_2 to q_K.
         halvings: likewise.
 
@@ -140,12 +141,9 @@ def shows(
         handed_on = form
     terms = {powers[: len(STATE)]: c for powers, c in handed_on.to_dict().items()}
     head = Head(hinges[: first + 1], first, kappa, stored_form(terms))
-    postures = nodes(DEGREE, first - 1)
-    require(len(relations) == len(postures), "relations", len(relations), f"must be {len(postures)} rows")
-    values = (
-        head.entries(angles, relation(row, first)) for angles, row in zip(postures, relations, strict=True)
-    )
-    return definite_at_all_angles(values, DEGREE, start, halvings)
+    postures = zip(nodes(degree, first - 1), relations, strict=True)
+    values = (head.entries(angles, relation(row, first)) for angles, row in postures)
+    return definite_at_all_angles(values, degree, start, halvings)
 
 
 def onwards(following: Sequence[Hinge], state: Vector, form: fmpq_mpoly) -> fmpq_mpoly:

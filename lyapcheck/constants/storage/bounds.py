@@ -11,7 +11,7 @@ from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.constants.storage.motion import coriolis_forms, program_of
+from lyapcheck.constants.storage.motion import coriolis_forms, of_five_parallel_axes, program_of
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.control.judgement import proves
@@ -56,7 +56,7 @@ def storage_proof(
         on_progress: receives the share of the work done, of k_c.
     """
     if name == "k_c":
-        if chain.n > 1:
+        if chain.n > 1 and not of_five_parallel_axes(chain.links):
             program_of(chain.links, _MARGINS_OF_CORIOLIS[0]).kept_solution(on_progress)
         shown = coriolis_proof(chain.links)
         if shown is not None:

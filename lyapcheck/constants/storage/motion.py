@@ -22,11 +22,11 @@ from flint import arb_mat, fmpq, fmpq_mat, fmpq_mpoly
 
 from lyapcheck import store
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.check.kinds.chain_coriolis import MotionForms
+from lyapcheck.check.kinds.chain_coriolis import MOST_ALONE, MotionForms
 from lyapcheck.check.loop import motion
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.control_points import nodes
-from lyapcheck.check.loop.head import DEGREE, PARTS, Head
+from lyapcheck.check.loop.head import DEGREE, DEGREE_ALONE, PARTS, Head
 from lyapcheck.check.loop.motion import (
     COUNT,
     GENS,
@@ -42,9 +42,12 @@ from lyapcheck.check.loop.motion import (
 )
 from lyapcheck.check.loop.storage import Hinge, hinges
 from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.constants.extreme import extreme
 from lyapcheck.constants.storage.postures import Postures, exact_rows
 from lyapcheck.constants.storage.program import Blocks, solve
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.number import Number
+from lyapcheck.robots.plant import Plant
 
 _TOLERANCE = 3e-4
 _BITS = 40
@@ -59,6 +62,8 @@ _ROUNDS, _NEAR = 12, 2e-3
 _RAISES, _OF_THREE = (0.0015, 0.003, 0.006, 0.01, 0.02, 0.04, 0.1), 0.006
 """Shares of κ by which it is raised beyond what it lacks, so that control points suffice; of three angles
 the least of them, as smaller ones take many more points."""
+_TOGETHER = (Fraction(1, 100), Fraction(2, 100), Fraction(5, 100))
+"""Shares above what is reached that are tried where all joints are taken together."""
 Pair = tuple[int, int]
 
 
@@ -74,6 +79,8 @@ def coriolis_forms(
     """
     if len(chain.links) < 2:
         return None
+    if of_five_parallel_axes(chain.links):
+        return _all_together(chain, rounded)
     program = program_of(chain.links, margin)
     x = program.kept_solution()
     if x is None:
@@ -88,6 +95,29 @@ def coriolis_forms(
         proof = program.proof(x, kappa, relations)
         if proof is not None:
             return proof
+    return None
+
+
+def of_five_parallel_axes(links: Sequence[RigidLink]) -> bool:
+    """Whether all joints may be taken together, as M(q) is then of degree one in each angle."""
+    return len(links) == MOST_ALONE and all(abs(hinge.turn[2][2]) == 1 for hinge in hinges(links)[1:])
+
+
+def _all_together(chain: Chain, rounded: Callable[[Fraction], Fraction]) -> MotionForms | None:
+    """Nothing is handed on, and no program is solved: see `lyapcheck.constants.products`."""
+    n, links = chain.n, hinges(chain.links)
+    head = Head(links, n, Fraction(0), arb_mat(PARTS, PARTS))
+    values = [head.posture(angles) for angles in nodes(DEGREE_ALONE, n - 1)]
+    postures, count = Postures(values, DEGREE_ALONE, n - 1), np.zeros((PARTS, PARTS))
+    count[-1, -1] = 1.0
+    joints = tuple(f"joint {i + 1}" for i in range(n))
+    plant = Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * n)
+    least = extreme(plant, "k_c").value
+    for share in _TOGETHER:
+        kappa = rounded(least * (1 + share))
+        shown = postures.shown(float(kappa), -float(kappa) * count)
+        if shown is not None:
+            return MotionForms(kappa, (), exact_rows(shown[0]), *shown[1:])
     return None
 
 

@@ -23,10 +23,11 @@ from lyapcheck.constants.storage.centres import centres
 
 _SOME, _WORST, _APART = 60, 20, 0.5
 """Postures to begin with, more of them at a time, and how far they are apart, rad."""
-_GRID, _NARROWED = 24, 8
-"""Points of a circle on which the worst postures are sought, and how often the step around them shrinks."""
-_SAMPLES = {1: 48, 2: 24, 3: 10}
-"""Points of a circle at which relations are chosen, by the number of angles."""
+_GRID, _NARROWED = {1: 24, 2: 24, 3: 24, 4: 12}, 8
+"""Points of a circle on which the worst postures are sought, by the number of angles, and how often the step
+around them shrinks."""
+_SAMPLES, _FITTED = {1: 48, 2: 24, 3: 10, 4: 4}, {4: 1}
+"""Points of a circle at which relations are chosen, likewise, and their degree, if below that of H."""
 _WIDTH, _SHARP = 0.003, 1e-4
 """Widths of centres relative to κ: of those relations, and where the least κ of a posture is sought."""
 _MOST_LEFT = 20_000
@@ -96,14 +97,26 @@ class Postures:
         """
         count = _SAMPLES[self.angles]
         circle = 2 * np.pi * (np.arange(count) + 0.5) / count
-        weights = self._at(np.array([*product(circle, repeat=self.angles), *others]))
-        matrices = np.tensordot(weights, self.at_nodes(kappa, form), 1)
+        postures = np.array([*product(circle, repeat=self.angles), *others])
+        matrices = np.tensordot(self._at(postures), self.at_nodes(kappa, form), 1)
+        degree = _FITTED.get(self.angles, self.degree)
+        weights = self._at(postures, degree)
         chosen = centres(matrices, self.relations, _WIDTH * kappa)
         slack = np.linalg.eigvalsh(matrices + np.tensordot(chosen, self.relations, 1))[:, 0]
         tight = weights / (np.maximum(slack, 0) + _WIDTH * kappa)[:, None] ** 2
         normal = weights.T @ tight
         normal += 1e-9 * np.trace(normal) / len(normal) * np.eye(len(normal))
-        return np.asarray(np.linalg.solve(normal, tight.T @ chosen))
+        fitted = np.linalg.solve(normal, tight.T @ chosen)
+        whole = 2 * np.pi * np.arange(self._nodes) / self._nodes
+        return self._at(np.array([*product(whole, repeat=self.angles)]), degree) @ fitted
+
+    def shown(self, kappa: float, form: Array) -> tuple[Array, tuple[int, ...], tuple[int, ...]] | None:
+        """Relations at nodes with which control points show κ, and these; ``None`` where none are found."""
+        relations = self.short(kappa, self.fitted(kappa, form, ()))
+        if self.lack(kappa, form, relations) > 0:
+            return None
+        points = self.refined(self.at_nodes(kappa, form, relations))
+        return None if points is None else (relations, *points)
 
     def short(self, kappa: float, relations: Array) -> Array:
         """The coefficients of N with fewer digits."""
@@ -134,9 +147,10 @@ class Postures:
 
     def _lowest(self, table: Array) -> list[tuple[float, Array]]:
         """Postures apart from each other at which the least eigenvalue is low, and these."""
-        circle = 2 * np.pi * np.arange(_GRID) / _GRID
+        count = _GRID[self.angles]
+        circle = 2 * np.pi * np.arange(count) / count
         grid = np.stack(np.meshgrid(*[circle] * self.angles, indexing="ij"), axis=-1).reshape(-1, self.angles)
-        least = self._least(table, [self._weights(circle)] * self.angles, np.indices((_GRID,) * self.angles))
+        least = self._least(table, [self._weights(circle)] * self.angles, np.indices((count,) * self.angles))
         around = np.array(list(product((-1, 0, 1), repeat=self.angles)))
         entries = table.reshape(-1, table.shape[-1])
         found: list[tuple[float, Array]] = []
@@ -145,7 +159,7 @@ class Postures:
             if any(np.linalg.norm((q - other + np.pi) % (2 * np.pi) - np.pi) < _APART for _, other in found):
                 continue
             for k in range(_NARROWED):
-                tried = q + around * (np.pi / _GRID / 1.7**k)
+                tried = q + around * (np.pi / count / 1.7**k)
                 lows = self._eigenvalues(self._at(tried) @ entries)
                 q, low = tried[np.argmin(lows)], float(lows.min())
             found.append((low, q))
@@ -161,7 +175,9 @@ class Postures:
         """
         table = self._table(matrices)
         bend = np.array([self._bend(table, axis) for axis in range(self.angles)])
-        counts = np.maximum(self._nodes, np.ceil(_GRID * np.sqrt(bend / (bend.max() or 1.0)))).astype(np.intp)
+        counts = np.maximum(
+            self._nodes, np.ceil(_GRID[self.angles] * np.sqrt(bend / (bend.max() or 1.0)))
+        ).astype(np.intp)
         start = tuple(counts.tolist())
         halvings: list[int] = []
         points = np.indices(counts).reshape(self.angles, -1).T
@@ -208,17 +224,21 @@ class Postures:
         matrices[:, self._triangle[0], self._triangle[1]] = entries
         return np.asarray(np.linalg.eigvalsh(matrices, UPLO="L")[:, 0])
 
-    def _at(self, q: Array) -> Array:
+    def _at(self, q: Array, degree: int | None = None) -> Array:
         """What all nodes count for at postures, (..., nodes)."""
         result = np.ones((*q.shape[:-1], 1))
         for angle in np.moveaxis(q, -1, 0):
-            result = (result[..., None] * self._weights(angle)[..., None, :]).reshape(*q.shape[:-1], -1)
+            result = (result[..., None] * self._weights(angle, degree)[..., None, :]).reshape(
+                *q.shape[:-1], -1
+            )
         return result
 
-    def _weights(self, angles: Array) -> Array:
-        """What the nodes of one angle count for at angles, (..., nodes)."""
-        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(self._nodes) / self._nodes
-        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, self.degree + 1))) / self._nodes)
+    def _weights(self, angles: Array, degree: int | None = None) -> Array:
+        """What the nodes of one angle count for at angles, (..., nodes); of H, or for another degree."""
+        degree = self.degree if degree is None else degree
+        size = 2 * degree + 1
+        apart = np.asarray(angles)[..., None] - 2 * np.pi * np.arange(size) / size
+        return np.asarray((1 + 2 * sum(np.cos(k * apart) for k in range(1, degree + 1))) / size)
 
     def _bend(self, table: Array, axis: int) -> float:
         """How large second derivatives by an angle are."""
