@@ -261,13 +261,7 @@ def test_the_certificate_of_published_arms_is_near_what_is_reached(name: str, mo
 def test_five_parallel_axes_are_taken_together() -> None:
     """A chain in a plane: what no angle changes is handed on to nobody."""
     level = ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))
-    rows = [
-        (2, F(1, 100)),
-        (F(3, 2), F(6, 1000)),
-        (1, F(4, 1000)),
-        (F(3, 5), F(2, 1000)),
-        (F(3, 10), F(1, 1000)),
-    ]
+    masses, inertias = (F(2), F(3, 2), F(1), F(3, 5), F(3, 10)), (10, 6, 4, 2, 1)
     links = tuple(
         RigidLink(
             (F(0), F(0), F(1)),
