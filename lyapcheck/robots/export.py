@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from pathlib import Path
@@ -12,26 +13,28 @@ from lyapcheck.files.toml import open_document
 from lyapcheck.robots.registry import arm_file, load
 
 if TYPE_CHECKING:
+    from lyapcheck.robots.model import RobotModel
     from lyapcheck.robots.number import Number
 
 _URDF = re.compile(r'^(urdf\s*=\s*")([^"]*)(")', re.MULTILINE)
 
 
-def arm_text(name_or_path: str, folder: Path) -> str:
+def arm_text(name_or_path: str, folder: Path, tip: str | None = None) -> str:
     """The arm file of an arm as it would stand in a folder.
 
     Args:
         name_or_path: a built-in arm or an arm file, whose text is kept; or a URDF file, which the new file
             names, with what it says of friction and limits.
         folder: where the file will stand.
+        tip: for a URDF file, the link that ends the chain; by default that of the most joints.
 
     Raises:
         InputError: no such arm, or a file that describes none.
     """
-    load(name_or_path)
+    model = load(name_or_path, tip)
     path = arm_file(name_or_path)
     if path.suffix.lower() == ".urdf":
-        return _overlay(path, folder)
+        return _overlay(model, path, folder, tip)
     text = open_document(path).text
 
     def beside(result: re.Match[str]) -> str:
@@ -40,9 +43,10 @@ def arm_text(name_or_path: str, folder: Path) -> str:
     return _URDF.sub(beside, text)
 
 
-def _overlay(path: Path, folder: Path) -> str:
-    model = load(path)
+def _overlay(model: RobotModel, path: Path, folder: Path, tip: str | None) -> str:
     lines = [f'title = "{model.title}"', f'urdf = "{_from(path, folder)}"']
+    if tip is not None:
+        lines.append(f"tip = {json.dumps(tip, ensure_ascii=False)}  # the link that ends the chain")
     for i, joint in enumerate(model.joints):
         lines += ["", "[[joints]]", f'name = "{joint}"']
         for key in ("viscous", "coulomb", "torque_limit"):

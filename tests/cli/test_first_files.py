@@ -53,6 +53,14 @@ def test_a_urdf_file_is_exported_as_an_arm_file_to_be_completed(tmp_path: Path) 
     assert {float(b.value) for b in robots.load(tmp_path / "mine.toml").viscous} == {2.0}
 
 
+def test_an_export_keeps_the_tip(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    urdf, target = str(ROOT / "examples" / "ur5.urdf"), tmp_path / "mine.toml"
+    assert leaves(monkeypatch, "robot", urdf, "--tip", "forearm_link", "--export", str(target)) == 0
+    assert 'tip = "forearm_link"' in target.read_text()
+    assert robots.load(target).joints == robots.load(urdf, "forearm_link").joints
+    assert leaves(monkeypatch, "robot", "buap3", "--tip", "x", "--export", str(tmp_path / "no.toml")) == 2
+
+
 def test_an_exported_arm_goes_to_standard_output(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

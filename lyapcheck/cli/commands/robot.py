@@ -63,12 +63,12 @@ def run(
         from lyapcheck.robots.export import arm_text
 
         if str(export) == "-":
-            sys.stdout.write(arm_text(robot, Path()))
+            sys.stdout.write(arm_text(robot, Path(), tip))
             return Exit.PROVED
         require_writable("--export", export)
         if export.exists():
             raise argument_error("--export", export, "is there already", "name another file")
-        write_whole(export, arm_text(robot, export.parent))
+        write_whole(export, arm_text(robot, export.parent, tip))
         return Exit.PROVED
     model = load(robot, tip)
     from lyapcheck.answers.robot import build
