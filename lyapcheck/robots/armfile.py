@@ -112,7 +112,7 @@ def read_arm(
     top = ArmFields(document.data, (), notes)
     title, _ = top.text("title", required=True), top.text("source")
     remarks = top.texts("remarks")
-    if "urdf" in top.data and not notes.problems:
+    if "urdf" in top.data:  # which also reports what was noted so far
         from lyapcheck.robots.overlay import read_overlay
 
         return with_ranges(read_overlay(path, title, remarks, top), spread, vary)

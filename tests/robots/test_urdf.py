@@ -301,6 +301,13 @@ def test_an_arm_file_adds_what_the_urdf_lacks(tmp_path: Path) -> None:
     assert at_zero(arm)[1][1] == -Fraction("1.62") * Fraction("0.4")
 
 
+def test_an_arm_file_around_a_urdf_without_a_title_lacks_that_alone(tmp_path: Path) -> None:
+    (tmp_path / "arm.toml").write_text('urdf = "two.urdf"\n')
+    with pytest.raises(InputError) as caught:
+        robots.load(tmp_path / "arm.toml")
+    assert [(problem.key, problem.rule) for problem in caught.value.problems] == [("title", "is missing")]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
