@@ -76,6 +76,14 @@ def _read_axis(fields: ArmFields) -> tuple[Number, ...] | None:
 
 def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
     value = fields.data.get("inertia")
+    if isinstance(value, list):
+        fields.raw("inertia")
+        rule = "must be a table of the entries, or one number where all axes are parallel"
+        repair = (
+            "write inertia = { ixx = …, iyy = …, izz = … }, with ixy, ixz and iyz where they are not zero"
+        )
+        fields.fail("inertia", rule, repair)
+        return None
     if not isinstance(value, dict) or "value" in value:
         planar = fields.quantity("inertia", "kg·m²", Sign.NONNEGATIVE, required=True)
         return None if planar is None else {"inertia": planar}

@@ -172,6 +172,12 @@ BROKEN = [
     (CHAIN, ", izz = 0.1 ", " ", ["links[2].inertia.izz: is missing"]),
     (CHAIN, "izz = 0.1 ", "izz = 0.1, iwz = 0 ", ["links[2].inertia.iwz", "is not a known key"]),
     (CHAIN, "inertia = { ixx = 0.01, iyy = 0.1, izz = 0.1 }", "inertia = 0.1", ["turning in a plane only"]),
+    (
+        CHAIN,
+        "inertia = { ixx = 0.01, iyy = 0.1, izz = 0.1 }",
+        "inertia = [0.01, 0.1, 0.1]",
+        ["arm.toml:20: links[2].inertia = [", "write inertia = { ixx = …, iyy = …, izz = … }"],
+    ),
     (CHAIN, "viscous = 0.25", "viscous = -1", ["links[2].viscous = -1: must be zero or positive"]),
     (CHAIN, "viscous = 0.25\n", "", ["links[2].viscous: is missing"]),
     (CHAIN, "coulomb = 0.1", "coulomb = -0.1", ["links[2].coulomb = -0.1: must be zero or positive"]),

@@ -35,7 +35,8 @@ axis = [0, 1, 0]                # of length exactly 1
 origin = [0, 0, 0]              # of the joint, from the joint before (or the base), m
 mass = 6                        # kg
 com = [0, 0, -0.1]              # centre of mass, from the joint, m
-inertia = 0.12                  # about the centre of mass, kg·m²
+inertia = 0.12                  # about the centre of mass, kg·m²; where axes are not parallel, a table:
+#   inertia = { ixx = 0.12, iyy = 0.12, izz = 0.02 }   and ixy, ixz, iyz where they are not zero
 viscous = 0.5                   # viscous friction, N·m·s/rad
 coulomb = 1                     # dry friction, N·m; this and the following may be left out
 torque_limit = 80               # N·m
