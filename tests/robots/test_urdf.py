@@ -198,7 +198,7 @@ def test_the_longest_chain_is_taken_and_the_rest_held(tmp_path: Path) -> None:
 
 
 def test_a_prismatic_joint_anywhere_needs_a_tip(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"joint pan: is prismatic.*--tip base"):
+    with pytest.raises(InputError, match=r'joint pan: is prismatic.*write tip = "base" in an arm file'):
         load(tmp_path, with_branch("prismatic"))
     assert load(tmp_path, with_branch("prismatic"), "tool").joints == ("shoulder", "elbow")
 
@@ -213,7 +213,8 @@ def test_two_longest_chains_are_told_with_their_tips(tmp_path: Path) -> None:
     text = TWO.replace('type="continuous"', 'type="fixed"')
     text = text.replace("</robot>\n", BRANCH.format(kind="revolute"))
     with pytest.raises(
-        InputError, match="2 chains of 1 joints, to the tips tool, camera; choose one: --tip tool"
+        InputError,
+        match='to the tips tool, camera; choose one: write tip = "tool" in an arm file that names this URDF',
     ):
         load(tmp_path, text)
 

@@ -113,7 +113,7 @@ BROKEN = [
         f'{ELBOW}<mimic joint="shoulder"/>',
         "joint elbow: mimics another joint, and the paper assumes one motor",
     ),
-    (ELBOW, f'{ELBOW}<mimic joint="shoulder"/>', "end the chain before it: --tip upper"),
+    (ELBOW, f'{ELBOW}<mimic joint="shoulder"/>', 'end the chain before it: write tip = "upper"'),
     ('<child link="lower"/>', "", "joint elbow: child: is missing"),
     ('<child link="lower"/>', "<child/>", "joint elbow: child: link: is missing"),
     (

@@ -133,8 +133,8 @@ def _refuse_kind(joint: UrdfJoint, notes: UrdfNotes) -> None:
 
 def _refuse(joint: UrdfJoint, rule: str, notes: UrdfNotes) -> None:
     repair = (
-        f"make it fixed, or end the chain before it: --tip {joint.parent}, or tip in an arm file that names "
-        "this URDF; what lies behind a tip is held at its zero position"
+        f"make it fixed, or end the chain before it: {_write_tip(joint.parent)}; what lies behind a tip is "
+        "held at its zero position"
     )
     notes.fail(joint.element, f"joint {joint.name}", "", rule, repair)
 
@@ -148,9 +148,15 @@ def _longest(tree: Tree, robot: Element, notes: UrdfNotes) -> tuple[UrdfJoint, .
     tips = [tip for names, tip in chains.items() if len(names) == most]
     if len(tips) > 1 and most:
         rule = f"has {len(tips)} chains of {most} joints, to the tips {', '.join(tips[:_SHOWN])}"
-        repair = f"choose one: --tip {tips[0]}, or tip in an arm file that names this URDF"
-        notes.fail(robot, "robot", "", rule, repair)
+        notes.fail(robot, "robot", "", rule, f"choose one: {_write_tip(tips[0])}")
     return tree.moving(tips[0])
+
+
+def _write_tip(link: str) -> str:
+    """How to end the chain at a link, whatever the command: only ``lyapcheck robot`` takes --tip."""
+    return (
+        f'write tip = "{link}" in an arm file that names this URDF (lyapcheck robot also takes --tip {link})'
+    )
 
 
 def held(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[UrdfJoint]:
