@@ -51,6 +51,32 @@ def test_bad_input_is_one_message_and_exit_code_2(arguments, tmp_path):
     assert run.stdout == ""
 
 
+SET = '[[gains]]\nname = "{}"\nm = {}\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
+
+
+def test_gains_for_another_number_of_joints_are_refused(tmp_path):
+    (tmp_path / "own.toml").write_text(SET.format("two", 1), encoding="utf-8")
+    run = lyapcheck("check", "published.py", "--gains", "own.toml", "--only", "8b", folder=tmp_path)
+    assert run.returncode == 2
+    assert "own.toml:4: kp: two has gains for 2 joints, but the claims are about 3" in run.stderr
+
+
+def test_gain_sets_that_are_left_out_are_told(tmp_path):
+    linear = '[[gains]]\nname = "pd"\nfamily = "linear"\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
+    text = SET.format("a", 2) + SET.format("b", 5) + SET.format("c", 2) + linear
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    words = ("published.py", "--m", "2", "--n", "2", "--gains", "own.toml", "--only", "7a")
+    run = lyapcheck("check", *words, folder=tmp_path)
+    assert run.returncode == 0
+    notes = [line for line in run.stderr.splitlines() if line.startswith("note: ")]
+    assert notes == [
+        "note: own.toml: b is left out: --m does not ask for m = 5",
+        "note: own.toml: c is left out: a set before it has m = 2, too",
+        "note: own.toml: pd is left out: it is of the family linear, and scripts are about members of the "
+        "hyperbolic family",
+    ]
+
+
 def test_explain_needs_no_decision(tmp_path):
     run = lyapcheck("explain", "7a", folder=tmp_path)
     assert run.returncode == 0

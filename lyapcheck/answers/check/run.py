@@ -11,6 +11,7 @@ from typing import Any
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
+from lyapcheck.answers.check.gains import gain_sets
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.codec import from_json
@@ -35,7 +36,6 @@ from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_ROBOT = "buap3"
-DEFAULT_GAINS = "table2"
 
 
 def run_proof(
@@ -63,7 +63,8 @@ def run_proof(
         One result per claim and m; a claim that does not depend on m has one result with ``m = None``.
 
     Raises:
-        InputError: the script, an id, the robot or the gain file cannot be used.
+        InputError: the script, an id, the robot or the gain file cannot be used, or the gains are for another
+            number of joints.
 
     Soundness: verdicts and grades are those that a fresh process of the checker finds in the certificates. A
     claim is proved only if its own certificate is accepted and every claim it uses is proved for the same m,
@@ -133,7 +134,7 @@ def proposed_proof(
     if model is not None:
         remember(model)
     joints = n if n is not None else model.n
-    sets = _gain_sets(gains, joints)
+    sets = gain_sets(gains, joints)
     asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
     handover = ask(ScriptRequest(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(handover, asked, script.name, on_progress or silent)
@@ -149,7 +150,7 @@ def paper_case(m: int) -> Case:
 def paper_case_data(m: int) -> CaseData:
     """What the case of the paper is made of."""
     model = _robot(None, None)
-    return m, model.n, model, next((s for s in _gain_sets(None, model.n) if s.m == m), None)
+    return m, model.n, model, next((s for s in gain_sets(None, model.n) if s.m == m), None)
 
 
 def _others(asked: Sequence[CaseData]) -> tuple[CaseData, ...]:
@@ -284,14 +285,3 @@ def _robot(robot: Any, n: int | None) -> Any:
     from lyapcheck.robots import load
 
     return load(str(robot or DEFAULT_ROBOT))
-
-
-def _gain_sets(gains: Any, joints: int) -> tuple[Any, ...]:
-    """The gain sets of the hyperbolic family with the right number of joints."""
-    if gains is None or isinstance(gains, (str, Path)):
-        from lyapcheck.control.gains import read_gain_file
-        from lyapcheck.control.paper import paper_gain_file
-
-        gains = paper_gain_file(DEFAULT_GAINS) if gains is None else gains
-        gains = read_gain_file(gains) if isinstance(gains, (str, Path)) else gains
-    return tuple(s for s in gains.gains if s.m is not None and len(s.kp) == joints)

@@ -75,6 +75,12 @@ def run(
     except ContradictionError as alarm:
         sys.stderr.write(f"ALARM: {alarm}\n")
         return Exit.INTERNAL
+    if gains is not None:
+        from lyapcheck.answers.check.gains import left_out
+        from lyapcheck.output.escapes import printable
+
+        for sentence in left_out(gains, result.n, result.ms):
+            print(printable(f"note: {sentence}"), file=sys.stderr)
     if folder is not None:
         write_certificates(folder, result.certificates)
     show(replace(result, timings=timings), format)
