@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from lyapcheck.errors import InputError, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.kinds import GAINS, require_kind
 from lyapcheck.files.place import KeyPath, Place
 from lyapcheck.files.toml import TomlFile, open_document
+from lyapcheck.output.escapes import printable
 
 
 @dataclass(frozen=True)
@@ -181,3 +184,31 @@ def beside(robot: str | None, file: Path) -> str | None:
     if robot is not None and robot.endswith((".toml", ".urdf")) and not Path(robot).is_absolute():
         return str(file.parent / robot)
     return robot
+
+
+@contextmanager
+def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
+    """Reading the arm that a gain file names: where there is none such, that line of the gain file is told.
+
+    Args:
+        file: the gain file.
+        replaced: the arm that is read in place of the one in the file, so that the file is not at fault.
+    """
+    try:
+        yield
+    except InputError as error:
+        if replaced or file.robot is None:
+            raise
+        raise InputError([_misnamed(file, problem) for problem in error.problems]) from None
+
+
+def _misnamed(file: GainFile, problem: Problem) -> Problem:
+    """A problem with the name or path of the arm at the key of the gain file; others are in the arm file."""
+    whole = problem.key == "file" and problem.line is None and problem.file == file.robot
+    if problem.key != "robot" and not whole:
+        return problem
+    as_written = file.robot if file.document is None else file.document.data["robot"]
+    place = None if file.document is None else file.document.place(("robot",))
+    path = f"{file.robot} " if whole and file.robot != as_written else ""
+    line = None if place is None else place.line
+    return Problem(file.path, line, "robot", printable(str(as_written)), path + problem.rule, problem.repair)

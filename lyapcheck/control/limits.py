@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.control.arm_limits import ArmLimits, arm_limits
+from lyapcheck.control.gains import arm_named_in
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.output.escapes import printable
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -72,7 +72,8 @@ def limits_for(
         return Limits(bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n))
     known = {} if arms is None else arms
     if name not in known:
-        known[name] = arm_limits(name) if robot else _named_arm(gain_file, name)
+        with arm_named_in(gain_file, robot):
+            known[name] = arm_limits(name)
     arm = known[name]
     if arm.n != n:
         raise _wrong_arm(gain_file, arm.name, arm.n)
@@ -91,22 +92,6 @@ def limits_for(
 
 def _numbered(n: int) -> tuple[str, ...]:
     return tuple(f"joint {i + 1}" for i in range(n))
-
-
-def _named_arm(gain_file: GainFile, name: str) -> ArmLimits:
-    """The arm that the gain file names; an unknown name is a mistake on a line of that file."""
-    try:
-        return arm_limits(name)
-    except InputError as error:
-        place = None if gain_file.document is None else gain_file.document.place(("robot",))
-        line = place.line if place else None
-        problems = [
-            Problem(gain_file.path, line, result.key, printable(result.value), result.rule, result.repair)
-            if result.key == "robot"
-            else result
-            for result in error.problems
-        ]
-        raise InputError(problems) from None
 
 
 def _without_arm(gain_file: GainFile) -> InputError:

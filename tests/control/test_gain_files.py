@@ -24,6 +24,7 @@ from lyapcheck.errors import InputError, Problem
 from lyapcheck.family.registry import names as families
 from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written
 from lyapcheck.output.escapes import printable
+from tests.helpers.command import invoke
 from tests.helpers.letters import letters
 
 GOOD = """\
@@ -596,3 +597,35 @@ def test_python_functions_take_paths(tmp_path: Path) -> None:
     assert np.array_equal(by_path.q, as_read.q)
     with pytest.raises(InputError, match="several gain sets: tau_m1, tau_m2, tau_m3"):
         run_simulation(paper_gain_file("table2"), "buap3", [0.1, 0.1, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("robot", "rule"),
+    [
+        ("../none.tml", "is no arm file"),
+        ("../none.toml", "/../none.toml cannot be read"),
+        ("gains.toml", "gains.toml is a gain file, not an arm file"),
+        ("nobody", "is neither a built-in arm nor a file"),
+    ],
+)
+@pytest.mark.parametrize("command", ["gate", "epsilon", "bounds", "simulate"])
+def test_an_arm_that_is_none_is_told_at_the_line_that_names_it(
+    command: str, robot: str, rule: str, file: Path
+) -> None:
+    file.write_text(GOOD.replace("buap3", robot))
+    (problem,) = refused_by(command, str(file)).problems
+    assert (problem.file, problem.line, problem.key, problem.value) == (str(file), 1, "robot", robot)
+    assert rule in problem.rule
+
+
+def test_an_arm_of_the_command_line_is_not_told_at_the_gain_file(file: Path) -> None:
+    file.write_text(GOOD)
+    assert [problem.file for problem in refused_by("gate", str(file), "--robot", "no.tml").problems] == [
+        "no.tml"
+    ]
+
+
+def refused_by(*words: str) -> InputError:
+    done = invoke(*words)
+    assert done.exception is not None
+    return done.exception

@@ -80,12 +80,13 @@ def run(
       lyapcheck bounds gains.toml --vary viscous=-30%..+0%
     """
     from lyapcheck.cli.task import task_of
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
     name, ranges = robot_name(robot, [gain_file]), varies(vary)
-    model = load(name)
+    with arm_named_in(gain_file, robot):
+        model = load(name)
     varied = (load(name, vary=ranges), ranges) if ranges else None
     require_joints([gain_file], model)
     wrong = Complaints()

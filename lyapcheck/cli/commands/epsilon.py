@@ -105,12 +105,14 @@ def run(
       lyapcheck epsilon gains.toml --robot pelican2 --spread 5
       lyapcheck epsilon gains.toml --max-speed 180 --max-error 60
     """
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
     gain_file = read_gain_file(file)
     ranged = varies(vary)
-    model = load(robot_name(robot, [gain_file]), spread=_share(spread), vary=ranged)
+    name, share = robot_name(robot, [gain_file]), _share(spread)
+    with arm_named_in(gain_file, robot):
+        model = load(name, spread=share, vary=ranged)
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     limits = _limits(max_speed, max_error, model.joints)

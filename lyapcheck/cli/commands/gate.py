@@ -65,7 +65,7 @@ def run(
 
     from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
     from lyapcheck.control.arm_limits import ArmLimits, varied_limits
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.errors import InputError, Problem
 
     folder = None
@@ -83,7 +83,8 @@ def run(
             gain_file = read_gain_file(file)
             name = robot or gain_file.robot
             if ranges and name is not None and name not in arms:
-                arms[name] = varied_limits(name, ranges)
+                with arm_named_in(gain_file, robot):
+                    arms[name] = varied_limits(name, ranges)
             results.append(gate(gain_file, robot, deciding, gamma, strict, arms))
         except InputError as error:
             problems += error.problems

@@ -113,7 +113,7 @@ def _formats(text: str) -> tuple[str, ...]:
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
     from lyapcheck.cli.m_range import parse_m
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.report.subject import Subject
     from lyapcheck.robots import load
@@ -126,7 +126,9 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
         rule = f"a report covers at most {_MOST_MEMBERS} members"
         raise argument_error("--m", m, rule, "ask for fewer, or run it several times with --out")
     arm = robot_name(robot, files)
-    require_joints(files, load(arm))
+    with arm_named_in(next((file for file in files if file.robot), files[0]), robot):
+        model = load(arm)
+    require_joints(files, model)
     own = gains is not None or arm != robot_name(None, files)
     return Subject(arm, members, files, own)
 

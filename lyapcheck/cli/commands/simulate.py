@@ -93,13 +93,15 @@ def run(
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
       lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners
     from lyapcheck.tracking.reference import read_reference
 
     gain_file = read_gain_file(file)
-    model = load(robot_name(robot, [gain_file]))
+    name = robot_name(robot, [gain_file])
+    with arm_named_in(gain_file, robot):
+        model = load(name)
     wrong = Complaints()
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
     given = {
@@ -127,7 +129,6 @@ def run(
         path = wrong.reading(read_reference, reference, model.n)
         request = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
     wrong.raise_all()
-    name = robot_name(robot, [gain_file])
     arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("simulate") as advance:
