@@ -29,10 +29,13 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
+from tests.helpers.urdf_texts import TWO
 
 ARMS = {"pendulum1": 1, "reyes-kelly2": 2, "pelican2": 2, "buap3": 3}
+LIMIT = '<limit lower="-1" upper="1" effort="20" velocity="2"/>'
 TABLE2 = replace(read_gain_file(paper_gain_file("table2")), path="Table 2")
 
 
@@ -344,3 +347,17 @@ def test_asking_for_help_or_importing_the_api_loads_no_solver():
         "sys.exit(any(name in sys.modules for name in ('cvxpy', 'numpy', 'scipy', 'sympy', 'casadi')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_joints_without_friction_are_named_with_where_to_state_it(tmp_path):
+    text = TWO.replace('<dynamics damping="0.25"/>', "").replace('damping="0.5"', 'damping="0"')
+    text = text.replace('<parent link="upper"/>', f'<parent link="upper"/>{LIMIT}')
+    (tmp_path / "two.urdf").write_text(text, encoding="utf-8")
+    (tmp_path / "two.toml").write_text('title = "two"\nurdf = "two.urdf"\n', encoding="utf-8")
+    known = "the viscous friction of shoulder is 0 in the file, the viscous friction of elbow is not known"
+    for name, where in (("two.urdf", "an arm file that names this URDF"), ("two.toml", "the arm file")):
+        (reason,) = tune(str(tmp_path / name), [1]).sets[0].reasons
+        assert known in reason
+        assert f"state it in {where}" in reason
+    (reason,) = tune("pendulum1", [1], varies=(Vary.parsed("viscous=-100%..+0%"),)).sets[0].reasons
+    assert "may be 0 in its range" in reason

@@ -34,11 +34,33 @@ def impossible(limits: Limits) -> list[str]:
             )
     if limits.viscous_min is not None and limits.viscous_min <= 0:
         result.append(
-            "λmin(B) is 0: without viscous friction in every joint (19) admits no k_v; measure the friction "
-            "and give --viscous-min, or give targets, such as --overshoot 5: stability by LaSalle's theorem "
-            "needs none"
+            f"λmin(B) is 0, so (19) admits no k_v: {_without_friction(limits)}; measure the friction and "
+            f"{_state_it(limits)}, or give --viscous-min, or give targets, such as --overshoot 5: stability "
+            "by LaSalle's theorem needs none"
         )
     return result
+
+
+def _without_friction(limits: Limits) -> str:
+    """The joints whose viscous friction may be 0, and where to state another."""
+    model = limits.model
+    if model is None:
+        return "the viscous friction of a joint is not known"
+    said: dict[str, list[str]] = {}
+    for joint, number in zip(model.joints, model.viscous, strict=True):
+        if number.bounds[0] <= 0:
+            told = "is not known" if number.assumed else "is 0 in the file"
+            said.setdefault("may be 0 in its range" if number.value > 0 else told, []).append(joint)
+    return ", ".join(f"the viscous friction of {', '.join(of)} {what}" for what, of in said.items())
+
+
+def _state_it(limits: Limits) -> str:
+    """How to state friction in an arm file."""
+    if limits.robot.lower().endswith(".urdf"):
+        return "state it in an arm file that names this URDF, as viscous = … of the joint under [[joints]]"
+    return (
+        "state it in the arm file as viscous = … of the joint, under [[joints]] where that names a URDF file"
+    )
 
 
 def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets) -> str:
