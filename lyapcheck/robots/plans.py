@@ -119,7 +119,7 @@ def read_plan(top: ArmFields) -> ModelPlan | None:
             top.fail(
                 key, "does not go together with [[links]]", "keep the links or the printed model, not both"
             )
-    if "links" not in top.data and "gravity" in top.data:
+    if "model" in top.data and "links" not in top.data and "gravity" in top.data:
         top.fail("gravity", "is already inside the printed potential", "remove it")
     if links:
         return _read_chain(top, links, gravity)

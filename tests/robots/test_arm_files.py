@@ -99,6 +99,12 @@ def test_sines_of_sums_and_powers(tmp_path: Path) -> None:
     assert str(arm.mass[0][1]) == "93/500"
 
 
+def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path: Path) -> None:
+    told = problems(tmp_path, CHAIN.replace("[[links]]", "[[joint]]"))
+    assert any("links: is missing" in one for one in told)
+    assert not any("gravity" in one for one in told)
+
+
 def test_ranges_become_parameters(tmp_path: Path) -> None:
     arm = load(tmp_path, CHAIN.replace("mass = 1.5", "mass = { value = 1.5, low = 1, high = 2 }"))
     assert list(arm.parameters) == ["arm_mass"]
