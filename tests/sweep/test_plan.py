@@ -73,6 +73,11 @@ def test_the_example_is_a_plan() -> None:
         (HEAD + GRID + "[gate]\ngamma = 1\n", "gate.gamma"),
         (HEAD + GRID + "[gate]\nconditions = []\n", "did you mean condition?"),
         (HEAD + GRID + "[epsilon]\nmax_boxes = 0\n", "whole number above 0"),
+        (
+            HEAD.replace("gate", "simulate") + GRID + "[simulate]\ntarget = [30, 45, 60]\n",
+            "plan.toml:8: simulate.target: has 3 angles, but the arm reyes-kelly2 has 2 joints",
+        ),
+        (HEAD.replace("gate", "bounds") + GRID + "[bounds]\nstart = [30]\n", "start: has 1 angle, but"),
         (HEAD + "more = 1\n" + GRID, "is not a known key here"),
     ],
 )

@@ -201,7 +201,7 @@ def _gain(value: Any) -> Gain | None:
 
 
 def _joints(plan: Plan, notes: Notes) -> list[int]:
-    """How many joints each robot has; what cannot be read, or has others than the gains, is noted."""
+    """How many joints each robot has; what cannot be read, or has others than gains or angles, is noted."""
     result: list[int] = []
     for k, robot in enumerate(plan.robots):
         for number, variation in enumerate(plan.variations):
@@ -217,6 +217,11 @@ def _joints(plan: Plan, notes: Notes) -> list[int]:
                 notes.fail(
                     key, None, rule, "give one gain a joint; arms with other joints need a plan of their own"
                 )
+        for key, size in _angles(plan):
+            if n and size != n:
+                rule = f"has {size} angle{'s' if size > 1 else ''}, but the arm {robot} has {n} joints"
+                repair = "give one angle a joint; arms with other joints need a plan of their own"
+                notes.fail(key, None, rule, repair)
     return result
 
 
@@ -236,3 +241,13 @@ def _sizes(plan: Plan) -> Sequence[tuple[tuple[str | int, ...], int]]:
         for name in ("kp", "kv"):
             rows += [(("grid", name), len(x)) for x in getattr(plan.grid, name) if isinstance(x, tuple)]
     return rows
+
+
+def _angles(plan: Plan) -> list[tuple[tuple[str, str], int]]:
+    """The postures that questions are asked with, and how many angles each has; none where it is usual."""
+    return [
+        ((ask, key), len(value))
+        for ask, options in plan.asks
+        for key, value in options
+        if key in ("target", "start") and value
+    ]
