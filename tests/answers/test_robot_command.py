@@ -207,6 +207,19 @@ def test_what_is_wide_comes_with_a_word_about_it(tmp_path: Path, name: str, advi
     assert "λmax(M) = β_M is wide" not in text
 
 
+@pytest.mark.parametrize(
+    ("low", "gap"),
+    [("0", "100 %"), ("0.001", "100 %"), ("1", "50 %"), ("1.8124", "9.4 %"), ("1.9999", "0.005 %")],
+)
+def test_a_gap_is_written_without_an_exponent(low: str, gap: str) -> None:
+    arm = robots.load("pelican2")
+    constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4, 0)
+    row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
+    text = " ".join(plain.render(page(ArmFacts(arm, (row,), (constant,)))).split())
+    assert f" {gap} " in text
+    assert "e+0" not in text
+
+
 def test_progress_names_what_is_done_along_a_chain(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(generic(4))
     steps: list[tuple[float, str]] = []

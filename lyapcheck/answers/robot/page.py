@@ -110,14 +110,19 @@ def _wide(constant: ConstantResult, model: RobotModel) -> str:
     advice = "try a larger --max-boxes"
     if model.n > FEW_JOINTS and model.fixed().chain is not None:
         advice = "bounded by the best forms along the links, which more boxes do not change"
-    return f"{_symbol(constant)} is wide, {100 * constant.gap:.2g} %: {advice}"
+    return f"{_symbol(constant)} is wide, {_percent(constant.gap)} %: {advice}"
+
+
+def _percent(share: float) -> str:
+    """Two significant digits, or whole percents: a hundred is 100 and not 1e+02."""
+    return f"{100 * share:.0f}" if share >= 0.1 else f"{100 * share:.2g}"
 
 
 def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
     """The ends that certificates show, and those of floating point, rounded outward."""
     shown = report.certified.get(constant.name, CertifiedBounds())
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
-    gap = "0" if constant.gap == 0 else f"{100 * constant.gap:.2g} %"
+    gap = "0" if constant.gap == 0 else f"{_percent(constant.gap)} %"
     return (_symbol(constant), constant.unit, *known, *decimals(constant.enclosure, _DIGITS), gap)
 
 
