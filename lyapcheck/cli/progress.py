@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress, silent
 
+if TYPE_CHECKING:
+    from threading import Timer
+
 SILENCE = 1.0
 """Seconds between two lines where there is no terminal."""
+PATIENCE = 2.0
+"""Seconds of work that need no word about it, where most work is quick."""
 
 
 @contextmanager
@@ -31,6 +37,57 @@ def progress(label: str, quiet: bool = False) -> Iterator[Progress]:
             advance(reached, note)
 
         yield upwards
+
+
+@contextmanager
+def patient(label: str) -> Iterator[Progress]:
+    """The same for work that is mostly quick: nothing is shown of what ends within `PATIENCE`.
+
+    The time counts from the first call on, and what was said last is shown when it is over, whether or not
+    the work speaks again soon. Work that says nothing costs nothing.
+    """
+    waiting = _Waiting(label)
+    try:
+        yield waiting.advance
+    finally:
+        waiting.end()
+
+
+class _Waiting:
+    """Progress that keeps to itself until a timer, in a thread of its own, calls for it."""
+
+    def __init__(self, label: str) -> None:
+        self._label, self._last = label, (0.0, "")
+        self._shown: Progress | None = None
+        self._timer: Timer | None = None
+        self._stack = ExitStack()
+        self._over = False
+
+    def advance(self, fraction: float, note: str) -> None:
+        if self._timer is None:
+            from threading import Lock, Timer  # here, as quick work does without
+
+            self._lock, self._timer = Lock(), Timer(PATIENCE, self._show)
+            self._last, self._timer.daemon = (fraction, note), True
+            self._timer.start()
+            return
+        with self._lock:
+            self._last = fraction, note or self._last[1]
+            if self._shown is not None:
+                self._shown(fraction, note)
+
+    def end(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            with self._lock:
+                self._over = True
+                self._stack.close()
+
+    def _show(self) -> None:
+        with self._lock:
+            if not self._over:
+                self._shown = self._stack.enter_context(progress(self._label))
+                self._shown(*self._last)
 
 
 @contextmanager

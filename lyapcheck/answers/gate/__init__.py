@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.gains import GainFile, gain_file_of
+
+if TYPE_CHECKING:
+    from lyapcheck._types import Progress
 
 __all__ = ["DECIDING", "GateAnswer", "GateResult", "gate"]
 
@@ -20,6 +24,7 @@ def gate(
     gamma: str = "true",
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
+    on_progress: Progress | None = None,
 ) -> GateAnswer:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -30,6 +35,7 @@ def gate(
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
         strict: whether what is undecided counts as a failure.
         arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
+        on_progress: receives the share done of the certificates that are asked for, and which is looked for.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -45,4 +51,6 @@ def gate(
         >>> [result.verdict for result in gate(paper_gain_file("table2"))]
         ['accepted', 'rejected', 'rejected']
     """
-    return GateAnswer(judged_sets(gain_file_of(gain_file), robot, deciding, gamma, strict, arms))
+    return GateAnswer(
+        judged_sets(gain_file_of(gain_file), robot, deciding, gamma, strict, arms, on_progress=on_progress)
+    )

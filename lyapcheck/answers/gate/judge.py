@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
@@ -20,6 +21,9 @@ from lyapcheck.control.conditions import (
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
+
+if TYPE_CHECKING:
+    from lyapcheck._types import Progress
 
 DECIDING = ("10p", "19")
 """What the paper's tuning rules ask for; (10) is shown beside them and decides only when asked to."""
@@ -115,6 +119,7 @@ def judged_sets(
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
     explained: int = MOST_EXPLAINED,
+    on_progress: Progress | None = None,
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
@@ -123,7 +128,7 @@ def judged_sets(
     _require_known(deciding)
     limits = limits_for(gain_file, robot, arms)
     conditions: dict[tuple[str, int | None], Conditions] = {}
-    proved, rests_on = _certificates(gain_file, limits, deciding)
+    proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
     if rests_on:
         limits = limits.resting_on(rests_on)
     results: list[GateResult] = []
@@ -158,14 +163,24 @@ def _require_known(deciding: Sequence[str]) -> None:
 
 
 def _certificates(
-    gain_file: GainFile, limits: Limits, deciding: Sequence[str]
+    gain_file: GainFile, limits: Limits, deciding: Sequence[str], on_progress: Progress | None
 ) -> tuple[list[tuple[Check, ...]], tuple[str, ...]]:
     """The checks of the certificates that decide, for each gain set, and what they take for granted."""
     wanted = [name for name in CERTIFICATES if name in deciding]
     if not wanted:
         return [()] * len(gain_file.gains), ()
+    from lyapcheck._types import part, silent
     from lyapcheck.answers.gate.prover import Prover
 
     prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied)
-    checks = [tuple([prover.check(name, gains) for name in wanted]) for gains in gain_file.gains]
+    checks: list[tuple[Check, ...]] = []
+    step = 1 / (len(wanted) * len(gain_file.gains))
+    for done, gains in enumerate(gain_file.gains):
+        found = []
+        for number, name in enumerate(wanted, start=done * len(wanted)):
+            advance = part(
+                on_progress or silent, number * step, (number + 1) * step, f"{gains.name}: {name} certificate"
+            )
+            found.append(prover.check(name, gains, advance))
+        checks.append(tuple(found))
     return checks, prover.assumptions

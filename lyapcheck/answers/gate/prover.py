@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from lyapcheck._types import Progress, part, silent
 from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
@@ -53,13 +54,19 @@ class Prover:
     ) -> None:
         self.model, self.viscous_min, self.ranges = model, viscous_min, ranges
 
-    def check(self, name: str, gains: GainSet) -> Check:
+    def check(self, name: str, gains: GainSet, progress: Progress = silent) -> Check:
         """The check of one certificate: its value is the ε₀ proved.
+
+        Args:
+            name: of the certificate.
+            gains: what it is about.
+            progress: receives the share done; its notes follow a few words about what is looked for.
 
         Soundness: that of ``lyapcheck.check.verify``.
         """
         if self.model is None:
             return Check(name, reason=_NO_ARM)
+        progress(0.0, "")
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
             return Check(name, reason=_TOO_MANY)
@@ -72,7 +79,7 @@ class Prover:
             proof, reason = (
                 norm_epsilon(controlled, friction)
                 if name == "scalar"
-                else self._global(controlled, self.model.viscous)
+                else self._global(controlled, self.model.viscous, progress)
             )
         if proof is None:
             return Check(name, reason=reason)
@@ -95,20 +102,22 @@ class Prover:
     _fault: str | None = None
 
     def _global(
-        self, controlled: ControlledArm, viscous: Sequence[Number]
+        self, controlled: ControlledArm, viscous: Sequence[Number], progress: Progress
     ) -> tuple[DecreaseProof | None, str]:
         if self.viscous_min not in (None, min(number.value for number in viscous)):
             return None, _OTHER_FRICTION
         coarse, reason = norm_epsilon(controlled)
         if coarse is None:
             return None, reason
-        return next(_proofs(controlled, coarse), None), REFUSED
+        return next(_proofs(controlled, coarse, progress), None), REFUSED
 
 
-def _proofs(controlled: ControlledArm, coarse: DecreaseProof) -> Iterator[DecreaseProof]:
+def _proofs(controlled: ControlledArm, coarse: DecreaseProof, progress: Progress) -> Iterator[DecreaseProof]:
     """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
-    for ceiling in CEILINGS:
-        result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES)
+    step = 1 / len(CEILINGS)
+    for number, ceiling in enumerate(CEILINGS):
+        advance = part(progress, number * step, (number + 1) * step, ", ")
+        result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES, on_progress=advance)
         if result.proof is not None:
             yield result.proof
     yield coarse

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +13,7 @@ from lyapcheck.cli.options import add_certificates, add_format, add_vary, varies
 from lyapcheck.cli.show import show
 
 if TYPE_CHECKING:
+    from lyapcheck._types import Progress
     from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.cli.parser import Parser
     from lyapcheck.verdicts import Exit
@@ -78,16 +82,18 @@ def run(
     arms: dict[str, ArmLimits] = {}
     ranges = varies(vary)
     deciding = tuple(condition or DECIDING)
-    for file in files:
-        try:
-            gain_file = read_gain_file(file)
-            name = robot or gain_file.robot
-            if ranges and name is not None and name not in arms:
-                with arm_named_in(gain_file, robot):
-                    arms[name] = varied_limits(name, ranges)
-            results.append(gate(gain_file, robot, deciding, gamma, strict, arms))
-        except InputError as error:
-            problems += error.problems
+    with _patient(deciding) as advance:
+        for done, file in enumerate(files):
+            try:
+                gain_file = read_gain_file(file)
+                name = robot or gain_file.robot
+                if ranges and name is not None and name not in arms:
+                    with arm_named_in(gain_file, robot):
+                        arms[name] = varied_limits(name, ranges)
+                progress = advance(done / len(files), (done + 1) / len(files))
+                results.append(gate(gain_file, robot, deciding, gamma, strict, arms, progress))
+            except InputError as error:
+                problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)
     if answer:
         if folder is not None:
@@ -96,6 +102,21 @@ def run(
     if problems:
         raise InputError(problems)
     return answer.exit_code
+
+
+@contextmanager
+def _patient(deciding: tuple[str, ...]) -> Iterator[Callable[[float, float], Progress | None]]:
+    """Yields the progress of work between two shares; none where no certificate is asked for."""
+    from lyapcheck.answers.gate.judge import CERTIFICATES
+
+    if not set(CERTIFICATES) & set(deciding):
+        yield lambda low, high: None
+        return
+    from lyapcheck._types import part
+    from lyapcheck.cli.progress import patient
+
+    with patient("gate") as advance:
+        yield partial(part, advance)
 
 
 def _write_certificates(folder: Path, answer: GateAnswer) -> None:
