@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.robot import build
+from lyapcheck.answers.robot.certified import certified, questions
+from lyapcheck.answers.robot.judged import judged
 from lyapcheck.check.kinds.compared import Compared, MovingPosture, SameHarmonics
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
@@ -25,11 +27,13 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Monomials, Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
+from lyapcheck.constants import arm_constants
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
+from tests.helpers.urdf_texts import generic
 from tests.robots.test_arm_files import PRINTED
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
@@ -186,6 +190,23 @@ def test_certified_ends_hold_at_random_states_and_are_near_the_numeric_ones(name
         assert low <= numeric.upper
         assert numeric.lower <= high
         assert high - low <= Fraction(1, 50) * high
+
+
+def test_of_a_chain_of_few_joints_forms_along_the_links_show_what_boxes_do_not(tmp_path: Path) -> None:
+    """Boxes show no bound of λmin(M) within the budget, and sizes one of |g_2| more than twice too large."""
+    (tmp_path / "arm.urdf").write_text(generic(3), encoding="utf-8")
+    arm = load(tmp_path / "arm.urdf")
+    constants = arm_constants(arm, 50, names=("lambda_min", "k_g2"))
+    ends = certified(judged(arm, questions(arm, constants)), positive=True)
+    model, rng = NumericModel(arm), np.random.default_rng(7)
+    q = rng.uniform(-np.pi, np.pi, (500, arm.n))
+    assert set(ends) == {"lambda_min", "k_g2"}
+    for end in ends.values():
+        assert end.lower is not None
+        assert end.upper is not None
+        assert 0 < end.upper - end.lower <= Fraction(1, 50) * end.upper
+    assert (ends["lambda_min"].lower or 0) <= np.linalg.eigvalsh(model.mass(q))[:, 0].min()
+    assert np.abs(model.gravity(q)[:, 1]).max() <= (ends["k_g2"].upper or 0)
 
 
 def test_certificates_are_accepted_by_recheck(tmp_path: Path) -> None:

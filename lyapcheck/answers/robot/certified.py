@@ -1,8 +1,8 @@
 """Ends of the constants of an arm that certificates show, beside the sharper ones of floating point.
 
 The end that a state shows is a bound refuted at a posture; the other is shown for all angles: for few joints
-by boxes and for k_c at control points, for more by storage forms along the links, and else by the sizes of
-harmonics, which are coarse.
+by boxes, for k_c at control points, or by storage forms along the links where these show more; for more
+joints by such forms, and else by the sizes of harmonics, which are coarse.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
 from lyapcheck.constants import ConstantResult
 from lyapcheck.constants.products import products_below
-from lyapcheck.constants.storage.bounds import BoundWithProof
+from lyapcheck.constants.storage.bounds import BoundWithProof, storage_proof
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.verdicts import Grade
 
@@ -48,6 +48,10 @@ MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
 """How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
 MARGINS_OF_CORIOLIS = tuple(Fraction(k, 1000) for k in (1, 3, 6, 10, 15, 50, 200))
 """The same for k_c, from what is reached: the nearer, the more control points."""
+NEAR = Fraction(1, 10**4)
+"""Where a bound is so near what is reached, relative to it, forms along the links are not asked."""
+NEAR_OF_CORIOLIS = Fraction(1, 50)
+"""The same for k_c, as forms of the motion take seconds."""
 BITS = 64
 _ABOVE = (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
@@ -59,6 +63,10 @@ class CertifiedBounds:
 
     lower: Fraction | None = None
     upper: Fraction | None = None
+
+
+_Outer = tuple[Statement, Fraction, SearchResult]
+"""A bound for all angles: the statement, its number, and by what it is shown."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +94,7 @@ class _Bound:
 
 def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterator[PropertyQuestion]:
     """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
-    arm = ArmBounds(model)
+    arm, chain = ArmBounds(model), model.fixed().chain if model.n <= FEW_JOINTS else None
     for constant in constants:
         if constant.shown is not None:
             yield from _along_links(constant, constant.shown)
@@ -98,9 +106,9 @@ def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterato
             continue
         sign = -1 if constant.name == "lambda_min" else 1
         sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
-        outer = _outer(arm.robot.n, bound, sign)
+        outer = _outer(arm.robot.n, constant.name, bound, sign, chain)
         if outer is not None:
-            yield _question(constant.name, sides[0], sign, bound.state(outer[0]), *outer)
+            yield _question(constant.name, sides[0], sign, *outer)
         inner = _inner(bound.seen, sign)
         if inner > 0 or sign < 0:
             result = _at_posture(bound.witness, bound.seen, inner, sign)
@@ -169,17 +177,43 @@ def _question(
     return PropertyQuestion(f"{name}.{side}", words, statement, replace(finding, grade=grade))
 
 
-def _outer(n: int, bound: _Bound, sign: int) -> tuple[Fraction, SearchResult] | None:
+def _outer(n: int, name: str, bound: _Bound, sign: int, chain: Chain | None) -> _Outer | None:
     """The best bound for all angles that is shown, and by what."""
-    coarse = None if bound.sizes is None else _rounded(bound.sizes, sign)
-    for margin in bound.margins if n <= FEW_JOINTS else ():
+    best: _Outer | None = None
+    if bound.sizes is not None:
+        coarse = _rounded(bound.sizes, sign)
+        best = bound.state(coarse), coarse, shown(HarmonicSizes(), HarmonicSizes.rule)
+    if n > FEW_JOINTS:
+        return best
+    # forms along the links take less time than the boxes that they spare, but those of the motion more
+    if name != "k_c":
+        return _by_search(bound, sign, _by_links(bound, name, sign, chain, best, NEAR))
+    return _by_links(bound, name, sign, chain, _by_search(bound, sign, best), NEAR_OF_CORIOLIS)
+
+
+def _by_search(bound: _Bound, sign: int, best: _Outer | None) -> _Outer | None:
+    """What boxes or control points show, if that is better than what is known."""
+    for margin in bound.margins:
         value = _rounded(bound.start * (1 + sign * margin), sign)
-        if coarse is not None and coarse <= value:
+        if best is not None and sign * best[1] <= sign * value:
             break
         proof = bound.proof(value) if value > 0 else None
         if proof is not None:
-            return value, shown(proof, proof.rule)
-    return None if coarse is None else (coarse, shown(HarmonicSizes(), HarmonicSizes.rule))
+            return bound.state(value), value, shown(proof, proof.rule)
+    return best
+
+
+def _by_links(
+    bound: _Bound, name: str, sign: int, chain: Chain | None, best: _Outer | None, near: Fraction
+) -> _Outer | None:
+    """What forms along the links show, if that is better than what is known, unless that is near enough."""
+    enough = sign * bound.seen + abs(bound.seen) * near
+    if chain is None or (best is not None and sign * best[1] <= enough):
+        return best
+    outside = storage_proof(chain, name)
+    if outside is None or (best is not None and sign * best[1] <= sign * outside.bound):
+        return best
+    return outside.statement, outside.bound, shown(outside.proof, outside.proof.rule)
 
 
 def _bound(arm: ArmBounds, constant: ConstantResult) -> _Bound:
