@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
+from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.facts import ArmFacts
 from lyapcheck.answers.robot.page import page
 from lyapcheck.answers.robot.properties import PropertyResult
@@ -216,8 +217,29 @@ def test_a_gap_is_written_without_an_exponent(low: str, gap: str) -> None:
     constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4, 0)
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
     text = " ".join(plain.render(page(ArmFacts(arm, (row,), (constant,)))).split())
-    assert f" {gap} " in text
+    assert f" {gap}* " in text
     assert "e+0" not in text
+
+
+def test_the_gap_is_that_of_the_certified_ends_where_both_are_known() -> None:
+    """What users rely on; a star marks the gap of the numeric ends."""
+    constants = tuple(
+        ConstantResult(name, "N·m", Enclosure(Fraction(99), Fraction(100)), (0.0,) * 4, 0)
+        for name in ("k_c", "k_g", "k_g1")
+    )
+    ends = {
+        "k_c": CertifiedBounds(Fraction(90), Fraction(100)),
+        "k_g": CertifiedBounds(None, Fraction(200)),
+        "k_g1": CertifiedBounds(Fraction(50), Fraction(100)),
+    }
+    row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
+    facts = ArmFacts(robots.load("pelican2"), (row,), constants, certified=ends)
+    text = plain.render(page(facts))
+    rows = {line.split()[0]: line.rsplit(maxsplit=2)[-2:] for line in text.splitlines() if " N·m " in line}
+    assert rows == {"k_c": ["10", "%"], "k_g": ["1", "%*"], "k_g1": ["50", "%"]}
+    assert "k_g1 is wide, 50 %: the numeric ends are nearer" in " ".join(text.split())
+    assert "k_g is wide" not in text
+    assert "Marked *: that of the numeric ends" in " ".join(text.split())
 
 
 def test_progress_names_what_is_done_along_a_chain(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Ends of the constants of an arm that certificates show, beside the sharper ones of floating point.
+"""Ends of the constants of an arm that certificates show, beside those of floating point.
 
 The end that a state shows is a bound refuted at a posture; the other is shown for all angles: for few joints
 by boxes, for k_c at control points, or by storage forms along the links where these show more; for more

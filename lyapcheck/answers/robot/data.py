@@ -63,7 +63,7 @@ def property_data(row: PropertyResult) -> dict[str, Any]:
 
 
 def constant_data(report: ArmFacts, constant: ConstantResult) -> dict[str, Any]:
-    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``."""
+    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``, and ``gap`` is theirs."""
     lower, upper = decimals(constant.enclosure, _DIGITS)
     n, shown = report.model.n, report.certified.get(constant.name, CertifiedBounds())
     return {

@@ -35,7 +35,9 @@ CONSTANT_HEADS = (
     "gap",
 )
 JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
-NOMINAL = "At nominal parameters: ends that certificates show, and the sharper ones of floating point."
+NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
+GAPS = "The gap is that of the certified ends, relative to the larger one."
+NUMERIC = "Marked *: that of the numeric ends, as one of the certified ones is missing."
 WIDE = 0.25
 """The gap from which a word is said about it."""
 PRINT = "As the source prints it"
@@ -101,16 +103,21 @@ def _constants(report: ArmFacts) -> Section:
     states = [row for constant in report.constants for row in _state_rows(report, constant)]
     table = Table(CONSTANT_HEADS, tuple(rows), align="llrrrrr")
     shown = Table(("constant", "shown at q [rad]"), tuple(states), align="ll")
-    wide = [_wide(constant, report.model) for constant in report.constants if constant.gap > WIDE]
-    return Section("Constants", (Paragraph(NOMINAL), table, *([Bullets(tuple(wide))] if wide else []), shown))
+    said = [_wide(report, constant) for constant in report.constants if _gap(report, constant) > WIDE]
+    wide = [Bullets(tuple(said))] if said else []
+    starred = any(not _by_certificates(report, constant) for constant in report.constants)
+    notes = [Paragraph(NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if starred else GAPS)]
+    return Section("Constants", (*notes, table, *wide, shown))
 
 
-def _wide(constant: ConstantResult, model: RobotModel) -> str:
-    """How wide an enclosure is, and what might narrow it."""
-    advice = "try a larger --max-boxes"
+def _wide(report: ArmFacts, constant: ConstantResult) -> str:
+    """How wide the ends are, and what might narrow them."""
+    advice, model = "try a larger --max-boxes", report.model
     if model.n > FEW_JOINTS and model.fixed().chain is not None:
         advice = "bounded by the best forms along the links, which more boxes do not change"
-    return f"{_symbol(constant)} is wide, {_percent(constant.gap)} %: {advice}"
+    elif constant.gap <= WIDE:
+        advice = "the numeric ends are nearer, and no certificate was found for what they say"
+    return f"{_symbol(constant)} is wide, {_percent(_gap(report, constant))} %: {advice}"
 
 
 def _percent(share: float) -> str:
@@ -118,12 +125,30 @@ def _percent(share: float) -> str:
     return f"{100 * share:.0f}" if share >= 0.1 else f"{100 * share:.2g}"
 
 
-def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
-    """The ends that certificates show, and those of floating point, rounded outward."""
+def _gap(report: ArmFacts, constant: ConstantResult) -> float:
+    """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
+    shown = report.certified.get(constant.name)
+    if shown is None or shown.lower is None or shown.upper is None:
+        return constant.gap
+    size = max(abs(shown.lower), abs(shown.upper))
+    return float((shown.upper - shown.lower) / size) if size else 0.0
+
+
+def _by_certificates(report: ArmFacts, constant: ConstantResult) -> bool:
+    """Whether both ends are certified; that a norm is not negative needs no certificate."""
     shown = report.certified.get(constant.name, CertifiedBounds())
+    zero = constant.name != "lambda_min" and shown.upper == 0
+    return zero or (shown.lower is not None and shown.upper is not None)
+
+
+def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
+    """The ends that certificates show, those of floating point, rounded outward, and the gap."""
+    shown, gap = report.certified.get(constant.name, CertifiedBounds()), _gap(report, constant)
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
-    gap = "0" if constant.gap == 0 else f"{_percent(constant.gap)} %"
-    return (_symbol(constant), constant.unit, *known, *decimals(constant.enclosure, _DIGITS), gap)
+    cell = "0" if gap == 0 else f"{_percent(gap)} %"
+    star = "" if _by_certificates(report, constant) else "*"
+    ends = decimals(constant.enclosure, _DIGITS)
+    return (_symbol(constant), constant.unit, *known, *ends, cell + star)
 
 
 def _state_rows(report: ArmFacts, constant: ConstantResult) -> list[tuple[str, str]]:
