@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from time import monotonic
 
@@ -28,6 +28,12 @@ SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 
 _CHECKING = 0.8
 """The share of the work done when the checker begins."""
+ENOUGH = Fraction(9, 10)
+"""The share of the falsified ε₀ from which on boxes are not followed by bounds along the links."""
+MOST = Fraction(5, 6)
+"""How much of what is left of the budget one share may take, so that something is left for a smaller one."""
+RESERVE = Fraction(1, 4)
+"""Of the budget, for bounds along the links of few joints."""
 DIGITS = 7
 MAX_BOXES = 400_000
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
@@ -95,9 +101,48 @@ def certified_epsilon(
     return CertifiedEpsilon(None, search.looked_at, search.reason)
 
 
+def linked_otherwise(
+    controlled: ControlledArm,
+    ceiling: Fraction,
+    boxes: CertifiedEpsilon,
+    max_boxes: int,
+    seconds: float | None = None,
+    on_progress: Progress | None = None,
+) -> CertifiedEpsilon:
+    """What boxes proved, or for three joints more by bounds along the links, where boxes end far below.
+
+    Args:
+        controlled: see `certified_epsilon`.
+        ceiling: an ε₀ that is known to fail.
+        boxes: what was proved without.
+        max_boxes: of errors e alone, of all attempts together.
+        seconds: no attempt begins after that time.
+        on_progress: receives the share of the attempts done.
+
+    Soundness: as for `certified_epsilon`.
+    """
+    near = boxes.eps0 is not None and boxes.eps0 >= ENOUGH * ceiling
+    if near or max_boxes <= 0 or not links_follow(controlled):
+        return boxes
+    deadline = monotonic() + (math.inf if seconds is None else seconds)
+    found = linked_epsilon(controlled, ceiling, max_boxes, deadline, on_progress or silent)
+    result, looked_at = CertifiedEpsilon(*found), boxes.looked_at + found[1]
+    if (result.eps0 or 0) > (boxes.eps0 or 0):
+        return replace(result, looked_at=looked_at)
+    return replace(boxes, looked_at=looked_at)
+
+
+def links_follow(controlled: ControlledArm) -> bool:
+    """Whether bounds along the links are tried after boxes, which are many for three joints."""
+    return controlled.n == FEW_JOINTS and controlled.family.bounded and bool(controlled.chains)
+
+
 @dataclass
 class _Search:
-    """The attempts at shares of a ceiling: boxes looked at so far, and why the last one failed."""
+    """The attempts at shares of a ceiling: boxes looked at so far, and why the last one failed.
+
+    Where the budget of a share is spent, the middle between it and the last that was proved is tried.
+    """
 
     controlled: ControlledArm
     ceiling: Fraction
@@ -109,20 +154,27 @@ class _Search:
     def climb(self, shares: Sequence[Fraction], max_boxes: int, deadline: float) -> list[DecreaseProof]:
         """What the search believes to be proofs, up to the first share for which there is none."""
         result: list[DecreaseProof] = []
-        for share in shares:
+        left, proved, between = list(shares), Fraction(0), False
+        while left:
+            share = left.pop(0)
             loop = self.controlled.loop(significant_down(self.ceiling * share, DIGITS))
             if not loop.admissible:
                 self.reason = f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
                 return result
             advance = _part(self.progress, self.attempts, f"{float(share):.1%} of falsified")
             advance(0.0, "")
-            outcome = certify(SchurProblem(loop), max_boxes - self.looked_at, advance, deadline)
+            budget = max_boxes - self.looked_at
+            most = int(MOST * budget) if left and budget > 0 else budget
+            outcome = certify(SchurProblem(loop), most, advance, deadline)
             self.attempts += 1
             self.looked_at += outcome.boxes
-            if not outcome.proved:
-                self.reason = _advice(outcome.reason, loop.eps0, max_boxes)
-                return result
-            result.append(self.controlled.proof(loop, BoxTree(outcome.tree)))
+            if outcome.proved:
+                result.append(self.controlled.proof(loop, BoxTree(outcome.tree)))
+                proved = share
+                continue
+            self.reason = _advice(outcome.reason, loop.eps0, max_boxes)
+            spent = outcome.reason == EXHAUSTED and max_boxes > self.looked_at
+            left, between = [(proved + share) / 2] if proved and spent and not between else [], True
         return result
 
 

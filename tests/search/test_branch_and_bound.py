@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.boxes import leaves
 from lyapcheck.check.loop.proof import proves
+from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
@@ -19,11 +22,14 @@ from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search import certified, schur
 from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import certified_epsilon
+from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, cover
+from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, cover
+from lyapcheck.search.norms import norm_epsilon
+from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
+from tests.helpers.urdf_texts import generic
 
 F = Fraction
 Array = NDArray[np.float64]
@@ -270,6 +276,42 @@ def test_where_nearly_all_is_too_much_smaller_shares_are_tried() -> None:
     part = certified_epsilon(case, FALSIFIED[0] * F(5, 4), 2000)
     assert part.eps0 is not None
     assert part.eps0 < FALSIFIED[0]
+
+
+def test_no_share_takes_what_a_smaller_one_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where all above 70 % of the ceiling take more boxes than there are, 65 % are proved, not 50."""
+    ceiling, tried = F(1), list[float]()
+
+    def dear(task: SchurProblem, most: int, *rest: object) -> CoverOutcome:
+        tried.append(float(task.loop.eps0))
+        needed = 10 if tried[-1] <= 0.7 else 10**9
+        return CoverOutcome(needed <= most, min(needed, most), "" if needed <= most else EXHAUSTED, tree=".")
+
+    monkeypatch.setattr(certified, "certify", dear)
+    monkeypatch.setattr(DecreaseProof, "accepted", lambda self, jobs: True)
+    result = certified_epsilon(controlled("reyes-kelly2", 0), ceiling, 1000)
+    assert tried == pytest.approx([0.9992, 0.5, 0.8, 0.65], rel=1e-6)
+    assert result.eps0 == F(65, 100)
+    assert result.looked_at < 1000
+
+
+def test_where_boxes_end_far_below_bounds_along_the_links_are_tried(tmp_path: Path) -> None:
+    damped = generic(3).replace("</joint>", '<dynamics damping="0.5"/></joint>')
+    (tmp_path / "arm.urdf").write_text(damped, encoding="utf-8")
+    gains = GainSet("own", 1, (F(20), F(15), F(8)), (F(1, 100),) * 3)
+    case = ControlledArm(gains, load(tmp_path / "arm.urdf"))
+    nothing = CertifiedEpsilon(None, 5, "too few boxes")
+    coarse, _ = norm_epsilon(case)
+    assert coarse is not None
+    ceiling = 3 * coarse.loop.eps0
+    result = linked_otherwise(case, ceiling, nothing, 3000)
+    assert result.proof is not None
+    assert isinstance(result.proof.by, LinkBounds)
+    assert verify(result.proof.statement, result.proof.certificate).verdict == "proved"
+    assert result.looked_at > nothing.looked_at
+    # not where boxes come near, nor for two joints
+    assert linked_otherwise(case, F(11, 10) * result.proof.loop.eps0, result, 3000) is result
+    assert linked_otherwise(controlled("reyes-kelly2", 0), F(1), nothing, 3000) is nothing
 
 
 # Covers, with properties of which everything is known

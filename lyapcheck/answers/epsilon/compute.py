@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Progress, part, silent
@@ -25,7 +26,14 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.registry import arm_of
-from lyapcheck.search.certified import MAX_BOXES, CertifiedEpsilon, certified_epsilon
+from lyapcheck.search.certified import (
+    MAX_BOXES,
+    RESERVE,
+    CertifiedEpsilon,
+    certified_epsilon,
+    linked_otherwise,
+    links_follow,
+)
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import STARTS, RisingState, falsify
@@ -145,7 +153,24 @@ class _Search:
     progress: Progress
 
     def run(self) -> tuple[ControlledArm, RisingState | None, CertifiedEpsilon]:
-        """The arm that the witness is about, the witness, and what was proved.
+        """The arm that the witness is about, the witness, and what was proved, in one way or the other."""
+        if not self.options.max_boxes or not links_follow(self.controlled):
+            return self.by_boxes()
+        kept, began = int(RESERVE * self.options.max_boxes), monotonic()
+        first = replace(
+            self,
+            options=replace(self.options, max_boxes=self.options.max_boxes - kept),
+            progress=part(self.progress, 0.0, 0.9),
+        )
+        at, witness, result = first.by_boxes()
+        if witness is None:
+            return at, witness, result
+        seconds = None if self.options.seconds is None else self.options.seconds - (monotonic() - began)
+        progress = part(self.progress, 0.9, 1.0)
+        return at, witness, linked_otherwise(self.controlled, witness.eps0, result, kept, seconds, progress)
+
+    def by_boxes(self) -> tuple[ControlledArm, RisingState | None, CertifiedEpsilon]:
+        """The same by boxes, for few joints.
 
         Fast states are looked at first: where nearly all of the ε₀ that they refute is proved, slow states
         refute hardly less, and are left alone.
