@@ -11,6 +11,7 @@ import pytest
 
 from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
+from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, read_gain_file
@@ -20,6 +21,7 @@ from lyapcheck.files.decimals import significant_down
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary, corners
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
@@ -235,6 +237,33 @@ def test_words_about_what_ranges_cost(
     assert result.certified is not None
     assert "the ranges" not in str(result)
     assert f"the ranges {said}" in str(replace(result, unvaried=result.certified * share))
+
+
+def test_the_published_number_over_ranges_is_about_all_arms_in_them() -> None:
+    """It is above that of no corner; where (19) fails at the least friction, there is none."""
+    varies = (Vary.parsed("viscous=-30%..30%"),)
+    arm = load("reyes-kelly2", vary=varies)
+    weak, strong = (
+        ControlledArm(GainSet("own", 1, (F(60), F(5)), (F(kv),) * 2), arm, ranges=True)
+        for kv in ("0.01", "0.1")
+    )
+    published = by_forms(weak)[0]
+    assert published is not None
+    for _, corner in corners(arm, varies):
+        there = by_forms(ControlledArm(weak.gains, corner))[0]
+        assert there is not None
+        assert published <= there
+    nominal, _, _ = by_forms(replace(strong, ranges=False))
+    result, _, reasons = by_forms(strong)
+    assert nominal is not None
+    assert result is None
+    assert "(19) fails in the ranges" in reasons["published"]
+
+
+def test_the_published_number_is_smaller_where_the_inertia_ranges() -> None:
+    case = ControlledArm(read_gain_file(paper_gain_file("table2")).gains[0], load("buap3"), ranges=True)
+    ranged, nominal = (by_forms(replace(case, ranges=ranges))[0] for ranges in (True, False))
+    assert 0 < (ranged or 0) < (nominal or 0)
 
 
 @pytest.mark.slow

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.closed_loop import root_above
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.constants import robot_bounds
 from lyapcheck.files.decimals import significant_down
@@ -24,11 +26,16 @@ _DIGITS = 9
 
 
 def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, dict[str, str]]:
-    """The published ε₀, the scalar one, and why one of them is missing; no search."""
+    """The published ε₀, the scalar one, and why one of them is missing; no search.
+
+    Over ranges both are about all arms in them, as what is certified is.
+    """
     gain_set, constants = controlled.gains, controlled.family.constants()
-    bounds = robot_bounds(controlled.model)
+    bounds = _bounds(controlled)
     published, reason = _published(gain_set, constants, bounds)
-    # the sharp form is about the nominal arm; over ranges only the checker's coarse form is at hand
+    if controlled.ranges and reason:
+        reason = reason.replace("(19) fails,", "(19) fails in the ranges,")
+    # over ranges only the checker's coarse form is at hand where h is bounded
     sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
     scalar = _scalar(controlled, bounds) or sharp
     return published, scalar, {"published": reason, "scalar": scalar.reason}
@@ -42,6 +49,22 @@ def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof 
     by_norms = certifies(loop.tail, eps0)
     proof = controlled.proof(loop, BoxTree(".")) if by_norms else linked_proof(controlled, eps0)
     return proof if proof is not None and proof.accepted() else None
+
+
+def _bounds(controlled: ControlledArm) -> RobotBounds:
+    """Bounds of the arm; over ranges those of all arms in them, the worst end of each.
+
+    Where M itself ranges, these are the checker's coarse ones: sharp ones would be asked at every corner.
+    """
+    model = controlled.model
+    if not controlled.ranges:
+        return robot_bounds(model)
+    ends = [number.bounds for number in model.viscous]
+    low, high = min(low for low, _ in ends), max(high for _, high in ends)
+    if any(number.ranged for number in model.parameters.values()):
+        inertia = controlled.loop(Fraction(1)).inertia
+        return RobotBounds(inertia.largest_row, root_above(inertia.squares_of_symbols), low, high)
+    return replace(robot_bounds(model), viscous_min=low, viscous_max=high)
 
 
 def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | None:

@@ -24,6 +24,10 @@ LEGEND = (
     "certified: dV/dt < 0 is proved at every state but the origin.",
     "falsified: a state with dV/dt > 0 is proved.",
 )
+RANGED = (
+    "published, over ranges: (18) with the worst end of each of its constants, about the same arms as "
+    "the certified ε₀."
+)
 NUMBER = "Marked *: a number in floating point without a certificate; the checker proves less from norms."
 
 
@@ -218,6 +222,7 @@ def notes(results: Sequence[FourEpsilons]) -> list[str]:
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
     return [
         *LEGEND,
+        *([RANGED] if any(result.ranges for result in results) else []),
         BUYS,
         *([NEARBY] if any(result.nearby is not None for result in results) else []),
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
