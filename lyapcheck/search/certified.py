@@ -31,7 +31,8 @@ _CHECKING = 0.8
 ENOUGH = Fraction(9, 10)
 """The share of the falsified ε₀ from which on boxes are not followed by bounds along the links."""
 MOST = Fraction(5, 6)
-"""How much of what is left of the budget one share may take, so that something is left for a smaller one."""
+"""How much of what is left of the budget one share may take where less than that is proved, so that something
+is left for a smaller one."""
 RESERVE = Fraction(1, 4)
 """Of the budget, for bounds along the links of few joints."""
 DIGITS = 7
@@ -164,7 +165,7 @@ class _Search:
             advance = _part(self.progress, self.attempts, f"{float(share):.1%} of falsified")
             advance(0.0, "")
             budget = max_boxes - self.looked_at
-            most = int(MOST * budget) if left and budget > 0 else budget
+            most = int(MOST * budget) if left and proved < ENOUGH and budget > 0 else budget
             outcome = certify(SchurProblem(loop), most, advance, deadline)
             self.attempts += 1
             self.looked_at += outcome.boxes

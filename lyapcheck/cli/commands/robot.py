@@ -44,7 +44,7 @@ def run(
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
 
     λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it: ends that a certificate
-    shows, and the sharper ones of floating point (numeric; wider where the budget of boxes ends). Friction,
+    shows, and those of floating point (numeric; wider where the budget of boxes ends). Friction,
     torque limits, and every number with its source. Where the source prints C or g too, the print is compared
     with what M and the potential give.
 
