@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 import pytest
 from flint import arb_mat, fmpq
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.coriolis_below import CoriolisBelow, ProductsOfRates
@@ -113,6 +113,7 @@ def test_no_bound_below_what_is_reached_is_shown(seed: int, n: int) -> None:
 
 
 @pytest.mark.slow
+@settings(max_examples=60)
 @given(SEEDS)
 def test_of_two_joints_the_least_bounds_are_nearly_shown(seed: int) -> None:
     """A matrix in one angle, where sampling comes near the largest value."""
@@ -126,6 +127,7 @@ def test_of_two_joints_the_least_bounds_are_nearly_shown(seed: int) -> None:
 
 
 @pytest.mark.slow
+@settings(max_examples=60)
 @given(SEEDS, st.data())
 def test_altered_relations_show_no_false_bound(seed: int, data: st.DataObject) -> None:
     """Relations vanish on products, so that no choice of them can help a bound that is not true."""
