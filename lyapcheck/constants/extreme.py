@@ -116,7 +116,9 @@ def _times(rows: list[list[arb]], x: list[arb]) -> list[arb]:
 
 
 def _norm(x: list[arb]) -> arb:
-    return sum((a * a for a in x), arb(0)).sqrt()
+    square = sum((a * a for a in x), arb(0))
+    # a sum of squares that may be 0 has a ball that reaches below
+    return square.sqrt() if square > 0 else square.abs_upper().sqrt().union(arb(0))
 
 
 def _short(values: Array) -> tuple[Fraction, ...]:

@@ -79,8 +79,9 @@ def coriolis_forms(
     """
     if len(chain.links) < 2:
         return None
-    if of_five_parallel_axes(chain.links):
-        return _all_together(chain, rounded)
+    together = _all_together(chain, rounded) if of_five_parallel_axes(chain.links) else None
+    if together is not None:
+        return together
     program = program_of(chain.links, margin)
     x = program.kept_solution()
     if x is None:
@@ -113,7 +114,7 @@ def _all_together(chain: Chain, rounded: Callable[[Fraction], Fraction]) -> Moti
     joints = tuple(f"joint {i + 1}" for i in range(n))
     plant = Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * n)
     least = extreme(plant, "k_c").value
-    for share in _TOGETHER:
+    for share in _TOGETHER if least > 0 else ():
         kappa = rounded(least * (1 + share))
         shown = postures.shown(float(kappa), -float(kappa) * count)
         if shown is not None:
