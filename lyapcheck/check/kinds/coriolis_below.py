@@ -37,7 +37,7 @@ class CoriolisBelow(OfArm, BoundedAbove):
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
-        """See :meth:`Inertia.turning_below`, for a positive bound."""
+        """See :meth:`Inertia.coriolis_below`, for a positive bound."""
         return self.high > 0 and self.symmetric.coriolis_below(self.high, most)
 
     def square_by_sizes(self) -> Fraction:
