@@ -32,8 +32,6 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     Soundness: every verdict is the one of the command of the same name.
     """
     from lyapcheck.answers.table import build_table
-    from lyapcheck.report.bench import bench
-    from lyapcheck.report.jobs import goal_of
     from lyapcheck.robots import load
 
     model, notes = load(subject.robot), published_notes()
@@ -56,7 +54,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         runs=result.runs,
         sensitivity=result.sensitivity,
         findings=weighed,
-        bench=bench(model, tuple(subject.of_family.values()), goal_of(model), result.cells),
+        map=result.cells,
         figures=dict(sorted(result.figures.items())),
         certificates=dict(sorted(result.certificates.items())),
         versions={name: version(name) for name in PACKAGES},

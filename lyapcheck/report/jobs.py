@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.report.bench import JudgedCell
+    from lyapcheck.report.gain_map import JudgedCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -197,7 +197,7 @@ class MapData:
 def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
     """The map over m and k_v, computed or that of the study."""
     from lyapcheck.check.verify import each_once
-    from lyapcheck.report.bench import for_the_sets, gain_map, kept_map
+    from lyapcheck.report.gain_map import for_the_sets, gain_map, kept_map
     from lyapcheck.robots import load
 
     model = load(robot)

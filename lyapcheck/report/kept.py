@@ -18,9 +18,9 @@ from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.fresh_check import answer_of
 from lyapcheck.errors import InputError
 from lyapcheck.kernel.record import GRADE, accepted_before
-from lyapcheck.report.bench import holds_of
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.computed import Computed
+from lyapcheck.report.gain_map import holds_of
 from lyapcheck.report.jobs import BOXES, rounded
 from lyapcheck.report.plain import plain
 from lyapcheck.report.plain import read as read_row

@@ -15,9 +15,9 @@ from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.report import experiment, kept
-from lyapcheck.report.bench import gain_map, kept_map, map_eps0
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.experiment import study_file
+from lyapcheck.report.gain_map import gain_map, kept_map, map_eps0
 from lyapcheck.report.model import Report
 from lyapcheck.report.subject import Subject
 from lyapcheck.robots import load
@@ -48,7 +48,7 @@ def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
     small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
     computed = Computed(
         report.claims, report.others, small, report.epsilon, report.runs, report.sensitivity,
-        report.bench.map, report.figures, report.certificates,
+        report.map, report.figures, report.certificates,
     )  # fmt: skip
     text = json.dumps(kept.written(computed))
     found = kept.read(json.loads(text), subject)

@@ -1,10 +1,10 @@
-"""What the page needs to try gains: numbers of the arm in floating point, and the map over m and k_v."""
+"""The map over m and k_v: the ε₀ that is proved at each place, and what the reference simulation does."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.proof import DecreaseProof
 
-MOST = 8
-"""The largest m of the sliders."""
-POSTURES = 13
 SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
 """k_v of the map, N·m."""
 BOXES = 30_000
@@ -32,90 +29,8 @@ DIGITS = 3
 
 
 @dataclass(frozen=True)
-class StartGains:
-    """A gain set to start from, N·m."""
-
-    name: str
-    m: int | None
-    kp: tuple[float, ...]
-    kv: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class Bench:
-    """Numbers in floating point for the script of the page.
-
-    Args:
-        viscous: of B, (n,), N·m·s/rad.
-        torque: limits, (n,), N·m; none without.
-        gravity: bounds of |g_i|, (n,), N·m.
-        posture: the same angle of all joints, rad.
-        mass: M_ii at each posture, kg·m².
-        gamma: γ_m for m = 1, 2, …
-        goal: the step of each joint, rad.
-        sets: to start from.
-        map: over m and k_v.
-    """
-
-    robot: str
-    joints: tuple[str, ...]
-    viscous: tuple[float, ...]
-    torque: tuple[float | None, ...]
-    gravity: tuple[float, ...]
-    posture: tuple[float, ...]
-    mass: tuple[tuple[float, ...], ...]
-    gamma: tuple[float, ...]
-    goal: tuple[float, ...]
-    sets: tuple[StartGains, ...]
-    map: tuple[MapCell, ...]
-
-
-def bench(
-    model: RobotModel, sets: Sequence[GainSet], goal: Sequence[float], cells: Sequence[MapCell]
-) -> Bench:
-    """What the page needs.
-
-    Args:
-        model: the arm.
-        sets: gain sets of the family, to start from.
-        goal: (n,) the step of each joint, rad.
-        cells: of the map; empty where there is none.
-    """
-    import numpy as np
-
-    from lyapcheck.control.arm_limits import model_limits
-    from lyapcheck.family import hyperbolic
-    from lyapcheck.robots.numeric import NumericModel
-
-    limits = model_limits(model)
-    posture = np.linspace(0.0, np.pi, POSTURES)
-    mass = NumericModel(model).mass(np.repeat(posture[:, None], model.n, axis=1))
-    gammas = [hyperbolic(m).constants().gamma for m in range(1, MOST + 1)]
-    starts = (
-        StartGains(one.name, one.m, tuple(map(float, one.kp)), tuple(map(float, one.kv))) for one in sets
-    )
-    return Bench(
-        robot=model.name,
-        joints=model.joints,
-        viscous=tuple(float(number.value) for number in model.viscous),
-        torque=tuple(None if one is None else float(one) for one in limits.torque),
-        gravity=_short(limits.gravity),
-        posture=_short(posture),
-        mass=tuple(_short(np.diag(one)) for one in mass),
-        gamma=tuple(float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None),
-        goal=_short(goal),
-        sets=tuple(starts),
-        map=tuple(cells),
-    )
-
-
-def _short(values: Iterable[float | Fraction]) -> tuple[float, ...]:
-    return tuple(float(f"{float(x):.6g}") for x in values)
-
-
-@dataclass(frozen=True)
 class JudgedCell:
-    """A place of the map, and the text of the certificate of its ε₀ if one is proved."""
+    """A place, and the text of the certificate of its ε₀ if one is proved."""
 
     cell: MapCell
     certificate: str | None
